@@ -1,0 +1,1 @@
+"""Bags in MCAP: write, read, inspect; without rclpy."""

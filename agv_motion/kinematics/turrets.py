@@ -1,0 +1,168 @@
+r"""Steered wheels (turrets) of a rigid body: twist <-> angle and speed of each, any number >= 2.
+
+The centre of wheel :math:`i`, at :math:`(x_i, y_i)` in the base frame, moves with the body at
+
+.. math:: v_i = (v_x - \omega y_i,\; v_y + \omega x_i)
+
+and rolls without slipping when it points along :math:`v_i`. All wheel axes then meet in one
+instantaneous centre of rotation (ICR).
+
+Source: G. Campion, G. Bastin, B. d'Andrea-Novel, "Structural properties and classification of
+kinematic and dynamic models of wheeled mobile robots", IEEE Trans. Robot. Autom. 12(1), 1996.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, isfinite, sin, sqrt
+from sys import float_info
+from typing import TYPE_CHECKING, NamedTuple
+
+from agv_motion.errors import GeometryError, SignalError
+from agv_motion.planar import Twist, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+STANDSTILL = 1e-9
+"""[m/s] Below this speed a wheel has no direction of its own, so its turret keeps its angle."""
+
+
+class TurretCommand(NamedTuple):
+    """What each turret must do, in the order of the turrets."""
+
+    angle: list[float]
+    """(n,) [rad] steering angle from the x axis of the base frame"""
+    speed: list[float]
+    """(n,) [m/s] rolling speed along that angle"""
+    scale: float
+    """[-] in (0, 1]: the factor by which the twist was reduced to hold the wheel speed limit"""
+
+
+class TwistFit(NamedTuple):
+    """The twist that explains the turrets best."""
+
+    twist: Twist
+    residual: float
+    """[m/s] root mean square over the turrets of the velocity that the twist does not explain:
+    how hard the turrets pull against each other"""
+
+
+class Turrets:
+    """The turrets of one platform: where they are, and both maps between twist and wheels."""
+
+    def __init__(self, positions: Sequence[tuple[float, float]]) -> None:
+        """Keep the turret centres and factor the least-squares fit once.
+
+        Args:
+            positions: (n, 2) turret centres in the base frame [m].
+
+        Raises:
+            GeometryError: Fewer than two turrets, a coordinate not finite, or all turrets at one
+                point (then a rotation cannot be told from a translation).
+
+        """
+        self.positions = tuple((float(x), float(y)) for x, y in positions)
+        n = len(self.positions)
+        if n < 2:
+            msg = f'{n} turret(s) given, at least 2 are needed: list the x and y of every turret'
+            raise GeometryError(msg)
+        if not all(isfinite(x) and isfinite(y) for x, y in self.positions):
+            msg = f'turret positions must be finite, got {self.positions}: measure them in metres'
+            raise GeometryError(msg)
+        self._centre_x = sum(x for x, _ in self.positions) / n
+        self._centre_y = sum(y for _, y in self.positions) / n
+        self._spread = sum(
+            (x - self._centre_x) ** 2 + (y - self._centre_y) ** 2 for x, y in self.positions
+        )
+        if self._spread < 1e-12:
+            msg = f'all {n} turrets stand at {self.positions[0]}: set them apart'
+            raise GeometryError(msg)
+
+    def __len__(self) -> int:
+        """Return the number of turrets."""
+        return len(self.positions)
+
+    def command(
+        self, twist: Twist, held_angles: Sequence[float], max_wheel_speed: float = float_info.max
+    ) -> TurretCommand:
+        """Return angle and speed of each turret for ``twist``, the ICR kept.
+
+        When a wheel would exceed its limit the whole twist is scaled by one factor, which leaves
+        the ICR where it is. A wheel at standstill keeps its angle.
+
+        Args:
+            twist: Wanted velocity of the base frame.
+            held_angles: (n,) present steering angles [rad], for wheels asked to stand still.
+            max_wheel_speed: Limit of every wheel [m/s].
+
+        Raises:
+            SignalError: ``twist`` is not finite, or ``held_angles`` has another length.
+
+        """
+        vx, vy, wz = twist
+        if len(held_angles) != len(self.positions):
+            msg = f'{len(held_angles)} angles for {len(self.positions)} turrets: give one each'
+            raise SignalError(msg)
+        angles, speeds = [], []
+        for (x, y), held in zip(self.positions, held_angles):  # noqa: B905 - measured: strict costs
+            wheel_x, wheel_y = vx - wz * y, vy + wz * x
+            speed = sqrt(wheel_x * wheel_x + wheel_y * wheel_y)
+            speeds.append(speed)
+            angles.append(atan2(wheel_y, wheel_x) if speed > STANDSTILL else held)
+        fastest = max(speeds)
+        if not fastest <= max_wheel_speed:  # also true when NaN
+            require_finite('twist', twist)
+            require_finite('wheel speeds', tuple(speeds))
+            scale = max_wheel_speed / fastest
+            return TurretCommand(angles, [scale * speed for speed in speeds], scale)
+        return TurretCommand(angles, speeds, 1.0)
+
+    def twist(self, angles: Sequence[float], speeds: Sequence[float]) -> TwistFit:
+        r"""Return the twist that fits measured turrets best, and what it leaves unexplained.
+
+        Least squares about the centroid of the turrets, where the 3 x 3 normal equations are
+        diagonal: the mean wheel velocity is the velocity of the centroid, and
+
+        .. math:: \omega = \frac{\sum_i d_i \times v_i}{\sum_i |d_i|^2},\quad
+            d_i = r_i - \bar r
+
+        Args:
+            angles: (n,) steering angles [rad].
+            speeds: (n,) rolling speeds along them [m/s].
+
+        Raises:
+            SignalError: The lengths differ from the number of turrets, or a value is not finite.
+
+        """
+        n = len(self.positions)
+        if len(angles) != n or len(speeds) != n:
+            msg = f'{len(angles)} angles and {len(speeds)} speeds for {n} turrets: give one each'
+            raise SignalError(msg)
+        require_finite('turret angles', tuple(angles))
+        require_finite('wheel speeds', tuple(speeds))
+        velocities = [(v * cos(a), v * sin(a)) for a, v in zip(angles, speeds, strict=True)]
+        mean_x = sum(x for x, _ in velocities) / n
+        mean_y = sum(y for _, y in velocities) / n
+        wz = (
+            sum(
+                (x - self._centre_x) * v_y - (y - self._centre_y) * v_x
+                for (x, y), (v_x, v_y) in zip(self.positions, velocities, strict=True)
+            )
+            / self._spread
+        )
+        fit = Twist(mean_x + wz * self._centre_y, mean_y - wz * self._centre_x, wz)
+        error = sum(
+            (fit.vx - wz * y - v_x) ** 2 + (fit.vy + wz * x - v_y) ** 2
+            for (x, y), (v_x, v_y) in zip(self.positions, velocities, strict=True)
+        )
+        return TwistFit(fit, sqrt(error / n))
+
+
+def centre_of_rotation(twist: Twist) -> tuple[float, float] | None:
+    """Return the ICR of ``twist`` in the base frame [m], or None where it lies at infinity.
+
+    It is the point at ``(-vy / wz, vx / wz)``, where the velocity of the body vanishes.
+    """
+    if abs(twist.wz) <= 1e-12 * max(hypot(twist.vx, twist.vy), 1e-300):
+        return None
+    return -twist.vy / twist.wz, twist.vx / twist.wz

@@ -1,0 +1,1 @@
+"""KNOW: where the robot is, from its wheels and from position fixes."""

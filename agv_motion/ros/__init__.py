@@ -1,0 +1,1 @@
+"""What several nodes need from rclpy; nothing here knows physics."""

@@ -1,0 +1,1 @@
+"""Routes through waypoints, followed by a virtual point."""

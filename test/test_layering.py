@@ -1,0 +1,51 @@
+"""The laws of the house: the core knows no ROS, and imports run one way."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1] / 'agv_motion'
+CORE = ('probe', 'motion', 'kinematics', 'odometry', 'trajectory', 'route', 'simulation', 'bag')
+ROS = ('rclpy', 'rcl_interfaces', 'lifecycle_msgs', '_msgs', 'ament', 'std_srvs')
+LAYERS = {
+    'errors': 0, 'planar': 0,
+    'kinematics': 1, 'probe': 1, 'odometry': 2, 'trajectory': 2, 'route': 2, 'motion': 2,
+    'simulation': 3, 'bag': 3, 'dashboard': 3, 'ros': 4, 'nodes': 5, 'cli': 6,
+}  # fmt: skip
+"""A module imports from its own folder or from a lower number."""
+
+
+def imports(path):
+    """Return the modules that a file imports, those for type checking included."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f'{path}: relative import'
+            yield node.module
+
+
+def files(*folders):
+    return [path for folder in folders for path in sorted((ROOT / folder).rglob('*.py'))]
+
+
+@pytest.mark.parametrize('folder', CORE)
+def test_the_core_imports_no_ros(folder):
+    for path in files(folder):
+        for module in imports(path):
+            assert not any(name in module.split('.')[0] for name in ROS), f'{path}: {module}'
+
+
+def test_imports_run_from_the_nodes_down_to_planar():
+    for path in files('.'):
+        parts = path.relative_to(ROOT).with_suffix('').parts
+        if parts[0] == '__init__':
+            continue
+        for module in imports(path):
+            target = module.split('.')
+            if target[0] != 'agv_motion' or target[1] == parts[0]:
+                continue
+            assert LAYERS[target[1]] < LAYERS[parts[0]], f'{path} imports {module}'
