@@ -1,0 +1,71 @@
+"""The batch path says what the scalar path says, row by row."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agv_motion.errors import SignalError
+from agv_motion.kinematics import turret_columns as module
+from agv_motion.kinematics.turret_columns import polar_to_cartesian, turret_columns
+from agv_motion.kinematics.turrets import Turrets
+from agv_motion.planar import Twist
+
+TREE = Turrets([(1.18 * cos(a), 1.18 * sin(a)) for a in (-pi / 4, pi / 4, pi)])
+
+
+def rowwise(rows, held, limit):
+    """Return the commands of the scalar path, each row holding the angles of the one before."""
+    for row in rows:
+        command = TREE.command(Twist(*row), held, limit)
+        held = command.angle
+        yield command
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 7, 64]), st.floats(0.1, 2.0))
+def test_columns_equal_rows(seed, block, limit):
+    rng = np.random.default_rng(seed)
+    rows = rng.uniform(-1, 1, (50, 3)) * (rng.random((50, 1)) > 0.3)
+    held = list(rng.uniform(-3, 3, 3))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, 'BLOCK', block)
+        columns = turret_columns(TREE, tuple(rows.T), held, limit)
+    commands = list(rowwise(rows, held, limit))
+    np.testing.assert_allclose(columns.angle.T, [c.angle for c in commands], atol=1e-14)
+    np.testing.assert_allclose(columns.speed.T, [c.speed for c in commands], atol=1e-14)
+
+
+def test_memory_can_be_used_again():
+    ones = np.ones(5)
+    first = turret_columns(TREE, (ones, ones, ones))
+    again = turret_columns(TREE, (ones, 0 * ones, 0 * ones), out=first)
+    assert again.speed is first.speed
+    np.testing.assert_array_equal(again.speed, 1.0)
+    with pytest.raises(SignalError, match='out has shape'):
+        turret_columns(TREE, (ones[:3], ones[:3], ones[:3]), out=first)
+
+
+@given(st.floats(0, 1), st.floats(-pi, pi - 1e-9))
+def test_polar_to_cartesian(v, theta):
+    x, y = polar_to_cartesian(np.array([v]), np.array([theta]))
+    assert x[0] == pytest.approx(v * cos(theta), abs=1e-14)
+    assert y[0] == pytest.approx(v * sin(theta), abs=1e-14)
+
+
+def test_a_bad_row_is_named():
+    column = np.zeros(module.BLOCK + 10)
+    bad = column.copy()
+    bad[module.BLOCK + 3] = np.nan
+    with pytest.raises(SignalError, match=f'row {module.BLOCK + 3}'):
+        turret_columns(TREE, (column, bad, column))
+    with pytest.raises(SignalError, match='shapes'):
+        turret_columns(TREE, (column, column[1:], column))
+
+
+def test_no_rows_are_no_rows():
+    nothing = np.zeros(0)
+    assert turret_columns(TREE, (nothing, nothing, nothing)).angle.shape == (3, 0)
