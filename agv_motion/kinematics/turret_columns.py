@@ -71,9 +71,7 @@ def turret_columns(
     """
     vx, vy, wz = (np.ascontiguousarray(column, dtype=float) for column in twist)
     if vx.ndim != 1 or not vx.shape == vy.shape == wz.shape:
-        msg = (
-            f'twist columns have shapes {vx.shape}, {vy.shape}, {wz.shape}: give one shape (n,)'
-        )
+        msg = f'twist columns have shapes {vx.shape}, {vy.shape}, {wz.shape}: give one shape (n,)'
         raise SignalError(msg)
     held = np.zeros(len(turrets)) if held_angles is None else np.array(held_angles, dtype=float)
     shape = (len(turrets), len(vx))

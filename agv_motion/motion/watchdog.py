@@ -1,0 +1,63 @@
+"""Silence of an input: noticed, told, and then a reason to stop."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from agv_motion.errors import ConfigurationError
+
+
+class Silence(Enum):
+    """How long an input has been silent, in steps of what to do about it."""
+
+    FRESH = 'fresh'
+    LATE = 'late'
+    """Worth a report; the robot goes on."""
+    LOST = 'lost'
+    """The robot must stop."""
+
+
+class Watchdog:
+    """Judges the age of the last input; the ancestor reported after 3 s and stopped after 5 s."""
+
+    def __init__(self, report_after: float, stop_after: float) -> None:
+        """Start with an input that has never come.
+
+        Args:
+            report_after: Age from which the input is late [s].
+            stop_after: Age from which it is lost [s].
+
+        Raises:
+            ConfigurationError: The two are not positive and in order.
+
+        """
+        if not 0.0 < report_after <= stop_after:
+            msg = (
+                f'report_after = {report_after} s, stop_after = {stop_after} s: '
+                'both must be positive and the report must not come after the stop'
+            )
+            raise ConfigurationError(msg)
+        self._report_after = report_after
+        self._stop_after = stop_after
+        self._heard = False
+        self._last: float | None = None
+
+    def feed(self) -> None:
+        """Note that an input has come since the last judgement; costs nothing on the hot path."""
+        self._heard = True
+
+    def age(self, now: float) -> float | None:
+        """Return the age of the last input [s], or None if none has come."""
+        return None if self._last is None else now - self._last
+
+    def judge(self, now: float) -> Silence:
+        """Return how silent the input is at ``now`` [s]; to be called several times a second.
+
+        A clock that jumps back by more than the limit counts as silence too: the age is unknown.
+        """
+        if self._heard:
+            self._heard, self._last = False, now
+        age = self.age(now)
+        if age is None or abs(age) >= self._stop_after:
+            return Silence.LOST
+        return Silence.LATE if abs(age) >= self._report_after else Silence.FRESH

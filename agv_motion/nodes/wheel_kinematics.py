@@ -1,0 +1,196 @@
+"""Node `wheel_kinematics`: twist of the body in, angle and speed of each turret out."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Float64MultiArray
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.nodes.platform_parameters import PlatformParameters
+from agv_motion.parameters import Spec
+from agv_motion.planar import REST, Pose, Twist, integrate
+from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.run import run
+
+
+@dataclass(frozen=True)
+class WheelKinematicsParameters(PlatformParameters):
+    """The platform, its limits, and what makes it stop."""
+
+    max_wheel_speed: Annotated[
+        float, Spec('limit of every wheel; above it the whole twist is scaled', 'm/s', (1e-4, 10.0))
+    ] = 2.0 / 60.0
+    report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 3.0
+    stop_after: Annotated[float, Spec('silence of cmd_vel to stop', 's', (0.01, 3600))] = 5.0
+    residual_warning: Annotated[
+        float, Spec('turrets fight: warn above', 'm/s', (0.0, 10.0), dynamic=True)
+    ] = 0.005
+    residual_stop: Annotated[
+        float, Spec('turrets fight: stop above', 'm/s', (0.0, 10.0), dynamic=True)
+    ] = 0.02
+    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    base_frame: Annotated[str, Spec('frame of the twist and of the turret centres')] = 'base_link'
+    odom_frame: Annotated[str, Spec('frame in which the wheels carry the platform')] = 'odom'
+
+    def __post_init__(self) -> None:
+        """Check every row, and that the warning comes before the stop."""
+        super().__post_init__()
+        if self.residual_warning > self.residual_stop:
+            msg = (
+                f'residual_warning = {self.residual_warning} m/s is above '
+                f'residual_stop = {self.residual_stop} m/s: warn before stopping'
+            )
+            raise ConfigurationError(msg)
+
+
+class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
+    """`cmd_vel` -> `turrets/command`; `turrets/state` -> `turrets/residual`, `odom`.
+
+    Silence of `cmd_vel`, turrets that fight, `~/stop` and the end of the node all end in an
+    explicit zero speed with the steering angles held.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('wheel_kinematics', WheelKinematicsParameters, **kwargs)
+
+    def open(self) -> None:
+        """Build the kinematics and open the topics."""
+        given = self.parameters
+        self._turrets = given.turrets()
+        self._watchdog = Watchdog(given.report_after, given.stop_after)
+        self._joints = TurretJoints(len(self._turrets))
+        self._angles: list[float] | None = None
+        self._stopped_by = ''
+        self._residual = 0.0
+        self._pose = Pose(0.0, 0.0, 0.0)
+        self._pose_time: float | None = None
+        self._arrays_wanted = False
+        self._message = self._joints.message()
+        self._message.header.frame_id = given.base_frame
+        self._command = self.publisher(JointState, 'turrets/command', COMMAND)
+        self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
+        self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
+        self._fight = self.publisher(Float64, 'turrets/residual', SENSOR)
+        self._odometry = self.publisher(Odometry, 'odom', SENSOR)
+        if given.stamped:
+            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND)
+        else:
+            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND)
+        self.listen(JointState, 'turrets/state', self._on_state, SENSOR)
+        self.serve(SetBool, '~/stop', self._on_stop)
+        self.every(0.1, self._watch)
+
+    def halt(self) -> None:
+        """Send the last word: no wheel turns."""
+        self._send(REST, self.get_clock().now().to_msg())
+
+    def diagnose(self) -> Diagnosis:
+        """Tell of a stop, of silence and of turrets that fight."""
+        silence = self._watchdog.judge(self.seconds())
+        values = {'residual [m/s]': f'{self._residual:.5f}', 'cmd_vel': silence.value}
+        if self._stopped_by:
+            return Diagnosis(ERROR, f'stopped: {self._stopped_by}', values)
+        if silence is not Silence.FRESH:
+            return Diagnosis(WARN, f'cmd_vel is {silence.value}', values)
+        if self._residual > self.parameters.residual_warning:
+            return Diagnosis(WARN, 'the turrets pull against each other', values)
+        return Diagnosis(OK, 'driving', values)
+
+    def _on_stamped_twist(self, message: TwistStamped) -> None:
+        self._drive(twist_of(message.twist), message.header.stamp)
+
+    def _on_twist(self, message: TwistMessage) -> None:
+        self._drive(twist_of(message), self.get_clock().now().to_msg())
+
+    def _drive(self, twist: Twist, stamp: Any) -> None:
+        self._watchdog.feed()
+        self._send(REST if self._stopped_by else twist, stamp)
+
+    def _send(self, twist: Twist, stamp: Any) -> None:
+        """Command the turrets; the two plain arrays only where someone listens."""
+        given = self.parameters
+        held = self._angles or [0.0] * len(self._turrets)
+        command = self._turrets.command(twist, held, given.max_wheel_speed)
+        self._angles = command.angle
+        rates = [speed / given.wheel_radius for speed in command.speed]
+        self._message.header.stamp = stamp
+        self._joints.fill(self._message, command.angle, rates)
+        self._command.publish(self._message)
+        if self._arrays_wanted:
+            self._steering.publish(Float64MultiArray(data=array('d', command.angle)))
+            self._wheels.publish(Float64MultiArray(data=array('d', rates)))
+
+    def _watch(self) -> None:
+        """Stop when `cmd_vel` falls silent; say so before."""
+        now = self.seconds()
+        self._arrays_wanted = any(
+            publisher.get_subscription_count() for publisher in (self._steering, self._wheels)
+        )
+        silence = self._watchdog.judge(now)
+        if silence is Silence.FRESH:
+            return
+        age = self._watchdog.age(now)
+        if age is not None:
+            told = 'stopping' if silence is Silence.LOST else 'still driving'
+            self.get_logger().warning(
+                f'no cmd_vel for {age:.1f} s: {told}', throttle_duration_sec=5.0
+            )
+        if silence is Silence.LOST:
+            self._send(REST, self.get_clock().now().to_msg())
+
+    def _on_stop(self, request: Any) -> str:
+        self._stopped_by = 'by request' if request.data else ''
+        if request.data:
+            self._send(REST, self.get_clock().now().to_msg())
+            return 'stopped; call again with data: false to drive on'
+        return 'free to drive'
+
+    def _on_state(self, message: JointState) -> None:
+        """Fit the twist that the turrets really make, and carry the odometry on."""
+        angles, rates = self._joints.read(message)
+        if self._angles is None:
+            self._angles = angles
+        speeds = [rate * self.parameters.wheel_radius for rate in rates]
+        fit = self._turrets.twist(angles, speeds)
+        self._residual = fit.residual
+        self._fight.publish(Float64(data=fit.residual))
+        if fit.residual > self.parameters.residual_stop and not self._stopped_by:
+            self._stopped_by = f'turrets fight by {fit.residual:.4f} m/s'
+            self.get_logger().error(
+                f'{self._stopped_by}, limit {self.parameters.residual_stop} m/s: stopped; '
+                'look at the turrets, then call ~/stop with data: false'
+            )
+            self._send(REST, self.get_clock().now().to_msg())
+        self._carry(fit.twist, message.header.stamp)
+
+    def _carry(self, twist: Twist, stamp: Any) -> None:
+        time = seconds_of(stamp)
+        if self._pose_time is not None and time > self._pose_time:
+            self._pose = integrate(self._pose, twist, time - self._pose_time)
+        self._pose_time = time
+        odometry = Odometry(child_frame_id=self.parameters.base_frame)
+        odometry.header.stamp, odometry.header.frame_id = stamp, self.parameters.odom_frame
+        fill_pose(odometry.pose.pose, self._pose)
+        fill_twist(odometry.twist.twist, twist)
+        self._odometry.publish(odometry)
+
+
+def main() -> None:
+    """Run the node."""
+    run(WheelKinematics)
+
+
+if __name__ == '__main__':
+    main()

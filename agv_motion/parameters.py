@@ -1,0 +1,80 @@
+"""Parameters declared once: type, default, unit, range and meaning in one row of a dataclass.
+
+The core checks its own values against the row; the nodes make ROS parameters of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, is_dataclass
+from math import isfinite
+from typing import TYPE_CHECKING, Any, get_type_hints
+
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from _typeshed import DataclassInstance
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What there is to know of a parameter beside its type and default.
+
+    The second half of an annotation: ``rate: Annotated[float, Spec('...', 'Hz', (1, 9))] = 5.0``.
+    """
+
+    description: str
+    unit: str = ''
+    between: tuple[float, float] | None = None
+    """Closed range; of each element where the value is a tuple."""
+    choices: tuple[str, ...] = ()
+    dynamic: bool = False
+    """Whether it may change while the robot runs."""
+
+
+def rows(kind: type[DataclassInstance]) -> Iterator[tuple[str, Any, Spec]]:
+    """Yield name, type and :class:`Spec` of each annotated field of a parameter dataclass."""
+    hints = get_type_hints(kind, include_extras=True)
+    for field in fields(kind):
+        annotation = hints[field.name]
+        for spec in getattr(annotation, '__metadata__', ()):
+            if isinstance(spec, Spec):
+                yield field.name, annotation.__origin__, spec
+
+
+def check(values: DataclassInstance) -> None:
+    """Refuse values that their own rows forbid; call it from ``__post_init__``.
+
+    Raises:
+        ConfigurationError: A number is not finite or out of its range, or a text is no choice.
+
+    """
+    for name, _, spec in rows(type(values)):
+        value = getattr(values, name)
+        for element in value if isinstance(value, tuple) else (value,):
+            _check_element(name, element, spec)
+
+
+def _check_element(name: str, value: Any, spec: Spec) -> None:
+    if spec.choices and value not in spec.choices:
+        msg = f"{name} = '{value}': choose one of {', '.join(spec.choices)}"
+        raise ConfigurationError(msg)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return
+    if not isfinite(value):
+        msg = f'{name} = {value}: must be a finite number ({spec.description} [{spec.unit}])'
+        raise ConfigurationError(msg)
+    if spec.between and not spec.between[0] <= value <= spec.between[1]:
+        low, high = spec.between
+        msg = f'{name} = {value}: must lie in [{low:g}, {high:g}] {spec.unit} ({spec.description})'
+        raise ConfigurationError(msg)
+
+
+def nested(kind: type[DataclassInstance]) -> Iterator[tuple[str, type[DataclassInstance]]]:
+    """Yield the fields of ``kind`` that are groups of parameters, with the class of each."""
+    hints = get_type_hints(kind)
+    for field in fields(kind):
+        group = hints[field.name]
+        if is_dataclass(group) and isinstance(group, type):
+            yield field.name, group

@@ -1,0 +1,116 @@
+"""Between the values of the core and standard messages; refuses what the core could not use."""
+
+from __future__ import annotations
+
+from array import array
+from math import atan2, cos, isfinite, sin
+from typing import TYPE_CHECKING, Any
+
+from builtin_interfaces.msg import Time
+from sensor_msgs.msg import JointState
+
+from agv_motion.errors import SignalError
+from agv_motion.planar import Pose, Twist, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+def seconds_of(stamp: Any) -> float:
+    """Return a builtin_interfaces/Time in seconds."""
+    return float(stamp.sec) + float(stamp.nanosec) * 1e-9
+
+
+def stamp_of(seconds: float) -> Time:
+    """Return seconds as a builtin_interfaces/Time."""
+    whole = int(seconds // 1.0)
+    return Time(sec=whole, nanosec=min(int((seconds - whole) * 1e9), 999_999_999))
+
+
+def twist_of(message: Any) -> Twist:
+    """Return the planar part of a geometry_msgs/Twist.
+
+    Raises:
+        SignalError: One of its three planar numbers is not finite.
+
+    """
+    twist = Twist(message.linear.x, message.linear.y, message.angular.z)
+    if not isfinite(twist.vx + twist.vy + twist.wz):
+        require_finite('twist (vx, vy, wz)', twist)
+    return twist
+
+
+def fill_twist(message: Any, twist: Twist) -> None:
+    """Write ``twist`` into a geometry_msgs/Twist."""
+    message.linear.x, message.linear.y, message.angular.z = twist
+
+
+def pose_of(message: Any) -> Pose:
+    """Return the planar part of a geometry_msgs/Pose; heading from the quaternion.
+
+    Raises:
+        SignalError: A number is not finite, or the quaternion is not of unit length.
+
+    """
+    p, q = message.position, message.orientation
+    require_finite('pose', (p.x, p.y, q.x, q.y, q.z, q.w))
+    norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
+    if abs(norm - 1.0) > 0.01:
+        msg = (
+            f'orientation (x={q.x}, y={q.y}, z={q.z}, w={q.w}) has length {norm**0.5:.3g}: '
+            'a quaternion must have length 1; for no rotation give w = 1'
+        )
+        raise SignalError(msg)
+    heading = atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+    return Pose(p.x, p.y, heading)
+
+
+def fill_pose(message: Any, pose: Pose) -> None:
+    """Write ``pose`` into a geometry_msgs/Pose."""
+    message.position.x, message.position.y = pose.x, pose.y
+    message.orientation.z, message.orientation.w = sin(pose.theta / 2.0), cos(pose.theta / 2.0)
+
+
+class TurretJoints:
+    """Turrets as joints: ``turret_i_steering`` by position, ``turret_i_wheel`` by velocity."""
+
+    def __init__(self, count: int) -> None:
+        """Name the joints of ``count`` turrets."""
+        self._steering = [f'turret_{i}_steering' for i in range(count)]
+        self._wheel = [f'turret_{i}_wheel' for i in range(count)]
+        self._zeros = [0.0] * count
+
+    def message(self) -> JointState:
+        """Return a message with the names set, to be filled again and again."""
+        return JointState(name=self._steering + self._wheel)
+
+    def fill(self, message: JointState, angles: Sequence[float], rates: Sequence[float]) -> None:
+        """Write steering angles [rad] and wheel rates [rad/s]; what a joint lacks is 0."""
+        message.position = array('d', [*angles, *self._zeros])
+        message.velocity = array('d', [*self._zeros, *rates])
+
+    def read(self, message: JointState) -> tuple[list[float], list[float]]:
+        """Return steering angles [rad] and wheel rates [rad/s], whatever the order of the joints.
+
+        Raises:
+            SignalError: A joint is missing, the arrays do not fit the names, or a value is not
+                finite.
+
+        """
+        index = {name: i for i, name in enumerate(message.name)}
+        missing = [name for name in self._steering + self._wheel if name not in index]
+        if missing:
+            msg = (
+                f'joint {missing[0]} is missing among {list(message.name)}: '
+                f'expected {len(self._steering)} turrets, each with _steering and _wheel'
+            )
+            raise SignalError(msg)
+        for field, values in (('positions', message.position), ('velocities', message.velocity)):
+            if len(values) != len(message.name):
+                msg = f'{len(values)} {field} for {len(message.name)} joints: give one each'
+                raise SignalError(msg)
+        angles = [message.position[index[name]] for name in self._steering]
+        rates = [message.velocity[index[name]] for name in self._wheel]
+        require_finite('turret angles', tuple(angles))
+        require_finite('wheel rates', tuple(rates))
+        return angles, rates

@@ -1,0 +1,247 @@
+"""The lifecycle of every node here: topics that exist while configured, and act while active.
+
+What rclpy leaves open is closed here, once: an exception in a transition vanishes there without a
+word, subscriptions of an inactive node keep running, and a message that cannot be used must be
+refused with its reason while the node lives on.
+"""
+
+from __future__ import annotations
+
+import traceback
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.qos import QoSProfile
+
+from agv_motion.errors import AgvMotionError
+from agv_motion.ros.parameters import DeclaredParameters
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from _typeshed import DataclassInstance
+    from rclpy.lifecycle import LifecycleState
+
+P = TypeVar('P', bound='DataclassInstance')
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+COMPLAINT_LIFETIME = 10.0
+"""[s] How long a refused input keeps the diagnostics at WARN."""
+
+
+LAST_WORD = Duration(seconds=0.2)
+"""How long a stopping node waits for each listener to acknowledge its last message."""
+
+
+class Diagnosis(NamedTuple):
+    """How a node is, in words and numbers, for ``/diagnostics``."""
+
+    level: bytes
+    message: str
+    values: dict[str, str]
+
+
+class ManagedNode(LifecycleNode, Generic[P]):
+    """A lifecycle node that tells why it refuses, and leaves its outputs safe when it stops.
+
+    A node overrides `open` (build the core, open the topics), `begin`, `halt` (leave the outputs
+    safe), `accept` (a dynamic change of parameters) and `diagnose`. Topics, timers and services
+    made with `publisher`, `listen`, `every` and `serve` live from configure to cleanup, and
+    their callbacks are silent while the node is inactive.
+    """
+
+    def __init__(self, name: str, parameters: type[P], **kwargs: Any) -> None:
+        """Declare the parameters; the rest waits for `configure`."""
+        super().__init__(name, **kwargs)
+        self.active = False
+        self._entities: list[Callable[[], Any]] = []
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._complaint = ''
+        self._complained_at = -COMPLAINT_LIFETIME
+        self._refused = 0
+        self._declared = DeclaredParameters(self, parameters, self._accept)
+        self._diagnostics = self._create_publisher(
+            DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
+        )
+        self.create_timer(1.0, self._publish_diagnostics, clock=self._steady)
+
+    # What a node overrides
+
+    def open(self) -> None:
+        """Build the core objects from `parameters` and open the topics; may raise."""
+
+    def begin(self) -> None:
+        """Start to act."""
+
+    def halt(self) -> None:
+        """Leave every output safe; the topics are still open."""
+
+    def accept(self, parameters: P) -> None:
+        """Take over dynamic parameters; raise an `AgvMotionError` to refuse them."""
+
+    def diagnose(self) -> Diagnosis:
+        """Return how the node is while active."""
+        return Diagnosis(OK, 'running', {})
+
+    # What a node uses
+
+    @property
+    def parameters(self) -> P:
+        """The parameters in force."""
+        return self._declared.values
+
+    def seconds(self) -> float:
+        """Return the time of the node's clock [s], simulated where `use_sim_time` is set."""
+        return float(self.get_clock().now().nanoseconds) * 1e-9
+
+    def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
+        """Return a publisher that lives until cleanup."""
+        publisher = self._create_publisher(kind, topic, qos)
+        self._entities.append(lambda: self.destroy_publisher(publisher))
+        return publisher
+
+    def listen(
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
+    ) -> None:
+        """Call ``callback`` with each message while active; what it raises is told, not fatal."""
+
+        def guarded(message: Any) -> None:
+            if self.active:
+                try:
+                    callback(message)
+                except AgvMotionError as error:
+                    self.refuse(f'{topic}: {error}')
+
+        subscription = self.create_subscription(
+            kind, topic, guarded, qos,
+            event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
+        )  # fmt: skip
+        self._entities.append(lambda: self.destroy_subscription(subscription))
+
+    def every(
+        self, seconds: float, callback: Callable[[], None], clock: Clock | None = None
+    ) -> None:
+        """Call ``callback`` periodically on the node's clock (or another) while active."""
+
+        def guarded() -> None:
+            if self.active:
+                try:
+                    callback()
+                except AgvMotionError as error:
+                    self.refuse(str(error))
+
+        timer = self.create_timer(seconds, guarded, clock=clock)
+        self._entities.append(lambda: self.destroy_timer(timer))
+
+    def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
+        """Offer a Trigger or SetBool service: ``act`` returns what was done, or raises why not."""
+
+        def guarded(request: Any, response: Any) -> Any:
+            if not self.active:
+                response.message = f'{self.get_name()} is not active: activate it first'
+                return response
+            try:
+                response.message, response.success = act(request), True
+            except AgvMotionError as error:
+                response.message = str(error)
+            self.get_logger().info(f'{name}: {response.message}')
+            return response
+
+        service = self.create_service(kind, name, guarded)
+        self._entities.append(lambda: self.destroy_service(service))
+
+    def refuse(self, reason: str) -> None:
+        """Tell of an input that was not used, in the log and in the diagnostics."""
+        self._refused += 1
+        self._complaint, self._complained_at = reason, self._steady_seconds()
+        self.get_logger().warning(f'refused: {reason}', throttle_duration_sec=1.0)
+
+    # Lifecycle
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Open everything, or nothing."""
+        result = self._attempt('configure', self.open)
+        if result is TransitionCallbackReturn.FAILURE:
+            self.on_cleanup(state)
+        return result
+
+    def on_activate(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Let the callbacks act."""
+        result = self._attempt('activate', self.begin)
+        self.active = result is TransitionCallbackReturn.SUCCESS
+        return result
+
+    def on_deactivate(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Leave the outputs safe, then fall silent."""
+        if self.active:
+            self.active = False
+            self._attempt('halt', self.halt)
+            for publisher in self.publishers:
+                publisher.wait_for_all_acked(LAST_WORD)
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:
+        """Close the topics."""
+        while self._entities:
+            self._entities.pop()()
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Leave the outputs safe and close the topics."""
+        self.on_deactivate(state)
+        return self.on_cleanup(state)
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Go back to unconfigured with the outputs safe."""
+        return self.on_shutdown(state)
+
+    # Plumbing
+
+    def _create_publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
+        """Create a publisher without event callbacks: destroying those crashes EventsExecutor."""
+        return self.create_publisher(
+            kind, topic, qos, event_callbacks=PublisherEventCallbacks(use_default_callbacks=False)
+        )
+
+    def _attempt(self, transition: str, act: Callable[[], None]) -> TransitionCallbackReturn:
+        """Run one step of a transition; rclpy would swallow its exception without a word."""
+        try:
+            act()
+        except AgvMotionError as error:
+            self.get_logger().error(f'cannot {transition}: {error}')
+        except Exception:  # noqa: BLE001 - a defect: told with its trace, the node stays up
+            self.get_logger().fatal(f'cannot {transition}: {traceback.format_exc()}')
+        else:
+            return TransitionCallbackReturn.SUCCESS
+        return TransitionCallbackReturn.FAILURE
+
+    def _accept(self, parameters: P) -> None:
+        if self._entities:
+            self.accept(parameters)
+
+    def _steady_seconds(self) -> float:
+        return float(self._steady.now().nanoseconds) * 1e-9
+
+    def _publish_diagnostics(self) -> None:
+        level, message, values = (
+            self.diagnose() if self.active else Diagnosis(WARN, 'not active', {})
+        )
+        if self._refused:
+            values = values | {'refused inputs': str(self._refused), 'last': self._complaint}
+        if level == OK and self._steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:
+            level, message = WARN, f'refused: {self._complaint}'
+        report = DiagnosticArray()
+        report.header.stamp = self.get_clock().now().to_msg()
+        name = f'{self.get_namespace()}/{self.get_name()}'.replace('//', '/')
+        pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
+        report.status = [
+            DiagnosticStatus(
+                level=level, name=name, message=message, hardware_id=name, values=pairs
+            )
+        ]
+        self._diagnostics.publish(report)

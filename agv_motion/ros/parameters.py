@@ -1,0 +1,109 @@
+"""ROS parameters from a dataclass of `agv_motion.parameters`: declared once, validated first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+
+from agv_motion.errors import AgvMotionError
+from agv_motion.parameters import nested, rows
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from _typeshed import DataclassInstance
+    from rclpy.node import Node
+    from rclpy.parameter import Parameter
+
+    from agv_motion.parameters import Spec
+
+T = TypeVar('T', bound='DataclassInstance')
+
+
+class DeclaredParameters(Generic[T]):
+    """The parameters of one node, and the door through which they change.
+
+    Groups (fields that are dataclasses themselves) become dotted names: ``csv.file``.
+    """
+
+    def __init__(self, node: Node, kind: type[T], accept: Callable[[T], None]) -> None:
+        """Declare every row of ``kind`` on ``node``.
+
+        Args:
+            node: The node to declare on.
+            kind: A dataclass of rows and groups, all with defaults.
+            accept: Called with the new values before a dynamic change takes effect; may refuse it
+                by raising an :class:`AgvMotionError`.
+
+        Raises:
+            ConfigurationError: The values given contradict each other or their rows.
+            InvalidParameterValueException: A scalar lies outside its range.
+            InvalidParameterTypeException: A value has another type than its default (1 for 1.0).
+
+        """
+        self._accept = accept
+        self.values: T = _declare(node, kind, '')
+        node.add_on_set_parameters_callback(self._on_set)
+
+    def _on_set(self, changes: list[Parameter]) -> SetParametersResult:
+        try:
+            candidate = self.values
+            for change in changes:
+                candidate = _with(candidate, change.name.split('.'), _plain(change.value))
+            if candidate != self.values:
+                self._accept(candidate)
+        except (AgvMotionError, TypeError) as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        self.values = candidate
+        return SetParametersResult(successful=True)
+
+
+def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
+    defaults = kind()
+    values = {
+        name: _plain(
+            node.declare_parameter(
+                prefix + name, getattr(defaults, name), _descriptor(spec, origin)
+            ).value
+        )
+        for name, origin, spec in rows(kind)
+    }
+    groups = {name: _declare(node, group, f'{prefix}{name}.') for name, group in nested(kind)}
+    return kind(**values, **groups)
+
+
+def _descriptor(spec: Spec, origin: Any) -> ParameterDescriptor:
+    """Return what ``ros2 param describe`` shows; rclpy checks the range of scalars by itself."""
+    descriptor = ParameterDescriptor(
+        description=f'{spec.description} [{spec.unit}]' if spec.unit else spec.description,
+        additional_constraints=f'one of {", ".join(spec.choices)}' if spec.choices else '',
+        read_only=not spec.dynamic,
+    )
+    if spec.between and origin is float:
+        low, high = spec.between
+        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    elif spec.between and origin is int:
+        low, high = (int(bound) for bound in spec.between)
+        descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
+    return descriptor
+
+
+def _plain(value: Any) -> Any:
+    """Return arrays as tuples, as the dataclasses hold them."""
+    return value if isinstance(value, (str, bool, int, float)) else tuple(value)
+
+
+def _with(values: Any, path: list[str], value: Any) -> Any:
+    """Return ``values`` with one dotted name replaced; names of others (use_sim_time) pass by."""
+    if not hasattr(values, path[0]):
+        return values
+    if len(path) > 1:
+        value = _with(getattr(values, path[0]), path[1:], value)
+    return replace(values, **{path[0]: value})
