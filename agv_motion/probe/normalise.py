@@ -1,0 +1,129 @@
+"""Normalisation of a probe into [0, 1], by what the probe itself has shown."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, insort
+from collections import deque
+from typing import Any, Protocol
+
+from agv_motion.errors import ConfigurationError
+
+
+class Normaliser(Protocol):
+    """Turns a stream of values into shares of their usual range; causal."""
+
+    def update(self, time: float, value: float) -> float | None:
+        """Take in ``value`` at ``time`` [s]; return its share in [0, 1], None while learning."""
+
+    def state(self) -> dict[str, Any]:
+        """Return what must survive a restart, ready for JSON."""
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take up a :meth:`state`; raises ConfigurationError if it is not one."""
+
+
+class RunningQuantiles:
+    """Share of the way between two quantiles of the last days: forgets spikes and seasons.
+
+    Readings are averaged over bins of fixed length, so that memory and cost do not depend on the
+    sampling rate: seven days of quarter hours are 672 numbers, kept sorted.
+    """
+
+    def __init__(
+        self,
+        quantiles: tuple[float, float],
+        window_days: float,
+        smallest_range: float,
+        learning_hours: float = 24.0,
+        bin_length: float = 900.0,
+    ) -> None:
+        """Start without history.
+
+        Args:
+            quantiles: The two quantiles that become 0 and 1.
+            window_days: How far back to look [d].
+            smallest_range: A range below this counts as this, so that noise stays small
+                [unit of the value].
+            learning_hours: How much history is needed before a share is given [h].
+            bin_length: Length of one bin [s].
+
+        """
+        self._low, self._high = quantiles
+        self._window = window_days * 86400.0
+        self._smallest_range = smallest_range
+        self._learning_bins = learning_hours * 3600.0 / bin_length
+        self._bin_length = bin_length
+        self._bins: deque[tuple[float, float]] = deque()
+        self._sorted: list[float] = []
+        self._open: tuple[int, float, int] = (0, 0.0, 0)
+
+    def update(self, time: float, value: float) -> float | None:
+        """Return the share of ``value`` between the quantiles of the bins before it."""
+        index = int(time // self._bin_length)
+        open_index, total, count = self._open
+        if index != open_index and count:
+            self._close(open_index * self._bin_length, total / count)
+            total, count = 0.0, 0
+        self._open = index, total + value, count + 1
+        while self._bins and abs(time - self._bins[0][0]) > self._window:
+            _, old = self._bins.popleft()
+            del self._sorted[bisect_left(self._sorted, old)]
+        if len(self._sorted) < self._learning_bins:
+            return None
+        low, high = self._quantile(self._low), self._quantile(self._high)
+        return min(max((value - low) / max(high - low, self._smallest_range), 0.0), 1.0)
+
+    def _close(self, time: float, mean: float) -> None:
+        self._bins.append((time, mean))
+        insort(self._sorted, mean)
+
+    def _quantile(self, share: float) -> float:
+        return self._sorted[min(int(share * len(self._sorted)), len(self._sorted) - 1)]
+
+    def state(self) -> dict[str, Any]:
+        """Return the bins."""
+        return {'bins': [[time, mean] for time, mean in self._bins]}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take up the bins of an earlier run."""
+        try:
+            bins = [(float(time), float(mean)) for time, mean in state['bins']]
+        except (KeyError, TypeError, ValueError) as error:
+            msg = f'saved bins are unreadable ({error!r}): delete the state file'
+            raise ConfigurationError(msg) from error
+        self._bins = deque(bins)
+        self._sorted = sorted(mean for _, mean in bins)
+
+
+class RunningRange:
+    """The ancestor's: between the smallest and the largest value ever seen.
+
+    Gives 1 until the range exceeds ``opening_range``, and never forgets a spike.
+    """
+
+    def __init__(self, opening_range: float) -> None:
+        """Start without history; ``opening_range`` is in the unit of the value."""
+        self._opening_range = opening_range
+        self._smallest: float | None = None
+        self._largest: float | None = None
+
+    def update(self, time: float, value: float) -> float | None:  # noqa: ARG002 - the protocol's
+        """Return the share of ``value`` in the range so far."""
+        self._smallest = value if self._smallest is None else min(self._smallest, value)
+        self._largest = value if self._largest is None else max(self._largest, value)
+        span = self._largest - self._smallest
+        return 1.0 if span <= self._opening_range else (value - self._smallest) / span
+
+    def state(self) -> dict[str, Any]:
+        """Return both ends of the range."""
+        return {'range': [self._smallest, self._largest]}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take up the range of an earlier run."""
+        try:
+            self._smallest, self._largest = (
+                None if end is None else float(end) for end in state['range']
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            msg = f'saved range is unreadable ({error!r}): delete the state file'
+            raise ConfigurationError(msg) from error

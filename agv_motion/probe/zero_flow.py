@@ -1,0 +1,101 @@
+"""The zero-flow value dT_max of a probe, as a live robot can know it: causal and latched.
+
+Before dawn the tree hardly drinks and dT is highest. Each night gives one value, the highest
+reading of the hours before dawn; dT_max is the highest of the last few nights. It changes only
+when a night ends, never while the tree drinks.
+
+Source: P. J. Lu et al., "Granier's thermal dissipation probe method for measuring sap flow in
+trees: theory and practice", Acta Botanica Sinica 46, 2004.
+"""
+
+from __future__ import annotations
+
+from statistics import median
+from typing import Any
+
+from agv_motion.errors import ConfigurationError
+
+DAY = 86400.0
+
+
+class ZeroFlow:
+    """Running pre-dawn maximum over a window of nights."""
+
+    def __init__(
+        self, night_start: float, night_end: float, window_days: int, solar_offset: float
+    ) -> None:
+        """Start without any night.
+
+        Args:
+            night_start: First hour of the pre-dawn window, local solar time [h].
+            night_end: Hour at which it ends and the value is latched [h].
+            window_days: Number of days whose nights count.
+            solar_offset: Local solar time minus UTC [h]; the longitude in degrees / 15.
+
+        """
+        self._start, self._end = night_start * 3600.0, night_end * 3600.0
+        self._window_days = window_days
+        self._offset = solar_offset * 3600.0
+        self._nights: dict[int, float] = {}
+        self._open_day: int | None = None
+        self._highest = 0.0
+        self._last_three: list[float] = []
+        self.value: float | None = None
+
+    def update(self, time: float, temperature_difference: float) -> float | None:
+        """Take in one good reading and return dT_max; None while no recent night is known.
+
+        A reading counts as the median of itself and the two before, so that no single one
+        decides.
+
+        Args:
+            time: Of the reading, seconds since 1970, UTC.
+            temperature_difference: dT, in any unit [K].
+
+        """
+        day, second = divmod(time + self._offset, DAY)
+        night = self._start <= second < self._end
+        if self._open_day is not None and (int(day) != self._open_day or not night):
+            self._latch(self._open_day)
+        if night:
+            self._open_day = int(day)
+            self._last_three = [*self._last_three[-2:], temperature_difference]
+            if len(self._last_three) == 3:
+                self._highest = max(self._highest, median(self._last_three))
+        if self._nights and int(day) - max(self._nights) > self._window_days:
+            self._nights, self.value = {}, None
+        return self.value
+
+    def recalibrate(self, time: float, temperature_difference: float) -> None:
+        """Forget all nights and take ``temperature_difference`` as zero flow from now on."""
+        self._nights = {int((time + self._offset) // DAY): temperature_difference}
+        self._open_day, self._highest, self._last_three = None, 0.0, []
+        self.value = temperature_difference
+
+    def _latch(self, day: int) -> None:
+        """Let the night of ``day`` count from now on, and those out of the window no longer."""
+        if self._highest > 0.0:
+            self._nights[day] = self._highest
+            oldest = day - self._window_days
+            self._nights = {d: value for d, value in self._nights.items() if d > oldest}
+            self.value = max(self._nights.values())
+        self._open_day, self._highest, self._last_three = None, 0.0, []
+
+    def state(self) -> dict[str, Any]:
+        """Return what must survive a restart, ready for JSON."""
+        return {'nights': [[day, value] for day, value in self._nights.items()]}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take up a :meth:`state`.
+
+        Raises:
+            ConfigurationError: It is not one.
+
+        """
+        try:
+            nights = {int(day): float(value) for day, value in state['nights']}
+        except (KeyError, TypeError, ValueError) as error:
+            msg = f'saved zero-flow nights are unreadable ({error!r}): delete the state file'
+            raise ConfigurationError(msg) from error
+        self._nights = {day: value for day, value in nights.items() if 0.0 < value < 1e6}
+        self.value = max(self._nights.values(), default=None)

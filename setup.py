@@ -1,0 +1,94 @@
+"""Build of the ament_python package `agv_motion`, by pip and by colcon alike."""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+NAME = 'agv_motion'
+SHARE = f'share/{NAME}'
+HERE = Path(__file__).parent
+NODES = sorted(
+    path.stem
+    for path in (HERE / NAME / 'nodes').glob('*.py')
+    if '\ndef main()' in path.read_text(encoding='utf-8')
+)
+
+
+def files(folder: str, pattern: str) -> list[str]:
+    """Return the files of a folder as data_files wants them: relative to this one."""
+    return sorted(str(path.relative_to(HERE)) for path in (HERE / folder).glob(pattern))
+
+
+def executables() -> list[str]:
+    """Write what `ros2 run` starts after `pip install`; under colcon console scripts take over."""
+    folder = HERE / 'build' / 'executables'
+    folder.mkdir(parents=True, exist_ok=True)
+    for node in NODES:
+        script = folder / node
+        script.write_text(
+            '#!/bin/sh\n'
+            'python="$(dirname "$(readlink -f "$0")")/../../bin/python3"\n'
+            '[ -x "$python" ] || python=python3\n'
+            f'exec "$python" -m {NAME}.nodes.{node} "$@"\n',
+            encoding='utf-8',
+        )
+        script.chmod(0o755)
+    return [f'build/executables/{node}' for node in NODES]
+
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    description='Motion of slow, sensor-driven robots on ROS 2: probes, twist, turrets, one ICR',
+    license='Apache-2.0',
+    packages=find_packages(include=[NAME, f'{NAME}.*']),
+    python_requires='>=3.10',
+    install_requires=[
+        'mcap>=1.1',
+        'numpy>=1.26',
+        'pyserial>=3.5',
+        'pyyaml>=6',
+        'rich>=13',
+        'rosbags>=0.10',
+        'shapely>=2',
+        'typer>=0.12',
+        'zstandard>=0.22',
+    ],
+    extras_require={
+        # ROS 2 Jazzy itself, for a machine without a ROS installation
+        'ros': [
+            'ros-jazzy-common-interfaces',
+            'ros-jazzy-rclpy',
+            'ros-jazzy-rmw-fastrtps-cpp',
+        ],
+        'plot': ['matplotlib>=3.8'],
+        'test': [
+            'catkin_pkg',
+            'colcon-common-extensions',
+            'colcon-ros',
+            'hypothesis>=6.100',
+            'matplotlib>=3.8',
+            'mcap-ros2-support>=0.5',
+            'mypy>=1.11',
+            'pytest>=8',
+            'ruff>=0.12',
+            'types-pyserial',
+            'types-pyyaml',
+        ],
+        'benchmark': ['robotpy-wpimath'],
+    },
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (SHARE, ['package.xml']),
+        (f'{SHARE}/config', files('config', '*.yaml')),
+        (f'{SHARE}/launch', files('launch_scripts', '*.launch.py')),
+        (f'lib/{NAME}', executables()),
+    ],
+    entry_points={
+        'console_scripts': [
+            'agv = agv_motion.cli.main:main',
+            *(f'{node} = {NAME}.nodes.{node}:main' for node in NODES),
+        ],
+    },
+    zip_safe=False,
+)
