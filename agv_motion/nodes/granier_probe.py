@@ -1,0 +1,237 @@
+"""Node `granier_probe`: readings of Granier probes in, sap flow in [0, 1] out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry_msgs.msg import Vector3Stamped
+from rclpy.clock import Clock, ClockType
+from sensor_msgs.msg import Illuminance, Temperature
+from std_msgs.msg import Bool
+from std_srvs.srv import Trigger
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.parameters import Spec, check
+from agv_motion.probe import state_file
+from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
+from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
+from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
+from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+from agv_motion.ros.messages import seconds_of
+from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.run import run
+from agv_motion.simulation.shade import LUX_PER_WATT, irradiance
+from agv_motion.simulation.sun import sun
+
+if TYPE_CHECKING:
+    from agv_motion.probe.sources.source import Sample, Source
+
+SAVE_PERIOD = 30.0
+"""[s] A power cut loses at most this much of what was learnt."""
+
+
+@dataclass(frozen=True)
+class GranierProbeParameters:
+    """Where the readings come from and what is made of them."""
+
+    source: Annotated[
+        str, Spec('where the readings come from', choices=('simulated', 'csv', 'serial'))
+    ] = 'simulated'
+    rate: Annotated[
+        float, Spec('how often the source is read and the sap flow told', 'Hz', (0.01, 100.0))
+    ] = 1.0
+    assign: Annotated[
+        tuple[str, ...], Spec('which probe is s1 (speed), s2 (rotation), s3 (places)')
+    ] = ('probe_1', 'probe_2', 'probe_3')
+    max_age: Annotated[
+        float,
+        Spec(
+            'a reading older than this counts no more; 0: three periods of the source',
+            's',
+            (0, 1e6),
+        ),
+    ] = 0.0
+    warm_up_days: Annotated[
+        float, Spec("how much of the source's history to learn from at the start", 'd', (0, 366))
+    ] = 8.0
+    state_file: Annotated[
+        str, Spec('where to keep what was learnt over a restart; empty: nowhere')
+    ] = ''
+    probe: ProbeParameters = field(default_factory=ProbeParameters)
+    simulated: SimulatedParameters = field(default_factory=SimulatedParameters)
+    csv: CsvParameters = field(default_factory=CsvParameters)
+    serial: SerialParameters = field(default_factory=SerialParameters)
+
+    def __post_init__(self) -> None:
+        """Check every row, and that the assigned probes exist."""
+        check(self)
+        names = [f'probe_{i + 1}' for i in range(self.probes())]
+        if len(self.assign) != 3 or not set(self.assign) <= set(names):
+            msg = f'assign = {list(self.assign)}: give three names among {", ".join(names)}'
+            raise ConfigurationError(msg)
+
+    def probes(self) -> int:
+        """Return the number of probes that the source has."""
+        return {
+            'simulated': self.simulated.probes,
+            'csv': len(self.csv.columns),
+            'serial': len(self.serial.fields),
+        }[self.source]
+
+    def open_source(self) -> Source:
+        """Open the source that was chosen."""
+        if self.source == 'csv':
+            return CsvSource(self.csv, self.warm_up_days)
+        if self.source == 'serial':
+            return SerialSource(self.serial)
+        return SimulatedSource(self.simulated, self.warm_up_days)
+
+
+class GranierProbe(ManagedNode[GranierProbeParameters]):
+    """Source -> `granier/probe_i/temperature_difference`, `granier/sap_flow`, `granier/valid`.
+
+    `granier/sap_flow` is told only while all three probes are fresh and believable; when one is
+    not, `granier/valid` turns false and says that the tree must rest.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('granier_probe', GranierProbeParameters, **kwargs)
+
+    def open(self) -> None:
+        """Open the source, learn from its history, open the topics."""
+        given = self.parameters
+        self._source = given.open_source()
+        self._probes = [Probe(given.probe) for _ in range(given.probes())]
+        self._chosen = [int(name.removeprefix('probe_')) - 1 for name in given.assign]
+        self._readings: list[ProbeReading | None] = [None] * len(self._probes)
+        self._read_at = 0.0
+        self._max_age = given.max_age or max(3.0 * self._source.period, 5.0 / given.rate)
+        self._why_invalid: str | None = None
+        self._message = Vector3Stamped()
+        self._message.header.frame_id = 'base_link'
+        self._raw = [
+            self.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
+            for i in range(len(self._probes))
+        ]
+        self._sap_flow = self.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
+        self._valid = self.publisher(Bool, 'granier/valid', LATCHED)
+        self.serve(Trigger, '~/recalibrate', self._on_recalibrate)
+        if isinstance(self._source, SimulatedSource):
+            self.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
+        self.every(1.0 / given.rate, self._tick)
+        if given.state_file:
+            self.every(SAVE_PERIOD, self._save, Clock(clock_type=ClockType.STEADY_TIME))
+            complaint = state_file.restore(given.state_file, self._probes)
+            if complaint:
+                self.get_logger().warning(complaint)
+        self._learnt = False
+
+    def halt(self) -> None:
+        """Say that nothing more will come, and keep what was learnt."""
+        self._valid.publish(Bool(data=False))
+        if self.parameters.state_file:
+            self._save()
+        self._source.close()
+
+    def diagnose(self) -> Diagnosis:
+        """Tell of each probe."""
+        values = {
+            f'probe_{i + 1}': 'no reading'
+            if reading is None
+            else f'{reading.quality.value}, dT {reading.temperature_difference:.3f} K, '
+            f'zero flow {_shown(reading.zero_flow, "{:.3f} K")}, '
+            f'sap flow {_shown(reading.sap_flow, "{:.2f}")}'
+            for i, reading in enumerate(self._readings)
+        }
+        if self._why_invalid:
+            return Diagnosis(WARN, f'resting: {self._why_invalid}', values)
+        return Diagnosis(OK, 'all probes believable', values)
+
+    def _tick(self) -> None:
+        now = self.get_clock().now()
+        seconds = now.nanoseconds * 1e-9
+        if not self._learnt:
+            self._learn(seconds)
+        for sample in self._source.read(seconds):
+            self._take(sample, seconds, now.to_msg())
+        complaint = self._source.complaint()
+        if complaint:
+            self.refuse(complaint)
+        why = self._doubt(seconds)
+        if why != self._why_invalid:
+            self._tell_validity(why)
+        if not why:
+            s1, s2, s3 = (self._readings[i].sap_flow for i in self._chosen)  # type: ignore[union-attr]
+            vector = self._message.vector
+            vector.x, vector.y, vector.z = s1, s2, s3
+            self._sap_flow.publish(self._message)
+
+    def _learn(self, now: float) -> None:
+        """Learn from the history of the source; at the first tick, when the clock is known."""
+        self._learnt = True
+        for sample in self._source.history(now):
+            for probe, value in zip(self._probes, sample.values, strict=True):
+                probe.update(sample.time, value)
+
+    def _take(self, sample: Sample, now: float, stamp: Any) -> None:
+        """Let the probes see one sample, and publish what was read."""
+        self._read_at = now
+        self._message.header.stamp = stamp
+        for i, value in enumerate(sample.values):
+            self._readings[i] = self._probes[i].update(sample.time, value)
+            if value == value:  # noqa: PLR0124 - not NaN
+                message = Temperature(temperature=value)
+                message.header.stamp, message.header.frame_id = stamp, f'probe_{i + 1}'
+                self._raw[i].publish(message)
+
+    def _doubt(self, now: float) -> str:
+        """Return why the sap flow is not to be trusted; empty if it is."""
+        for i in self._chosen:
+            reading = self._readings[i]
+            if reading is None:
+                return f'probe_{i + 1} has given no reading yet'
+            if reading.sap_flow is None:
+                learning = 'learning its zero flow and range' if reading.quality.usable else ''
+                return f'probe_{i + 1} is {learning or reading.quality.value}'
+        if abs(now - self._read_at) > self._max_age:
+            return f'no reading for {now - self._read_at:.0f} s (limit {self._max_age:.0f} s)'
+        return ''
+
+    def _tell_validity(self, why: str) -> None:
+        self._why_invalid = why
+        self._valid.publish(Bool(data=not why))
+        self.get_logger().info(f'resting: {why}' if why else 'all probes believable')
+
+    def _on_recalibrate(self, _: Any) -> str:
+        values = [probe.recalibrate() for probe in self._probes]
+        return 'zero flow is now ' + ', '.join(f'{value:.3f} K' for value in values)
+
+    def _on_sunlight(self, message: Illuminance) -> None:
+        """Let the simulated tree feel the light of its place, as a share of that in the open."""
+        given = self.parameters.simulated
+        time = seconds_of(message.header.stamp)
+        open_sky = irradiance(0, 0, sun(time, given.latitude, 15.0 * given.solar_offset), [])
+        if open_sky > 0.0 and isinstance(self._source, SimulatedSource):
+            self._source.set_light(message.illuminance / (LUX_PER_WATT * open_sky))
+
+    def _save(self) -> None:
+        try:
+            state_file.save(self.parameters.state_file, self._probes)
+        except OSError as error:
+            self.refuse(f'cannot keep what was learnt: {error}')
+
+
+def _shown(value: float | None, form: str) -> str:
+    return 'unknown' if value is None else form.format(value)
+
+
+def main() -> None:
+    """Run the node."""
+    run(GranierProbe)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,1 @@
+"""Where the readings of the probes come from: simulated, recorded, or a serial line."""
