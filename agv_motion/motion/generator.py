@@ -1,0 +1,119 @@
+"""From sap flow to a polar command: the tree moves as much as its sap flows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, hypot
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.motion.polar import STILL, PolarCommand
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import require_finite, wrap
+
+if TYPE_CHECKING:
+    from agv_motion.planar import Pose
+
+
+class SapFlow(NamedTuple):
+    """Normalised sap flow of the three probes, each in [0, 1]."""
+
+    s1: float
+    """speed"""
+    s2: float
+    """rotation; 0.5 does not turn"""
+    s3: float
+    """what the tree remembers of places"""
+
+
+class Motion(NamedTuple):
+    """What the tree does now, and why."""
+
+    command: PolarCommand
+    reason: str
+
+
+@dataclass(frozen=True)
+class RestParameters:
+    """When the tree rests: its sap stands, though s2 = 0 alone would mean full rotation."""
+
+    rest_below: Annotated[
+        float, Spec('rest when all three sap flows are below', '1', (0.0, 1.0), dynamic=True)
+    ] = 0.15
+    wake_above: Annotated[
+        float, Spec('move again when one of them is above', '1', (0.0, 1.0), dynamic=True)
+    ] = 0.2
+    arrival: Annotated[
+        float, Spec('distance at which a goal is reached', 'm', (0.05, 100.0), dynamic=True)
+    ] = 1.0
+
+    def __post_init__(self) -> None:
+        """Check every row, and that the tree does not wake below where it falls asleep."""
+        check(self)
+        if self.wake_above < self.rest_below:
+            msg = (
+                f'wake_above = {self.wake_above} is below rest_below = {self.rest_below}: '
+                'the tree would fall asleep at once'
+            )
+            raise ConfigurationError(msg)
+
+
+def checked_sap_flow(flow: SapFlow) -> SapFlow:
+    """Return ``flow`` if each of its numbers lies in [0, 1].
+
+    Raises:
+        SignalError: One does not.
+
+    """
+    require_finite('sap flow (s1, s2, s3)', flow)
+    if not all(0.0 <= s <= 1.0 for s in flow):
+        msg = f'sap flow {tuple(flow)} must lie in [0, 1]: normalise it'
+        raise SignalError(msg)
+    return flow
+
+
+def polar_command(flow: SapFlow, pose: Pose, target: tuple[float, float]) -> PolarCommand:
+    """Return ``v = s1``, ``omega = 2 s2 - 1`` and theta towards ``target`` in the base frame.
+
+    Args:
+        flow: Normalised sap flow.
+        pose: Of the platform in the map.
+        target: Where to head for, in the map [m].
+
+    """
+    bearing = atan2(target[1] - pose.y, target[0] - pose.x)
+    return PolarCommand(flow.s1, wrap(bearing - pose.theta), 2.0 * flow.s2 - 1.0)
+
+
+class MotionGenerator:
+    """Remembers whether the tree rests; all else comes in."""
+
+    def __init__(self, parameters: RestParameters) -> None:
+        """Start at rest."""
+        self.parameters = parameters
+        self.resting = True
+
+    def decide(self, flow: SapFlow, pose: Pose, goal: tuple[float, float] | None) -> Motion:
+        """Return the command that ``flow`` asks for at ``pose``.
+
+        At the goal, or without one, the tree turns on the spot.
+
+        Args:
+            flow: Normalised sap flow, checked.
+            pose: Of the platform in the map.
+            goal: Where to go, in the map [m].
+
+        """
+        given = self.parameters
+        highest = max(flow)
+        self.resting = highest < (given.wake_above if self.resting else given.rest_below)
+        if self.resting:
+            return Motion(STILL, f'resting: sap flow below {given.rest_below:.2f}')
+        if goal is None:
+            return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), 'turning: no goal')
+        command = polar_command(flow, pose, goal)
+        distance = hypot(goal[0] - pose.x, goal[1] - pose.y)
+        if distance < given.arrival:
+            at_goal = command._replace(v=0.0)
+            return Motion(at_goal, f'turning at the goal ({goal[0]:.1f}, {goal[1]:.1f})')
+        return Motion(command, f'going to ({goal[0]:.1f}, {goal[1]:.1f})')

@@ -1,0 +1,207 @@
+"""Node `motion_generator`: sap flow and pose in, the twist of the tree out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from geometry_msgs.msg import Twist as TwistMessage
+from std_msgs.msg import Bool, String
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion import generator
+from agv_motion.motion.generator import (
+    Motion,
+    RestParameters,
+    SapFlow,
+    checked_sap_flow,
+)
+from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, to_twist
+from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import REST, Pose
+from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
+from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+from agv_motion.ros.run import run
+
+
+@dataclass(frozen=True)
+class MotionGeneratorParameters:
+    """How sap flow becomes motion."""
+
+    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0
+    linear_speed: Annotated[
+        float, Spec("the trunk's speed at full sap flow", 'm/s', (1e-4, 10.0))
+    ] = LINEAR_SPEED
+    platform_radius: Annotated[
+        float, Spec('centre to turret: its rim has the same top speed', 'm', (0.01, 100.0))
+    ] = PLATFORM_RADIUS
+    goal: Annotated[
+        tuple[float, ...], Spec('where to go, x and y in the map; RViz may set another', 'm')
+    ] = (10.0, 7.5)
+    report_after: Annotated[
+        float, Spec('silence of sap flow or pose to report', 's', (0.01, 3600))
+    ] = 3.0
+    stop_after: Annotated[float, Spec('silence of sap flow or pose to stop', 's', (0.01, 3600))] = (
+        5.0
+    )
+    map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
+    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
+    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    rest: RestParameters = field(default_factory=RestParameters)
+
+    def __post_init__(self) -> None:
+        """Check every row, and that the goal is a point."""
+        check(self)
+        if len(self.goal) != 2:
+            msg = f'goal = {list(self.goal)}: give x and y in metres'
+            raise ConfigurationError(msg)
+
+
+class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
+    """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal` and `state`.
+
+    Without a fresh and valid sap flow, or without a pose, the command is an explicit zero.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('motion_generator', MotionGeneratorParameters, **kwargs)
+
+    def open(self) -> None:
+        """Build the generator and open the topics."""
+        given = self.parameters
+        self._generator = generator.MotionGenerator(given.rest)
+        self._sap_flow: SapFlow | None = None
+        self._pose: Pose | None = None
+        self._goal: tuple[float, float] | None = (given.goal[0], given.goal[1])
+        self._valid = True
+        self._paused = False
+        self._told = ''
+        self._lost = 'sap flow'
+        self._watchdogs = {
+            name: Watchdog(given.report_after, given.stop_after) for name in ('sap flow', 'pose')
+        }
+        kind = TwistStamped if given.stamped else TwistMessage
+        self._message = kind()
+        if given.stamped:
+            self._message.header.frame_id = given.base_frame
+        self._command = self.publisher(kind, 'cmd_vel', COMMAND)
+        self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
+        self._state = self.publisher(String, 'state', LATCHED)
+        self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR)
+        self.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
+        self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
+        self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
+        self.serve(SetBool, '~/pause', self._on_pause)
+        self.every(1.0 / given.rate, self._tick)
+
+    def begin(self) -> None:
+        """Tell where the tree means to go."""
+        self._publish_goal()
+
+    def halt(self) -> None:
+        """Send the last word: no motion."""
+        self._publish(Motion(STILL, 'stopped'))
+
+    def accept(self, parameters: MotionGeneratorParameters) -> None:
+        """Take over new thresholds."""
+        self._generator.parameters = parameters.rest
+
+    def diagnose(self) -> Diagnosis:
+        """Tell what the tree does, and what it misses."""
+        return Diagnosis(WARN if self._lost else OK, self._told, {})
+
+    def _on_sap_flow(self, message: Vector3Stamped) -> None:
+        vector = message.vector
+        self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
+        self._watchdogs['sap flow'].feed()
+        self._publish(self._decide())
+
+    def _on_valid(self, message: Bool) -> None:
+        self._valid = message.data
+        if not self._valid:
+            self._publish(self._decide())
+
+    def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
+        self._require_map(message.header.frame_id)
+        self._pose = pose_of(message.pose.pose)
+        self._watchdogs['pose'].feed()
+
+    def _on_goal(self, message: PoseStamped) -> None:
+        self._require_map(message.header.frame_id)
+        goal = pose_of(message.pose)
+        self._goal = goal.x, goal.y
+        self.get_logger().info(f'new goal ({goal.x:.2f}, {goal.y:.2f})')
+        self._publish_goal()
+
+    def _require_map(self, frame: str) -> None:
+        if frame not in {'', self.parameters.map_frame}:
+            msg = f"frame '{frame}': expected '{self.parameters.map_frame}'; transform it first"
+            raise ConfigurationError(msg)
+
+    def _on_pause(self, request: Any) -> str:
+        self._paused = request.data
+        self._publish(self._decide())
+        return 'paused' if self._paused else 'going on'
+
+    def _tick(self) -> None:
+        """Judge the silence of both inputs and keep the command alive."""
+        now = self.seconds()
+        self._lost = ''
+        for name, watchdog in self._watchdogs.items():
+            silence = watchdog.judge(now)
+            if silence is not Silence.FRESH and watchdog.age(now) is not None:
+                self.get_logger().warning(
+                    f'no {name} for {watchdog.age(now):.1f} s: '
+                    + ('stopping' if silence is Silence.LOST else 'still moving'),
+                    throttle_duration_sec=5.0,
+                )
+            if silence is Silence.LOST:
+                self._lost = self._lost or name
+        self._publish(self._decide())
+
+    def _decide(self) -> Motion:
+        """Return what to do with what is known now."""
+        if self._paused:
+            return Motion(STILL, 'paused')
+        if not self._valid:
+            return Motion(STILL, 'resting: a probe cannot be believed')
+        if self._lost or self._sap_flow is None or self._pose is None:
+            return Motion(STILL, f'resting: no {self._lost or "input"}')
+        return self._generator.decide(self._sap_flow, self._pose, self._goal)
+
+    def _publish(self, motion: Motion) -> None:
+        given = self.parameters
+        twist = REST
+        if motion.command is not STILL:
+            twist = to_twist(motion.command, given.linear_speed, given.platform_radius)
+        if given.stamped:
+            self._message.header.stamp = self.get_clock().now().to_msg()
+            fill_twist(self._message.twist, twist)
+        else:
+            fill_twist(self._message, twist)
+        self._command.publish(self._message)
+        if motion.reason != self._told:
+            self._told = motion.reason
+            self._state.publish(String(data=motion.reason))
+
+    def _publish_goal(self) -> None:
+        if self._goal is not None:
+            message = PoseStamped()
+            message.header.stamp = self.get_clock().now().to_msg()
+            message.header.frame_id = self.parameters.map_frame
+            fill_pose(message.pose, Pose(*self._goal, 0.0))
+            self._goal_publisher.publish(message)
+
+
+def main() -> None:
+    """Run the node."""
+    run(MotionGenerator)
+
+
+if __name__ == '__main__':
+    main()
