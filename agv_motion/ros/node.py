@@ -61,7 +61,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
         self.active = False
         self._entities: list[Callable[[], Any]] = []
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._complaint = ''
+        self.complaint = ''
+        """Why the last input that was not used was refused."""
         self._complained_at = -COMPLAINT_LIFETIME
         self._refused = 0
         self._declared = DeclaredParameters(self, parameters, self._accept)
@@ -158,7 +159,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def refuse(self, reason: str) -> None:
         """Tell of an input that was not used, in the log and in the diagnostics."""
         self._refused += 1
-        self._complaint, self._complained_at = reason, self._steady_seconds()
+        self.complaint, self._complained_at = reason, self._steady_seconds()
         self.get_logger().warning(f'refused: {reason}', throttle_duration_sec=1.0)
 
     # Lifecycle
@@ -232,9 +233,9 @@ class ManagedNode(LifecycleNode, Generic[P]):
             self.diagnose() if self.active else Diagnosis(WARN, 'not active', {})
         )
         if self._refused:
-            values = values | {'refused inputs': str(self._refused), 'last': self._complaint}
+            values = values | {'refused inputs': str(self._refused), 'last': self.complaint}
         if level == OK and self._steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:
-            level, message = WARN, f'refused: {self._complaint}'
+            level, message = WARN, f'refused: {self.complaint}'
         report = DiagnosticArray()
         report.header.stamp = self.get_clock().now().to_msg()
         name = f'{self.get_namespace()}/{self.get_name()}'.replace('//', '/')

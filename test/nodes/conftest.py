@@ -1,0 +1,70 @@
+"""A tester beside the node under test: sends, listens, asks for services."""
+
+from __future__ import annotations
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.parameter import Parameter
+
+from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+from agv_motion.ros.run import start
+
+
+class Tester:
+    """One node that talks to the node under test over the real graph."""
+
+    def __init__(self, graph):
+        """Join the graph."""
+        self.graph = graph
+        self.node = graph.add(rclpy.create_node('tester', context=graph.context))
+        self.received = {}
+
+    def start(self, kind, *, activate=True, remap=(), **parameters):
+        """Return a node with parameters as a YAML file gives them (``__`` for a dot)."""
+        values = [Parameter(k.replace('__', '.'), value=v) for k, v in parameters.items()]
+        arguments = ['--ros-args', *(word for pair in remap for word in ('-r', pair))]
+        node = self.graph.add(
+            kind(context=self.graph.context, parameter_overrides=values, cli_args=arguments)
+        )
+        if activate:
+            start(node)
+        return node
+
+    def listen(self, kind, topic, qos=COMMAND):
+        """Return the list into which messages of ``topic`` come."""
+        inbox = self.received.setdefault(topic, [])
+        self.node.create_subscription(kind, topic, inbox.append, qos)
+        return inbox
+
+    def publisher(self, kind, topic, qos=COMMAND):
+        """Return a publisher that has found its listener."""
+        publisher = self.node.create_publisher(kind, topic, qos)
+        self.graph.spin_until(lambda: publisher.get_subscription_count() >= 1)
+        return publisher
+
+    def ask(self, kind, service, request):
+        """Return the answer of a service."""
+        client = self.node.create_client(kind, service)
+        self.graph.spin_until(client.service_is_ready)
+        future = client.call_async(request)
+        self.graph.spin_until(future.done)
+        return future.result()
+
+    def wait(self, inbox, condition=lambda message: True, timeout=10.0):
+        """Return the first message in ``inbox`` that fulfils ``condition``."""
+        self.graph.spin_until(lambda: any(map(condition, inbox)), timeout)
+        return next(message for message in inbox if condition(message))
+
+
+@pytest.fixture
+def tester(graph):
+    """Return a tester on the graph of this test."""
+    return Tester(graph)
+
+
+@pytest.fixture
+def qos():
+    """Return the three profiles by name."""
+    return {'command': COMMAND, 'sensor': SENSOR, 'latched': LATCHED}

@@ -1,0 +1,177 @@
+"""Node `motion_generator` over a real graph: the equations of motion, rest, and silence."""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, nan, pi, sin
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from std_msgs.msg import Bool, String
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.ros.qos import LATCHED, SENSOR
+
+
+class Senses:
+    """What the node hears: sap flow, validity and pose."""
+
+    def __init__(self, tester, **parameters):
+        self.tester = tester
+        self.commands = tester.listen(TwistStamped, 'cmd_vel')
+        self.states = tester.listen(String, 'state', LATCHED)
+        self.node = tester.start(MotionGenerator, goal=[10.0, 5.0], **parameters)
+        self.flow = tester.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
+        self.pose = tester.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
+        self.valid = tester.publisher(Bool, 'granier/valid', LATCHED)
+
+    def feel(self, s1, s2, s3):
+        message = Vector3Stamped()
+        message.vector.x, message.vector.y, message.vector.z = s1, s2, s3
+        self.flow.publish(message)
+
+    def stand(self, x, y, heading, frame='map'):
+        message = PoseWithCovarianceStamped()
+        message.header.frame_id = frame
+        message.pose.pose.position.x, message.pose.pose.position.y = x, y
+        message.pose.pose.orientation.z = sin(heading / 2)
+        message.pose.pose.orientation.w = cos(heading / 2)
+        self.pose.publish(message)
+
+    def moves(self):
+        return self.tester.wait(self.commands, moving)
+
+    def rests(self):
+        self.commands.clear()
+        return self.tester.wait(self.commands, lambda m: not moving(m))
+
+
+def moving(message):
+    twist = message.twist
+    return hypot(twist.linear.x, twist.linear.y) + abs(twist.angular.z) > 0.0
+
+
+@pytest.fixture
+def senses(tester):
+    return Senses(tester)
+
+
+def test_sap_flow_drives_the_tree_to_its_goal(senses):
+    """Hand calculation: at (7, 1) looking at 1 rad, the goal lies 5 m away at 0.9273 rad."""
+    senses.stand(7.0, 1.0, 1.0)
+    senses.feel(0.6, 0.75, 0.2)
+    twist = senses.moves().twist
+    assert hypot(twist.linear.x, twist.linear.y) == pytest.approx(0.6 / 60.0)
+    assert atan2(twist.linear.y, twist.linear.x) == pytest.approx(atan2(4.0, 3.0) - 1.0)
+    assert twist.angular.z == pytest.approx(0.5 / 60.0 / 1.18)
+
+
+def test_at_the_goal_it_turns_on_the_spot(senses):
+    senses.stand(9.5, 5.0, 0.0)
+    senses.feel(1.0, 1.0, 0.5)
+    twist = senses.moves().twist
+    assert twist.linear.x == twist.linear.y == 0.0
+    assert twist.angular.z > 0.0
+
+
+def test_it_rests_while_the_sap_stands(senses):
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.moves()
+    senses.feel(0.05, 0.0, 0.1)
+    senses.rests()
+    senses.tester.wait(senses.states, lambda m: 'sap flow below' in m.data)
+
+
+def test_a_probe_not_to_be_believed_means_rest(senses):
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.moves()
+    senses.valid.publish(Bool(data=False))
+    senses.rests()
+    senses.valid.publish(Bool(data=True))
+    senses.commands.clear()
+    senses.moves()
+
+
+@pytest.mark.parametrize('silent', ['sap flow', 'pose'])
+def test_silence_of_an_input_means_an_explicit_stop(tester, silent):
+    senses = Senses(tester, report_after=0.2, stop_after=0.5)
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.moves()
+    for _ in range(8):
+        if silent == 'pose':
+            senses.feel(0.9, 0.9, 0.9)
+        else:
+            senses.stand(7.0, 1.0, 0.0)
+        tester.graph.spin_for(0.1)
+    assert not moving(senses.commands[-1])
+    tester.wait(senses.states, lambda m: f'no {silent}' in m.data)
+
+
+@pytest.mark.parametrize('flow', [(nan, 0.5, 0.5), (1.5, 0.5, 0.5), (0.5, -0.1, 0.5)])
+def test_a_sap_flow_out_of_its_range_is_refused(senses, flow):
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(*flow)
+    senses.tester.graph.spin_until(lambda: 'sap flow' in senses.node.complaint)
+    assert not any(moving(command) for command in senses.commands)
+
+
+def test_a_pose_in_another_frame_or_without_orientation_is_refused(senses):
+    senses.stand(7.0, 1.0, 0.0, frame='odom')
+    senses.tester.graph.spin_until(lambda: "expected 'map'" in senses.node.complaint)
+    senses.pose.publish(PoseWithCovarianceStamped())
+    senses.pose.publish(PoseWithCovarianceStamped(pose=zero_quaternion()))
+    senses.tester.graph.spin_until(lambda: 'quaternion' in senses.node.complaint)
+
+
+def zero_quaternion():
+    message = PoseWithCovarianceStamped().pose
+    message.pose.orientation.w = 0.0
+    return message
+
+
+def test_a_clicked_goal_is_taken_and_told(senses):
+    goals = senses.tester.listen(PoseStamped, 'goal', LATCHED)
+    first = senses.tester.wait(goals)
+    assert (first.pose.position.x, first.pose.position.y) == (10.0, 5.0)
+    clicked = PoseStamped()
+    clicked.header.frame_id = 'map'
+    clicked.pose.position.x = 7.0
+    clicked.pose.position.y = 8.0
+    senses.tester.publisher(PoseStamped, 'goal_pose').publish(clicked)
+    senses.tester.wait(goals, lambda m: m.pose.position.y == 8.0)
+    senses.stand(7.0, 1.0, pi / 2)
+    senses.feel(1.0, 0.5, 0.5)
+    twist = senses.moves().twist
+    assert (twist.linear.x, twist.linear.y) == pytest.approx((1 / 60.0, 0.0), abs=1e-12)
+
+
+def test_pause_stops_and_goes_on(senses):
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.moves()
+    ask = senses.tester.ask
+    assert ask(SetBool, 'motion_generator/pause', SetBool.Request(data=True)).success
+    senses.rests()
+    assert ask(SetBool, 'motion_generator/pause', SetBool.Request(data=False)).success
+    senses.commands.clear()
+    senses.moves()
+
+
+def test_the_last_word_is_zero(senses):
+    senses.stand(7.0, 1.0, 0.0)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.moves()
+    senses.node.trigger_shutdown()
+    senses.tester.graph.spin_until(lambda: not moving(senses.commands[-1]))
+
+
+def test_thresholds_that_contradict_each_other_are_refused(tester):
+    with pytest.raises(ConfigurationError, match='fall asleep at once'):
+        tester.start(MotionGenerator, rest__rest_below=0.5)

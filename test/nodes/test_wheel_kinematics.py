@@ -1,0 +1,237 @@
+"""Node `wheel_kinematics` over a real graph: commands, refusals, silence and the last word."""
+
+from __future__ import annotations
+
+from math import inf, nan, pi
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.lifecycle import TransitionCallbackReturn
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Float64MultiArray
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.messages import TurretJoints
+from agv_motion.ros.qos import SENSOR
+from agv_motion.ros.run import StartError
+
+PAIR = {'turret_x': [0.5, -0.5], 'turret_y': [0.0, 0.0]}
+FAST = {**PAIR, 'max_wheel_speed': 5.0}
+
+
+def twist(vx=0.0, vy=0.0, wz=0.0):
+    message = TwistStamped()
+    message.header.stamp.sec = 42
+    message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = vx, vy, wz
+    return message
+
+
+def rates(command):
+    return [v for name, v in zip(command.name, command.velocity, strict=True) if 'wheel' in name]
+
+
+def angles(command):
+    return [a for name, a in zip(command.name, command.position, strict=True) if 'steer' in name]
+
+
+@pytest.fixture
+def drive(tester):
+    """Return the inbox of commands and a publisher of twists for a node with parameters."""
+
+    def run(**parameters):
+        commands = tester.listen(JointState, 'turrets/command')
+        node = tester.start(WheelKinematics, **parameters)
+        return node, commands, tester.publisher(TwistStamped, 'cmd_vel')
+
+    return run
+
+
+def test_a_twist_becomes_angle_and_rate_of_each_turret(tester, drive):
+    """Hand calculation: turning at 1 rad/s, arms of 0.5 m, wheels of 0.1 m: 5 rad/s."""
+    _, commands, cmd_vel = drive(**FAST)
+    cmd_vel.publish(twist(wz=1.0))
+    command = tester.wait(commands, lambda m: any(m.velocity))
+    assert command.header.stamp.sec == 42
+    assert command.header.frame_id == 'base_link'
+    assert list(command.name) == [
+        'turret_0_steering', 'turret_1_steering', 'turret_0_wheel', 'turret_1_wheel',
+    ]  # fmt: skip
+    assert angles(command) == pytest.approx([pi / 2, -pi / 2])
+    assert rates(command) == pytest.approx([5.0, 5.0])
+
+
+def test_the_plain_arrays_for_ros2_control_say_the_same(tester, drive):
+    steering = tester.listen(Float64MultiArray, 'turrets/steering_commands')
+    wheels = tester.listen(Float64MultiArray, 'turrets/wheel_commands')
+    _, _, cmd_vel = drive(**FAST)
+    tester.graph.spin_for(0.4)  # the node looks for listeners ten times a second
+    cmd_vel.publish(twist(vy=1.0))
+    assert list(tester.wait(steering, lambda m: m.data[0] != 0.0).data) == [pi / 2] * 2
+    assert list(tester.wait(wheels, lambda m: m.data[0] != 0.0).data) == [10.0] * 2
+
+
+def test_too_fast_a_twist_is_scaled_as_a_whole(tester, drive):
+    _, commands, cmd_vel = drive(**PAIR)
+    cmd_vel.publish(twist(vx=1.0))
+    command = tester.wait(commands, lambda m: any(m.velocity))
+    assert rates(command) == pytest.approx([2.0 / 60.0 / 0.1] * 2)
+
+
+def test_an_unstamped_twist_serves_too(tester):
+    commands = tester.listen(JointState, 'turrets/command')
+    tester.start(WheelKinematics, stamped=False, **FAST)
+    message = Twist()
+    message.linear.x = 0.3
+    tester.publisher(Twist, 'cmd_vel').publish(message)
+    assert rates(tester.wait(commands, lambda m: any(m.velocity))) == pytest.approx([3.0] * 2)
+
+
+@pytest.mark.parametrize('bad', [nan, inf])
+def test_a_twist_that_is_not_finite_is_refused_and_the_node_lives(tester, drive, bad):
+    node, commands, cmd_vel = drive(**FAST)
+    cmd_vel.publish(twist(vx=bad))
+    tester.graph.spin_until(lambda: 'must be finite' in node.complaint)
+    assert not any(any(command.velocity) for command in commands)
+    cmd_vel.publish(twist(vx=0.3))
+    assert rates(tester.wait(commands, lambda m: any(m.velocity))) == pytest.approx([3.0] * 2)
+
+
+def test_silence_stops_the_wheels_and_holds_the_angles(tester, drive):
+    _, commands, cmd_vel = drive(report_after=0.2, stop_after=0.4, **FAST)
+    cmd_vel.publish(twist(vy=0.3))
+    tester.wait(commands, lambda m: any(m.velocity))
+    commands.clear()
+    stop = tester.wait(commands)
+    assert rates(stop) == [0.0, 0.0]
+    assert angles(stop) == [pi / 2] * 2
+
+
+def test_the_last_word_of_a_deactivated_node_is_zero(tester, drive):
+    node, commands, cmd_vel = drive(**FAST)
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: any(m.velocity))
+    node.trigger_deactivate()
+    tester.graph.spin_until(lambda: rates(commands[-1]) == [0.0, 0.0])
+    count = len(commands)
+    cmd_vel.publish(twist(vx=0.3))
+    tester.graph.spin_for(0.3)
+    assert len(commands) == count
+
+
+def test_the_stop_service_holds_until_released(tester, drive):
+    _, commands, cmd_vel = drive(**FAST)
+    assert tester.ask(SetBool, 'wheel_kinematics/stop', SetBool.Request(data=True)).success
+    commands.clear()
+    cmd_vel.publish(twist(vx=0.3))
+    assert rates(tester.wait(commands)) == [0.0, 0.0]
+    assert tester.ask(SetBool, 'wheel_kinematics/stop', SetBool.Request(data=False)).success
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: any(m.velocity))
+
+
+def state(angle, rate, stamp=0.0):
+    message = TurretJoints(2).message()
+    message.header.stamp.sec, message.header.stamp.nanosec = 100, int(stamp * 1e9)
+    TurretJoints(2).fill(message, angle, rate)
+    return message
+
+
+def test_turrets_that_fight_stop_the_platform(tester, drive):
+    """Hand calculation: 0.3 m/s apart in opposite directions leaves 0.3 m/s unexplained."""
+    node, commands, cmd_vel = drive(**FAST)
+    residual = tester.listen(Float64, 'turrets/residual', SENSOR)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([0.0, pi], [3.0, 3.0]))
+    assert tester.wait(residual).data == pytest.approx(0.3)
+    tester.graph.spin_until(lambda: 'stopped' in node.diagnose().message)
+    commands.clear()
+    cmd_vel.publish(twist(vx=0.3))
+    assert rates(tester.wait(commands)) == [0.0, 0.0]
+
+
+def test_odometry_follows_the_measured_wheels(tester, drive):
+    """Hand calculation: 0.5 m/s along y for 0.8 s."""
+    odometry = tester.listen(Odometry, 'odom', SENSOR)
+    drive(**FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    for stamp in (0.1, 0.9):
+        joint_states.publish(state([pi / 2, pi / 2], [5.0, 5.0], stamp))
+        tester.graph.spin_for(0.1)
+    last = tester.wait(odometry, lambda m: m.pose.pose.position.y > 0.0)
+    assert last.pose.pose.position.y == pytest.approx(0.4)
+    assert last.header.frame_id == 'odom'
+    assert last.child_frame_id == 'base_link'
+
+
+@pytest.mark.parametrize(
+    ('change', 'word'),
+    [
+        (lambda m: setattr(m, 'name', [*m.name[:3], 'nose']), 'turret_1_wheel is missing'),
+        (lambda m: setattr(m, 'velocity', [1.0]), '1 velocities for 4 joints'),
+        (lambda m: setattr(m, 'position', [0.0, nan, 0.0, 0.0]), 'must be finite'),
+    ],
+)
+def test_a_state_that_does_not_fit_is_refused(tester, drive, change, word):
+    node, _, _ = drive(**FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    message = state([0.0, 0.0], [1.0, 1.0])
+    change(message)
+    joint_states.publish(message)
+    tester.graph.spin_until(lambda: word in node.complaint)
+
+
+def test_an_impossible_platform_does_not_start(tester):
+    with pytest.raises(ConfigurationError, match='1 values in turret_x, 2 in turret_y'):
+        tester.start(WheelKinematics, turret_x=[0.5], turret_y=[0.0, 0.0])
+    with pytest.raises(StartError, match='configure failed'):
+        tester.start(WheelKinematics, turret_x=[0.5], turret_y=[0.0])
+
+
+@pytest.mark.parametrize('radius', [0.0, -0.1, 20.0, nan])
+def test_a_radius_out_of_range_is_refused(tester, radius):
+    with pytest.raises((InvalidParameterValueException, ConfigurationError)):
+        tester.start(WheelKinematics, wheel_radius=radius)
+
+
+def test_an_integer_for_a_number_is_refused(tester):
+    with pytest.raises(InvalidParameterTypeException):
+        tester.start(WheelKinematics, wheel_radius=1)
+
+
+def test_a_dynamic_parameter_is_validated_before_it_changes(tester):
+    node = tester.start(WheelKinematics, **PAIR)
+    (refused,) = node.set_parameters([rclpy.Parameter('residual_warning', value=0.5)])
+    assert not refused.successful
+    assert 'warn before stopping' in refused.reason
+    assert node.parameters.residual_warning == 0.005
+    (taken,) = node.set_parameters([rclpy.Parameter('residual_warning', value=0.01)])
+    assert taken.successful
+    assert node.parameters.residual_warning == 0.01
+
+
+def test_parameters_describe_themselves(tester):
+    descriptor = tester.start(WheelKinematics, **PAIR).describe_parameter('wheel_radius')
+    assert descriptor.description == 'rolling radius of all wheels [m]'
+    assert descriptor.read_only
+    assert descriptor.floating_point_range[0].from_value == 0.001
+
+
+def test_cleanup_closes_the_topics_and_the_node_starts_again(tester, drive):
+    node, commands, cmd_vel = drive(**FAST)
+    node.trigger_deactivate()
+    assert node.trigger_cleanup() is TransitionCallbackReturn.SUCCESS
+    tester.graph.spin_until(lambda: cmd_vel.get_subscription_count() == 0)
+    assert node.trigger_configure() is TransitionCallbackReturn.SUCCESS
+    assert node.trigger_activate() is TransitionCallbackReturn.SUCCESS
+    tester.graph.spin_until(lambda: cmd_vel.get_subscription_count() == 1)
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: any(m.velocity))
