@@ -1,0 +1,182 @@
+"""One MCAP file in the making: chunks with their index and CRC, and the summary at the end.
+
+A chunk goes to the operating system in one piece as soon as it is complete, so a process that is
+killed loses only the chunk it was filling.
+"""
+
+from __future__ import annotations
+
+import os
+from array import array
+from struct import error as StructError  # noqa: N812 - the module names it in lower case
+from typing import TYPE_CHECKING
+from zlib import crc32
+
+from agv_motion.bag import records
+from agv_motion.bag.compression import compressor
+from agv_motion.bag.quality_of_service import as_yaml
+from agv_motion.errors import SignalError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from agv_motion.bag.metadata import Topic
+
+_MESSAGE_BODY = records.MESSAGE_HEAD.size - records.PREFIX.size
+_MESSAGE_PREFIX = records.MESSAGE_HEAD.pack
+
+
+class McapWriter:
+    """Writes messages of several channels into one new file."""
+
+    def __init__(self, path: Path, compression: str, library: str = 'agv_motion') -> None:
+        """Create the file.
+
+        Args:
+            path: The file; it must not exist.
+            compression: Of the chunks: 'zstd', 'lz4' or ''.
+            library: Who writes.
+
+        """
+        self.path = path
+        self.start, self.end = 2**64 - 1, 0
+        self.counts: list[int] = []
+        """number of messages of each channel; the first one has the id 1"""
+        self.chunk_size = 0
+        """[bytes] of the chunk being filled, uncompressed"""
+        self.chunk_start = 0
+        """[ns] log time of the first message in it"""
+        self._compression, self._compress = compression, compressor(compression)
+        self._file = path.open('xb', buffering=0)
+        self._schemas: dict[str, records.Schema] = {}
+        self._channels: list[records.Channel] = []
+        self._chunks: list[records.ChunkIndex] = []
+        self._parts: list[bytes] = []
+        self._indexes: list[array[int]] = []
+        self.size = 0
+        """[bytes] in the file so far"""
+        self._put(records.MAGIC + records.header('ros2', library))
+
+    def add_channel(self, topic: Topic) -> int:
+        """Return the id of a new channel for ``topic``."""
+        if topic.type not in self._schemas:
+            number = len(self._schemas) + 1
+            definition = topic.definition.encode()
+            schema = records.Schema(number, topic.type, 'ros2msg', definition)
+            self._schemas[topic.type] = schema
+            self._put(records.schema(schema))
+        number = len(self._channels) + 1
+        notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
+        schema_id = self._schemas[topic.type].id
+        channel = records.Channel(number, schema_id, topic.name, 'cdr', notes)
+        self._channels.append(channel)
+        self._indexes.append(array('Q'))
+        self.counts.append(0)
+        self._put(records.channel(channel))
+        return number
+
+    def write(self, channel: int, stamp: int, data: bytes, publish: int, sequence: int) -> None:
+        """Append a message to the chunk being filled.
+
+        Raises:
+            SignalError: A number does not fit its field.
+
+        """
+        try:
+            self._parts.append(
+                _MESSAGE_PREFIX(
+                    records.MESSAGE, _MESSAGE_BODY + len(data), channel, sequence, stamp, publish
+                )
+            )
+        except StructError:
+            msg = (
+                f'log time {stamp}, publish time {publish}, sequence {sequence}: expected '
+                'nanoseconds in [0, 2^64) and a sequence in [0, 2^32)'
+            )
+            raise SignalError(msg) from None
+        self._parts.append(data)
+        index = self._indexes[channel - 1]
+        index.append(stamp)
+        index.append(self.chunk_size)
+        if not self.chunk_size:
+            self.chunk_start = stamp
+        self.chunk_size += records.MESSAGE_HEAD.size + len(data)
+
+    def flush(self) -> None:
+        """Hand the chunk being filled to the operating system, with its index."""
+        if not self.chunk_size:
+            return
+        chunk = b''.join(self._parts)
+        stored = self._compress(chunk)
+        filled = [(i, index) for i, index in enumerate(self._indexes, 1) if index]
+        start, end = min(min(i[::2]) for _, i in filled), max(max(i[::2]) for _, i in filled)
+        sizes = len(stored), len(chunk)
+        head = records.chunk_head((start, end), sizes, crc32(chunk), self._compression)
+        length, pieces, offsets = len(head) + len(stored), [head, stored], {}
+        position = self.size + length
+        for channel, index in filled:
+            offsets[channel] = position
+            pieces.append(records.message_index(channel, index.tobytes()))
+            position += len(pieces[-1])
+        where = self.size, length, offsets, position - self.size - length
+        self._put(b''.join(pieces))
+        self._chunks.append(records.ChunkIndex(start, end, *where, self._compression, *sizes))
+        self.start, self.end = min(self.start, start), max(self.end, end)
+        for channel, index in filled:
+            self.counts[channel - 1] += len(index) // 2
+            self._indexes[channel - 1] = array('Q')
+        self._parts, self.chunk_size = [], 0
+
+    def sync(self) -> None:
+        """Wait until the disk has what was flushed."""
+        os.fdatasync(self._file.fileno())
+
+    def close(self, notes: dict[str, str]) -> None:
+        """Write the last chunk, ``notes`` as metadata ``rosbag2`` and the summary; close."""
+        try:
+            self.flush()
+            noted = records.metadata('rosbag2', notes)
+            noted_at = self.size
+            self._put(noted + records.data_end())
+            self._put(self._summary(records.metadata_index(noted_at, len(noted), 'rosbag2')))
+            self.sync()
+        finally:
+            self._file.close()
+
+    def abandon(self) -> None:
+        """Close without a summary: what was flushed stays, and can be recovered."""
+        self._file.close()
+
+    def _summary(self, metadata_index: bytes) -> bytes:
+        """Return the summary, its offsets and the footer; ``size`` is where it begins."""
+        counts = {i: count for i, count in enumerate(self.counts, 1) if count}
+        start, end = (self.start, self.end) if counts else (0, 0)
+        numbers = (sum(self.counts), len(self._schemas), len(self._channels), 0, 1)
+        totals = records.Statistics(*numbers, len(self._chunks), start, end, counts)
+        groups = {
+            records.SCHEMA: b''.join(map(records.schema, self._schemas.values())),
+            records.CHANNEL: b''.join(map(records.channel, self._channels)),
+            records.STATISTICS: records.statistics(totals),
+            records.CHUNK_INDEX: b''.join(map(records.chunk_index, self._chunks)),
+            records.METADATA_INDEX: metadata_index,
+        }
+        offsets, position = [], self.size
+        for opcode, group in groups.items():
+            if group:
+                offsets.append(records.summary_offset(opcode, position, len(group)))
+            position += len(group)
+        foot = records.footer_head(self.size, position)
+        summary = b''.join((*groups.values(), *offsets, foot))
+        return summary + records.checksum(crc32(summary)) + records.MAGIC
+
+    def _put(self, data: bytes) -> None:
+        """Append bytes; a failure leaves the file as it was before."""
+        view = memoryview(data)
+        try:
+            while view:
+                view = view[self._file.write(view) :]
+        except OSError:
+            os.ftruncate(self._file.fileno(), self.size)
+            os.lseek(self._file.fileno(), self.size, os.SEEK_SET)
+            raise
+        self.size += len(data)

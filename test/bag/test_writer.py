@@ -1,0 +1,184 @@
+"""What the writer writes, others read: rosbags, mcap, and mcap's decoder of ROS messages."""
+
+from __future__ import annotations
+
+import zlib
+
+import pytest
+import yaml
+from rosbags.highlevel import AnyReader
+from rosbags.rosbag2 import Reader
+from rosbags.typesys import Stores, get_typestore
+
+from agv_motion.bag.writer import BagWriter, OfferedQos
+from agv_motion.errors import ConfigurationError, SignalError, SourceError
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+TWIST = 'geometry_msgs/msg/TwistStamped'
+TEXT = 'std_msgs/msg/String'
+SECOND = 1_000_000_000
+
+
+def twist(i):
+    types = STORE.types
+    vector = types['geometry_msgs/msg/Vector3']
+    header = types['std_msgs/msg/Header'](types['builtin_interfaces/msg/Time'](i, 7), 'base_link')
+    content = types['geometry_msgs/msg/Twist'](vector(i, 0.5, -1.0), vector(0.0, 0.0, i / 3))
+    return bytes(STORE.serialize_cdr(types[TWIST](header, content), TWIST))
+
+
+def text(i):
+    return bytes(STORE.serialize_cdr(STORE.types[TEXT](f'line {i}'), TEXT))
+
+
+def known(message_type):
+    """Return definition and hash from the types of rosbags, so that ROS need not be installed."""
+    definition, _ = STORE.generate_msgdef(message_type, ros_version=2)
+    return {'definition': definition, 'type_hash': STORE.hash_rihs01(message_type)}
+
+
+@pytest.fixture(params=['zstd', 'lz4', 'none'])
+def bag(request, tmp_path):
+    """Return a bag of 300 messages on two topics, in many small chunks."""
+    with BagWriter(tmp_path / 'bag', compression=request.param, chunk_size=2000) as writer:
+        twists = writer.add_topic('/cmd_vel', TWIST, **known(TWIST), qos=[OfferedQos(depth=1)])
+        texts = writer.add_topic(
+            '/state', TEXT, **known(TEXT), qos=[OfferedQos(durability='transient_local')]
+        )
+        writer.add_topic('/silent', TEXT, **known(TEXT))
+        for i in range(200):
+            writer.write(twists, i * SECOND, twist(i), publish=i * SECOND - min(i, 1))
+            if i % 2:
+                writer.write(texts, i * SECOND, text(i), sequence=i)
+    return tmp_path / 'bag'
+
+
+def test_rosbags_reads_every_message_back(bag):
+    with AnyReader([bag]) as reader:
+        read = [(c.topic, stamp, data) for c, stamp, data in reader.messages()]
+        counts = {c.topic: c.msgcount for c in reader.connections}
+    assert [(s, d) for t, s, d in read if t == '/cmd_vel'] == [
+        (i * SECOND, twist(i)) for i in range(200)
+    ]
+    assert [(s, d) for t, s, d in read if t == '/state'] == [
+        (i * SECOND, text(i)) for i in range(1, 200, 2)
+    ]
+    assert counts == {'/cmd_vel': 200, '/state': 100, '/silent': 0}
+
+
+def test_rosbags_finds_type_hash_quality_of_service_and_times(bag):
+    with Reader(bag) as reader:
+        by_topic = {c.topic: c for c in reader.connections}
+        assert by_topic['/cmd_vel'].digest == STORE.hash_rihs01(TWIST)
+        assert by_topic['/state'].ext.offered_qos_profiles[0].durability.name == 'TRANSIENT_LOCAL'
+        assert (reader.start_time, reader.duration) == (0, 199 * SECOND + 1)
+        assert reader.ros_distro == 'jazzy'
+
+
+def test_mcap_validates_the_crcs_and_finds_the_index(bag):
+    from mcap.reader import SeekingReader
+
+    with (bag / 'bag_0.mcap').open('rb') as stream:
+        reader = SeekingReader(stream, validate_crcs=True)
+        summary = reader.get_summary()
+        messages = list(reader.iter_messages())
+        record = next(reader.iter_metadata())
+    assert summary.statistics.message_count == len(messages) == 300
+    assert summary.statistics.chunk_count == len(summary.chunk_indexes) > 10
+    assert yaml.safe_load(record.metadata['serialized_metadata'])['message_count'] == 300
+    assert messages[3][2].publish_time == messages[3][2].log_time - 1
+
+
+def test_mcap_decodes_from_the_schemas_in_the_file(bag):
+    from mcap.reader import make_reader
+    from mcap_ros2.decoder import DecoderFactory
+
+    with (bag / 'bag_0.mcap').open('rb') as stream:
+        reader = make_reader(stream, decoder_factories=[DecoderFactory()])
+        decoded = [m[3] for m in reader.iter_decoded_messages(topics=['/cmd_vel'])]
+    assert [m.twist.angular.z for m in decoded] == [i / 3 for i in range(200)]
+    assert decoded[0].header.frame_id == 'base_link'
+
+
+def test_a_stream_reader_accepts_every_record_and_the_summary_crc(bag):
+    from mcap.records import Chunk, Footer
+    from mcap.stream_reader import StreamReader
+
+    data = (bag / 'bag_0.mcap').read_bytes()
+    with (bag / 'bag_0.mcap').open('rb') as stream:
+        found = list(StreamReader(stream, emit_chunks=True, validate_crcs=True).records)
+    footer = found[-1]
+    assert isinstance(footer, Footer)
+    assert zlib.crc32(data[footer.summary_start : -12]) == footer.summary_crc
+    assert all(record.uncompressed_crc for record in found if isinstance(record, Chunk))
+
+
+def test_a_chunk_is_written_when_its_messages_span_the_chunk_duration(tmp_path):
+    with BagWriter(tmp_path / 'bag', chunk_duration=1.0) as writer:
+        topic = writer.add_topic('/state', TEXT, **known(TEXT))
+        file = tmp_path / 'bag' / 'bag_0.mcap'
+        empty = file.stat().st_size
+        writer.write(topic, 5 * SECOND, text(0))
+        assert file.stat().st_size == empty
+        writer.write(topic, 6 * SECOND, text(1))
+        assert file.stat().st_size > empty
+
+
+def test_flush_writes_what_is_there(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/state', TEXT, **known(TEXT))
+        file = tmp_path / 'bag' / 'bag_0.mcap'
+        empty = file.stat().st_size
+        writer.write(topic, 0, text(0))
+        writer.flush()
+        assert file.stat().st_size > empty
+
+
+def test_a_bag_without_messages_is_a_bag(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic('/state', TEXT, **known(TEXT))
+    with Reader(tmp_path / 'bag') as reader:
+        assert (reader.message_count, reader.duration) == (0, 0)
+
+
+def test_what_was_written_before_an_error_is_kept(tmp_path):
+    def fail():
+        with BagWriter(tmp_path / 'bag') as writer:
+            writer.write(writer.add_topic('/state', TEXT, **known(TEXT)), 0, text(0))
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()
+    with Reader(tmp_path / 'bag') as reader:
+        assert reader.message_count == 1
+
+
+def test_an_existing_folder_is_refused(tmp_path):
+    with pytest.raises(SourceError, match='choose a new folder'):
+        BagWriter(tmp_path)
+
+
+def test_a_second_topic_of_the_same_name_is_refused(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic('/state', TEXT, **known(TEXT))
+        with pytest.raises(ConfigurationError, match='/state'):
+            writer.add_topic('/state', TEXT, **known(TEXT))
+
+
+@pytest.mark.parametrize('stamp', [-1, 2**64])
+def test_a_stamp_that_fits_no_field_is_refused_and_the_bag_goes_on(tmp_path, stamp):
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/state', TEXT, **known(TEXT))
+        with pytest.raises(SignalError, match='2\\^64'):
+            writer.write(topic, stamp, text(0))
+        writer.write(topic, 1, text(1))
+    with Reader(tmp_path / 'bag') as reader:
+        assert [data for _, _, data in reader.messages()] == [text(1)]
+
+
+@pytest.mark.parametrize(
+    'options', [{'compression': 'gzip'}, {'chunk_size': 0}, {'chunk_duration': float('nan')}]
+)
+def test_an_option_out_of_range_is_refused(tmp_path, options):
+    with pytest.raises(ConfigurationError):
+        BagWriter(tmp_path / 'bag', **options)
