@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from pathlib import Path
 
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 100)
@@ -58,3 +59,17 @@ def graph():
     for node in graph.nodes:
         node.destroy_node()
     rclpy.shutdown(context=context)
+
+
+SPRUCE = 'granier_spruce_2012_2014.csv'
+
+
+@pytest.fixture(scope='session')
+def spruce():
+    """Return the path of the real recording, where it is beside the repository."""
+    root = Path(__file__).resolve().parents[1]
+    for folder in (os.environ.get('AGV_MOTION_DATA'), root.parent / 'shared' / 'data'):
+        if folder and (Path(folder) / SPRUCE).exists():
+            return Path(folder) / SPRUCE
+    pytest.skip(f'{SPRUCE} is not here: set AGV_MOTION_DATA to its folder')
+    return None
