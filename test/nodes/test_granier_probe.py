@@ -1,0 +1,142 @@
+"""Node `granier_probe` over a real graph: sources, validity, what is learnt."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import Vector3Stamped
+from rclpy.exceptions import InvalidParameterValueException
+from sensor_msgs.msg import Illuminance, Temperature
+from std_msgs.msg import Bool
+from std_srvs.srv import Trigger
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.run import StartError
+
+QUICK = {'rate': 20.0, 'simulated__period': 0.1}
+
+
+def test_three_probes_become_one_sap_flow(tester):
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    raw = tester.listen(Temperature, 'granier/probe_2/temperature_difference', SENSOR)
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    tester.start(GranierProbe, **QUICK)
+    vector = tester.wait(flows).vector
+    assert all(0.0 <= s <= 1.0 for s in (vector.x, vector.y, vector.z))
+    assert 15.0 < tester.wait(raw).temperature < 25.0
+    assert tester.wait(valid).data
+    assert flows[0].header.stamp.sec > 0
+
+
+def test_without_history_it_says_why_it_rests(tester):
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    node = tester.start(GranierProbe, warm_up_days=0.0, **QUICK)
+    assert not tester.wait(valid).data
+    assert 'probe_1 is learning' in node.diagnose().message
+
+
+def table(tmp_path, rows):
+    path = tmp_path / 'probes.csv'
+    path.write_text('time,probe_1,probe_2,probe_3\n' + rows)
+    return str(path)
+
+
+def clear_week(tmp_path, extra=''):
+    """Readings every 15 min for three days, then ``extra``."""
+    rows = ''.join(
+        f'{900 * k},{v},{v},{v}\n'
+        for k in range(288)
+        for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
+    )
+    return table(tmp_path, rows + extra)
+
+
+def test_a_recording_plays_with_its_past_learnt(tester, tmp_path):
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    file = clear_week(tmp_path)
+    start = '1970-01-03T13:00:00'
+    tester.start(GranierProbe, source='csv', rate=20.0, csv__file=file, csv__start=start)
+    assert tester.wait(flows).vector.x > 0.5
+
+
+def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    file = clear_week(tmp_path, '259200,0.8,0.001,0.8\n')
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=file, csv__speed=3600.0,
+        csv__start='1970-01-03T23:00:00',
+    )  # fmt: skip
+    assert tester.wait(valid, lambda m: m.data)
+    tester.wait(valid, lambda m: not m.data)
+    assert 'probe_2 is off' in node.diagnose().message
+
+
+def test_a_gap_ends_the_sap_flow(tester, tmp_path):
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    file = clear_week(tmp_path, '864000,0.8,0.8,0.8\n')
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=file, csv__speed=9000.0,
+        csv__start='1970-01-03T23:00:00',
+    )  # fmt: skip
+    tester.wait(valid, lambda m: m.data)
+    tester.wait(valid, lambda m: not m.data)
+    assert 'no reading for' in node.diagnose().message
+
+
+def test_recalibration_is_a_service(tester):
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    tester.start(GranierProbe, **QUICK)
+    tester.wait(flows)
+    answer = tester.ask(Trigger, 'granier_probe/recalibrate', Trigger.Request())
+    assert answer.success
+    assert 'zero flow is now' in answer.message
+
+
+def test_what_was_learnt_survives_a_restart(tester, tmp_path):
+    path = tmp_path / 'state.json'
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    first = tester.start(GranierProbe, state_file=str(path), **QUICK)
+    tester.wait(flows)
+    first.trigger_shutdown()
+    assert len(json.loads(path.read_text())['probes']) == 3
+    flows.clear()
+    tester.start(GranierProbe, state_file=str(path), warm_up_days=0.0, **QUICK)
+    tester.wait(flows)
+
+
+def test_shade_reaches_the_simulated_tree(tester):
+    node = tester.start(GranierProbe, **QUICK)
+    light = tester.publisher(Illuminance, 'sunlight', SENSOR)
+    message = Illuminance(illuminance=20_000.0)
+    message.header.stamp.sec = 1434369600  # 15 June 2015, noon
+    light.publish(message)
+    tester.graph.spin_until(lambda: node._source._light < 0.3)  # noqa: SLF001 - it shows nowhere else so soon
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'error', 'word'),
+    [
+        ({'source': 'crystal_ball'}, ConfigurationError, 'simulated, csv, serial'),
+        ({'assign': ['probe_1', 'probe_2', 'probe_9']}, ConfigurationError, 'probe_9'),
+        ({'probe__low_quantile': 0.99}, ConfigurationError, 'not below'),
+        ({'rate': -1.0}, InvalidParameterValueException, 'rate'),
+        ({'csv__day_offsets': [1.0]}, ConfigurationError, '3 columns and 1 day_offsets'),
+    ],
+)
+def test_parameters_that_make_no_sense_are_refused(tester, parameters, error, word):
+    with pytest.raises(error, match=word):
+        tester.start(GranierProbe, **parameters)
+
+
+def test_a_missing_column_stops_the_start_and_names_those_there_are(tester, tmp_path, capfd):
+    path = tmp_path / 'other.csv'
+    path.write_text('time,voltage\n0,1\n')
+    with pytest.raises(StartError):
+        tester.start(GranierProbe, source='csv', csv__file=str(path))
+    assert "no column 'probe_1': it has time, voltage" in capfd.readouterr().err

@@ -1,0 +1,102 @@
+"""The whole tree as real nodes: the spruce's June moves it by day and lets it rest by night."""
+
+from __future__ import annotations
+
+from math import hypot, isfinite
+
+import numpy as np
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import TwistStamped
+from sensor_msgs.msg import JointState
+
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.nodes.simulator import Simulator
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.probe.sources.csv_file import parse_time
+from agv_motion.ros.messages import seconds_of
+from agv_motion.ros.qos import COMMAND
+from agv_motion.ros.run import overrides, spin, start
+
+FACTOR = 60.0
+
+
+class Walk:
+    """What was commanded during a stretch of the recording, against the time of the recording."""
+
+    def __init__(self, recording, begin, days, seconds, offsets=(0.0, 365.0, 730.0)):
+        self.begin = parse_time(begin)
+        speed = days * 86400.0 / (seconds * FACTOR)
+        self.twists, self.rates = [], []
+        context = rclpy.Context()
+        rclpy.init(context=context)
+        common = {'context': context, 'parameter_overrides': overrides(use_sim_time=True)}
+        probes = overrides(
+            use_sim_time=True, source='csv', csv__file=str(recording), csv__start=begin,
+            csv__speed=speed, csv__columns=['delta_v_mv'] * 3, csv__day_offsets=list(offsets),
+            probe__solar_offset=0.5,
+        )  # fmt: skip
+        nodes = [
+            GranierProbe(context=context, parameter_overrides=probes),
+            MotionGenerator(**common, cli_args=['--ros-args', '-r', 'pose:=fix']),
+            WheelKinematics(**common),
+            Simulator(context=context, parameter_overrides=overrides(time_factor=FACTOR)),
+        ]
+        watcher = rclpy.lifecycle.LifecycleNode('watcher', context=context)
+        watcher.create_subscription(TwistStamped, 'cmd_vel', self.twists.append, COMMAND)
+        watcher.create_subscription(JointState, 'turrets/command', self.rates.append, COMMAND)
+        for node in nodes:
+            start(node)
+        simulator, steps = nodes[-1], int(seconds * FACTOR * 10)
+        spin([*nodes, watcher], lambda: simulator.steps >= steps, context=context)
+        self.speed = speed
+        rclpy.shutdown(context=context)
+
+    def moving_by_hour(self):
+        """Return local hours of the recording, and whether the tree moved then."""
+        stamps = np.array([seconds_of(m.header.stamp) for m in self.twists])
+        hours = (self.begin + (stamps - stamps[0]) * self.speed) / 3600.0 + 0.5
+        return hours, np.array([not resting(m.twist) for m in self.twists])
+
+
+def resting(twist):
+    return hypot(twist.linear.x, twist.linear.y) == 0.0 == twist.angular.z
+
+
+@pytest.mark.parametrize(
+    ('begin', 'offsets'),
+    [
+        ('2013-06-10T00:00:00', (0.0, 1.0, 2.0)),  # one June, shifted by a day and by two
+        ('2012-07-09T00:00:00', (0.0, 365.0, 730.0)),  # the same week of three years
+    ],
+)
+def test_it_moves_by_day_and_rests_by_night(spruce, begin, offsets):
+    walk = Walk(spruce, begin, days=7.0, seconds=12.0, offsets=offsets)
+    hours, moving = walk.moving_by_hour()
+    night, day = (hours % 24 < 5.0), (hours % 24 > 11.0) & (hours % 24 < 17.0)
+    assert moving[day].mean() > 0.8
+    assert moving[night].mean() < 0.05
+    rates = np.array([message.velocity for message in walk.rates])
+    assert np.isfinite(rates).all()
+    assert np.abs(rates).max() <= 2.0 / 60.0 / 0.1 * (1 + 1e-12)
+    assert all(isfinite(angle) for message in walk.rates for angle in message.position)
+    assert not any(walk.rates[-1].velocity)
+
+
+def test_the_end_of_the_heating_ends_in_rest(spruce):
+    """The first probe goes off in the middle of May 2012."""
+    walk = Walk(spruce, '2012-05-13T00:00:00', days=6.0, seconds=8.0, offsets=(0.0, 0.0, 0.0))
+    hours, moving = walk.moving_by_hour()
+    off = hours > walk.begin / 3600.0 + 4 * 24.0
+    assert moving[~off].any()
+    assert not moving[off].any()
+
+
+def test_a_gap_in_one_of_three_years_ends_in_rest(spruce):
+    """June 2014, the third probe, is silent from the 18th on; that of 2012 begins on the 14th."""
+    walk = Walk(spruce, '2012-06-14T00:00:00', days=7.0, seconds=8.0)
+    hours, moving = walk.moving_by_hour()
+    assert not moving[hours > walk.begin / 3600.0 + 4.7 * 24.0].any()
