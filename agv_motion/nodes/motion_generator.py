@@ -20,8 +20,10 @@ from agv_motion.motion.generator import (
 )
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, to_twist
 from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.zone_file import load_zone
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose
+from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -51,6 +53,9 @@ class MotionGeneratorParameters:
     map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
     base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    zone_file: Annotated[
+        str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
+    ] = ''
     rest: RestParameters = field(default_factory=RestParameters)
 
     def __post_init__(self) -> None:
@@ -77,7 +82,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._generator = generator.MotionGenerator(given.rest)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
-        self._goal: tuple[float, float] | None = (given.goal[0], given.goal[1])
+        self._zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
+        self._goal = self._reachable(given.goal[0], given.goal[1])
         self._valid = True
         self._paused = False
         self._told = ''
@@ -134,9 +140,15 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _on_goal(self, message: PoseStamped) -> None:
         self._require_map(message.header.frame_id)
         goal = pose_of(message.pose)
-        self._goal = goal.x, goal.y
+        self._goal = self._reachable(goal.x, goal.y)
         self.get_logger().info(f'new goal ({goal.x:.2f}, {goal.y:.2f})')
         self._publish_goal()
+
+    def _reachable(self, x: float, y: float) -> tuple[float, float]:
+        if self._zone is not None and not self._zone.walkable(x, y):
+            msg = f'goal ({x:.2f}, {y:.2f}) {self._zone.why_not(x, y)}: choose another'
+            raise ConfigurationError(msg)
+        return x, y
 
     def _require_map(self, frame: str) -> None:
         if frame not in {'', self.parameters.map_frame}:
@@ -172,6 +184,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             return Motion(STILL, 'resting: a probe cannot be believed')
         if self._lost or self._sap_flow is None or self._pose is None:
             return Motion(STILL, f'resting: no {self._lost or "input"}')
+        if self._zone is not None and not self._zone.contains(self._pose.x, self._pose.y):
+            x, y = self._pose.x, self._pose.y
+            return Motion(STILL, f'stopped: the tree {self._zone.why_not(x, y)}')
         return self._generator.decide(self._sap_flow, self._pose, self._goal)
 
     def _publish(self, motion: Motion) -> None:
@@ -190,12 +205,11 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._state.publish(String(data=motion.reason))
 
     def _publish_goal(self) -> None:
-        if self._goal is not None:
-            message = PoseStamped()
-            message.header.stamp = self.get_clock().now().to_msg()
-            message.header.frame_id = self.parameters.map_frame
-            fill_pose(message.pose, Pose(*self._goal, 0.0))
-            self._goal_publisher.publish(message)
+        message = PoseStamped()
+        message.header.stamp = self.get_clock().now().to_msg()
+        message.header.frame_id = self.parameters.map_frame
+        fill_pose(message.pose, Pose(*self._goal, 0.0))
+        self._goal_publisher.publish(message)
 
 
 def main() -> None:

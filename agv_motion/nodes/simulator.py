@@ -41,7 +41,7 @@ class SimulatorParameters(PlatformParameters):
             'simulated seconds per second; less where the machine is too slow', '1', (0.01, 1000.0)
         ),
     ] = 1.0
-    start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T08:00:00'
+    start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00:00'
     seed: Annotated[int, Spec('of all noise', '1', (0, 2**31))] = 1
     start_x: Annotated[float, Spec('where the platform starts', 'm', (-1e4, 1e4))] = 10.0
     start_y: Annotated[float, Spec('where the platform starts', 'm', (-1e4, 1e4))] = 7.5
@@ -118,9 +118,14 @@ class Simulator(ManagedNode[SimulatorParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell the simulated time."""
-        time = datetime.fromtimestamp(self._time, timezone.utc).isoformat(timespec='seconds')
+        time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
         level, word = (WARN, 'paused') if self._paused else (OK, 'running')
         return Diagnosis(level, word, {'simulated time': time})
+
+    @property
+    def elapsed(self) -> float:
+        """Simulated time since the start [s]."""
+        return self.time - self._start
 
     def _reset(self) -> None:
         given = self.parameters
@@ -129,7 +134,7 @@ class Simulator(ManagedNode[SimulatorParameters]):
         self._fix_sensor = FixSensor(given.fixes, given.seed)
         self._wanted = list(self._platform.angles), list(self._platform.speeds)
         self._start, self.steps = given.start(), 0
-        self._time = self._start
+        self.time = self._start
 
     def _on_command(self, message: JointState) -> None:
         angles, rates = self._joints.read(message)
@@ -150,8 +155,8 @@ class Simulator(ManagedNode[SimulatorParameters]):
         given = self.parameters
         self._platform.step(*self._wanted, 1.0 / given.rate)
         self.steps += 1
-        self._time = self._start + self.steps / given.rate
-        stamp = stamp_of(self._time)
+        self.time = self._start + self.steps / given.rate
+        stamp = stamp_of(self.time)
         self._clock_publisher.publish(ClockMessage(clock=stamp))
         self._publish_state(stamp)
         self._publish_truth(stamp)
@@ -182,7 +187,7 @@ class Simulator(ManagedNode[SimulatorParameters]):
 
     def _publish_sunlight(self, stamp: Any) -> None:
         given, pose = self.parameters, self._platform.pose
-        direction = sun(self._time, given.latitude, given.longitude)
+        direction = sun(self.time, given.latitude, given.longitude)
         message = Illuminance()
         message.header.stamp, message.header.frame_id = stamp, 'base_link'
         message.illuminance = LUX_PER_WATT * irradiance(pose.x, pose.y, direction, self._obstacles)

@@ -38,9 +38,10 @@ def test_every_sap_flow_gives_a_command_in_its_domain(flow, pose, target):
 def test_rest_has_hysteresis():
     generator = MotionGenerator(RestParameters(rest_below=0.1, wake_above=0.3))
     pose, goal = Pose(0.0, 0.0, 0.0), (5.0, 0.0)
-    states = []
-    for s in (0.2, 0.31, 0.2, 0.11, 0.09, 0.2, 0.29, 0.3):
-        states.append(generator.decide(SapFlow(s, s, s), pose, goal).command is STILL)
+    states = [
+        generator.decide(SapFlow(s, s, s), pose, goal).command is STILL
+        for s in (0.2, 0.31, 0.2, 0.11, 0.09, 0.2, 0.29, 0.3)
+    ]
     assert states == [True, False, False, False, True, True, True, False]
 
 

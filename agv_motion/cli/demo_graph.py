@@ -1,0 +1,160 @@
+"""The graph of the demo: the four nodes of the tree and a recorder, on one executor."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import rclpy
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from nav_msgs.msg import Odometry
+from rclpy.signals import SignalHandlerOptions
+from rich.live import Live
+from sensor_msgs.msg import Illuminance, JointState, Temperature
+from std_msgs.msg import Bool, Float64, String
+
+from agv_motion.cli.demo_recorder import DemoRecorder, Topic
+from agv_motion.cli.demo_report import Outcome, draw, read_run, summary
+from agv_motion.cli.demo_view import DemoView
+from agv_motion.motion.zone_file import load_zone
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.nodes.simulator import Simulator
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.config import find_config
+from agv_motion.ros.run import Stop, overrides, spin, start
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+    from rich.console import Console
+
+    from agv_motion.ros.node import ManagedNode
+
+REFRESH = 0.25
+"""[s] between two pictures of the live view"""
+
+TOPICS = [
+    *(Topic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
+    Topic('granier/sap_flow', Vector3Stamped),
+    Topic('granier/valid', Bool, latched=True),
+    Topic('cmd_vel', TwistStamped),
+    Topic('goal', PoseStamped, latched=True),
+    Topic('state', String, latched=True),
+    Topic('turrets/command', JointState),
+    Topic('turrets/state', JointState),
+    Topic('turrets/residual', Float64),
+    Topic('odom', Odometry),
+    Topic('ground_truth', Odometry),
+    Topic('fix', PoseWithCovarianceStamped),
+    Topic('sunlight', Illuminance),
+    Topic('/diagnostics', DiagnosticArray),
+]
+
+
+class DemoGraph:
+    """Builds the graph, runs it, and reports."""
+
+    def __init__(
+        self, probes: dict[str, Any], zone: str, seed: int, time_factor: float, bag: Path
+    ) -> None:
+        """Create and start all nodes with the values of ``config/tree.yaml``.
+
+        Args:
+            probes: Parameters of `granier_probe` beside those.
+            zone: Zone file; empty for that of the configuration.
+            seed: Of all noise.
+            time_factor: Simulated seconds per second.
+            bag: Folder of the new bag.
+
+        """
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        self._stop = Stop()
+        self._bag = bag
+        common: dict[str, Any] = {'use_sim_time': True}
+        goal: dict[str, Any] = {'zone_file': zone} if zone else {}
+        self._zone = load_zone(find_config(zone or 'zone_outdoor.yaml'))
+        if zone:
+            x, y = self._zone.parts[0].representative_point().coords[0]
+            goal['goal'] = [x, y]
+        probe = GranierProbe(**_configured('granier_probe', common | probes))
+        motion = MotionGenerator(
+            **_configured('motion_generator', common | goal),
+            cli_args=['--ros-args', '-r', 'pose:=fix'],
+        )
+        wheels = WheelKinematics(**_configured('wheel_kinematics', common))
+        start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))
+        self._simulator = Simulator(
+            **_configured('simulator', {'time_factor': time_factor, 'seed': seed, **start_at})
+        )
+        self._nodes: list[ManagedNode[Any]] = [probe, motion, wheels, self._simulator]
+        self._wheels = wheels.parameters
+        for node in self._nodes:
+            start(node)
+        simulator = self._simulator
+        self._recorder = DemoRecorder(bag, TOPICS, lambda: simulator.time)
+
+    def run(self, seconds: float, console: Console, *, live: bool) -> None:
+        """Let ``seconds`` of simulated time pass, or until Ctrl-C."""
+        self._begun = time.perf_counter()
+        view = DemoView(self._recorder, self._zone, self._simulator.parameters)
+        next_picture = 0.0
+        with Live(console=console, auto_refresh=False, transient=True) as screen:
+
+            def finished() -> bool:
+                nonlocal next_picture
+                now = time.perf_counter()
+                if live and console.is_terminal and now >= next_picture:
+                    next_picture = now + REFRESH
+                    screen.update(view.draw(self._simulator.time, self._factor()), refresh=True)
+                return self._stop.requested or self._simulator.elapsed >= seconds
+
+            spin([self._recorder, *self._nodes], finished)
+        self._outcome = Outcome(
+            self._simulator.elapsed, self._factor(), self._latencies(), self._recorder.counts
+        )
+        self._recorder.close()
+        rclpy.try_shutdown()
+
+    def report(self, console: Console, output: Path) -> None:
+        """Print the summary, and draw the figure beside the bag."""
+        limit = self._wheels.max_wheel_speed
+        run = read_run(self._bag, self._wheels.wheel_radius)
+        console.print(summary(run, self._outcome, self._zone, limit))
+        draw(run, self._zone, limit, output / 'walk.png')
+        console.print(f'\nBag: {self._bag}\nFigure: {output / "walk.png"}')
+
+    def _factor(self) -> float:
+        return self._simulator.elapsed / max(time.perf_counter() - self._begun, 1e-9)
+
+    def _latencies(self) -> NDArray[np.float64]:
+        """Return the times from a sap flow to the turret command that follows it [s]."""
+        flows, commands = (
+            np.array(self._recorder.arrivals[topic], dtype=float)
+            for topic in ('granier/sap_flow', 'turrets/command')
+        )
+        after = np.searchsorted(commands, flows)
+        known = after < len(commands)
+        latencies: NDArray[np.float64] = (commands[after[known]] - flows[known]) * 1e-9
+        return latencies
+
+
+def _configured(node: str, changes: dict[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a node: the values of the shipped configuration, then changes."""
+    content = yaml.safe_load(find_config('tree.yaml').read_text(encoding='utf-8'))
+    values = _flat(content[f'/**/{node}']['ros__parameters'])
+    return {'parameter_overrides': overrides(**(values | changes))}
+
+
+def _flat(values: dict[str, Any], prefix: str = '') -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in values.items():
+        if isinstance(value, dict):
+            flat |= _flat(value, f'{prefix}{name}__')
+        else:
+            flat[prefix + name] = value
+    return flat

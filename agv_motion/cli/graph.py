@@ -1,0 +1,142 @@
+"""Join the ROS graph for a moment: look, listen, send. Imports rclpy only when it is used."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import os
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+DISCOVERY = 0.5
+"""[s] How long to listen to the graph before telling what is there, as `ros2` does."""
+
+
+def forever() -> bool:
+    """Never end; the default of :func:`spin`."""
+    return False
+
+
+@contextmanager
+def joined(
+    spin_time: float = DISCOVERY, *, use_sim_time: bool = False, name: str = ''
+) -> Iterator[Any]:
+    """Yield a hidden node that has listened to the graph for ``spin_time`` [s]."""
+    import rclpy
+    from rclpy.parameter import Parameter
+
+    rclpy.init()
+    node = rclpy.create_node(
+        name or f'_agv_{os.getpid()}',
+        start_parameter_services=False,
+        parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
+    )
+    try:
+        end = time.monotonic() + spin_time
+        spin(node, lambda: time.monotonic() > end)
+        yield node
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def spin(node: Any, until: Callable[[], bool] = forever) -> None:
+    """Spin ``node`` until ``until()`` or the end of the context."""
+    import rclpy
+    from rclpy.executors import ExternalShutdownException
+
+    try:
+        while rclpy.ok() and not until():
+            rclpy.spin_once(node, timeout_sec=0.05)
+    except ExternalShutdownException:
+        return
+
+
+def topics(node: Any, *, hidden: bool = False) -> dict[str, list[str]]:
+    """Return the types of each topic, by name, in order."""
+    from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+
+    found = node.get_topic_names_and_types()
+    return {name: types for name, types in found if hidden or not topic_or_service_is_hidden(name)}
+
+
+def interface_class(name: str, kind: str = 'msg') -> Any:
+    """Return the class of ``package/Name`` or ``package/msg/Name``.
+
+    Raises:
+        ConfigurationError: It is not installed; close names are given.
+
+    """
+    package, _, short = name.partition('/')
+    short = short.rpartition('/')[2]
+    try:
+        module = importlib.import_module(f'{package}.{kind}')
+    except (ModuleNotFoundError, ValueError) as error:
+        msg = f"the passed type '{name}' is invalid: package '{package}' has no {kind}"
+        raise ConfigurationError(msg) from error
+    if not hasattr(module, short) or not short:
+        msg = f"the passed type '{name}' is invalid{meant(short, dir(module))}"
+        raise ConfigurationError(msg)
+    return getattr(module, short)
+
+
+def full_name(node: Any, topic: str) -> str:
+    """Return ``topic`` with its namespace."""
+    from rclpy.expand_topic_name import expand_topic_name
+
+    try:
+        return str(expand_topic_name(topic, node.get_name(), node.get_namespace()))
+    except ValueError as error:
+        raise ConfigurationError(str(error)) from error
+
+
+def topic_class(node: Any, topic: str, *, wait: bool = False) -> Any:
+    """Return the message class of a topic on the graph.
+
+    Raises:
+        ConfigurationError: The topic is not there (and ``wait`` is false), or has two types.
+
+    """
+    name, warned = full_name(node, topic), False
+    while name not in topics(node, hidden=True):
+        print(f'WARNING: topic [{topic}] does not appear to be published yet')  # noqa: T201
+        if not wait or warned:
+            msg = f'Could not determine the type for the passed topic{_near(node, name)}'
+            raise ConfigurationError(msg)
+        warned = True
+        spin(node, lambda: name in topics(node, hidden=True))
+    types = topics(node, hidden=True)[name]
+    if len(types) > 1:
+        msg = f"topic '{topic}' has more than one type: [{', '.join(types)}]; name one"
+        raise ConfigurationError(msg)
+    return interface_class(types[0])
+
+
+def require_topic(node: Any, topic: str) -> list[str]:
+    """Return the types of a topic that must be there.
+
+    Raises:
+        ConfigurationError: It is not.
+
+    """
+    types = topics(node, hidden=True).get(full_name(node, topic))
+    if types is None:
+        msg = f"Unknown topic '{topic}'{_near(node, topic)}"
+        raise ConfigurationError(msg)
+    return types
+
+
+def _near(node: Any, name: str) -> str:
+    return meant(name, list(topics(node, hidden=True)))
+
+
+def meant(name: str, choices: list[str]) -> str:
+    """Return a question for what may have been meant, or nothing."""
+    close = difflib.get_close_matches(name, choices, n=1)
+    return f"; did you mean '{close[0]}'?" if close else ''

@@ -1,0 +1,45 @@
+"""The `agv` command: everything that a person types."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from agv_motion.cli import demo, doctor, nodes, topic
+from agv_motion.errors import AgvMotionError
+
+app = typer.Typer(
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode='rich',
+    context_settings={'help_option_names': ['-h', '--help']},
+    help='Motion of slow, sensor-driven robots on ROS 2. Start with [b]agv demo[/b]; when '
+    'something does not work, with [b]agv doctor[/b].',
+)
+app.add_typer(topic.app, name='topic')
+app.add_typer(nodes.app, name='nodes')
+app.command(
+    context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
+)(nodes.run)
+app.command()(demo.demo)
+app.command()(doctor.doctor)
+
+
+def main() -> None:
+    """Run the command; errors are told in one line, and a closed pipe is no error."""
+    try:
+        app(standalone_mode=True)
+    except AgvMotionError as error:
+        typer.echo(f'error: {error}', err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit(0)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,163 @@
+"""Where the tree may go: a polygon with holes, a margin, and areas where it must not turn."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+import shapely
+from shapely import Polygon
+
+from agv_motion.errors import GeometryError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    Ring = Sequence[Sequence[float]]
+
+MARGIN = 0.5
+"""[m] The centre of the platform keeps this distance from every edge, as the ancestor's did."""
+
+
+class Zone:
+    """One zone; immutable."""
+
+    def __init__(
+        self,
+        boundary: Ring,
+        holes: Sequence[Ring] = (),
+        translation_only: Sequence[Ring] = (),
+        margin: float = MARGIN,
+        home: Sequence[float] | None = None,
+    ) -> None:
+        """Check the geometry and take the margin off.
+
+        Args:
+            boundary: (n, 2) outer edge in the map [m].
+            holes: Edges of what stands within: a bench, a pond.
+            translation_only: Edges of delicate floor, where turning is not allowed.
+            margin: Distance that the centre of the platform keeps from every edge [m].
+            home: Where the tree is parked, x and y in the map [m]; None: anywhere.
+
+        Raises:
+            GeometryError: An edge is no polygon, a hole lies outside or overlaps another, an area
+                touches nothing, the margin leaves nothing, or home is not reachable ground.
+
+        """
+        if not (isfinite(margin) and margin >= 0.0):
+            msg = f'margin = {margin} m: must be zero or more'
+            raise GeometryError(msg)
+        self.margin = margin
+        outer = _polygon('boundary', boundary)
+        self.holes = [_polygon(f'hole {i + 1}', hole) for i, hole in enumerate(holes)]
+        self._check_holes(outer)
+        self.floor: Polygon = outer.difference(shapely.union_all(self.holes))
+        self.translation_only = [
+            _polygon(f'translation-only area {i + 1}', area)
+            for i, area in enumerate(translation_only)
+        ]
+        for i, area in enumerate(self.translation_only):
+            if not area.intersects(self.floor):
+                msg = f'translation-only area {i + 1} touches no floor: check its coordinates'
+                raise GeometryError(msg)
+        self.parts = self._take_off(margin)
+        self._walkable = shapely.union_all(self.parts)
+        self._delicate = shapely.union_all(self.translation_only)
+        for geometry in (self._walkable, self._delicate, self.floor):
+            shapely.prepare(geometry)
+        self.home = None if home is None else (float(home[0]), float(home[1]))
+        if self.home is not None and not self.walkable(*self.home):
+            msg = f'home {self.home}: {self.why_not(*self.home)}; move it onto free floor'
+            raise GeometryError(msg)
+
+    def _check_holes(self, outer: Polygon) -> None:
+        for i, hole in enumerate(self.holes):
+            if not outer.intersects(hole):
+                msg = f'hole {i + 1} lies outside the boundary: remove it or move it in'
+                raise GeometryError(msg)
+            for k, other in enumerate(self.holes[:i]):
+                if hole.intersection(other).area > 0.0:
+                    msg = f'holes {k + 1} and {i + 1} overlap: draw them as one'
+                    raise GeometryError(msg)
+
+    def _take_off(self, margin: float) -> list[Polygon]:
+        """Return the parts of the floor that remain within the margin, the largest first."""
+        if self.floor.is_empty:
+            msg = 'the holes cover the whole zone: nothing is left to walk on'
+            raise GeometryError(msg)
+        inset = self.floor.buffer(-margin, quad_segs=4)
+        parts = [p for p in shapely.get_parts(inset) if isinstance(p, Polygon) and not p.is_empty]
+        if not parts:
+            msg = f'margin = {margin} m leaves nothing of the zone: widen it or take less margin'
+            raise GeometryError(msg)
+        return sorted(parts, key=lambda part: -part.area)
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest x and y, largest x and y of the floor [m]."""
+        west, south, east, north = self.floor.bounds
+        return west, south, east, north
+
+    @property
+    def area(self) -> float:
+        """Of the floor [m2], holes taken off."""
+        return float(self.floor.area)
+
+    def contains(self, x: float, y: float) -> bool:
+        """Return whether (x, y) lies on the floor, edges included."""
+        return bool(shapely.intersects_xy(self.floor, x, y))
+
+    def walkable(self, x: float, y: float) -> bool:
+        """Return whether the centre of the platform may be at (x, y)."""
+        return bool(shapely.intersects_xy(self._walkable, x, y))
+
+    def may_turn(self, x: float, y: float) -> bool:
+        """Return whether the platform may turn at (x, y)."""
+        return not shapely.intersects_xy(self._delicate, x, y)
+
+    def part_of(self, x: float, y: float) -> Polygon | None:
+        """Return the walkable part in which (x, y) lies, None where it lies in none."""
+        return next((p for p in self.parts if shapely.intersects_xy(p, x, y)), None)
+
+    def nearest_walkable(self, x: float, y: float) -> tuple[float, float]:
+        """Return the walkable point nearest to (x, y) [m]."""
+        point = shapely.shortest_line(self._walkable, shapely.Point(x, y)).coords[0]
+        return point[0], point[1]
+
+    def why_not(self, x: float, y: float) -> str:
+        """Return in words why the platform may not be at (x, y)."""
+        for i, hole in enumerate(self.holes):
+            if shapely.intersects_xy(hole, x, y):
+                return f'lies in hole {i + 1}'
+        if not self.contains(x, y):
+            west, south, east, north = self.bounds
+            return (
+                f'lies outside the zone (x from {west:g} to {east:g} m, '
+                f'y from {south:g} to {north:g} m)'
+            )
+        return f'lies nearer than the margin of {self.margin:g} m to an edge'
+
+
+def _polygon(name: str, ring: Ring) -> Polygon:
+    """Return a ring as a polygon.
+
+    Raises:
+        GeometryError: It is none.
+
+    """
+    try:
+        points = [(float(x), float(y)) for x, y in ring]
+    except (TypeError, ValueError) as error:
+        msg = f'{name} must be a list of [x, y] in metres, got {ring!r:.80}'
+        raise GeometryError(msg) from error
+    if not all(isfinite(x) and isfinite(y) for x, y in points):
+        msg = f'{name} holds a coordinate that is not finite: {points!r:.80}'
+        raise GeometryError(msg)
+    if len(set(points)) < 3:
+        msg = f'{name} has {len(set(points))} different corners: a polygon needs at least 3'
+        raise GeometryError(msg)
+    polygon = Polygon(points)
+    if not polygon.is_valid:
+        msg = f'{name} is no polygon: {shapely.is_valid_reason(polygon)}; order its corners'
+        raise GeometryError(msg)
+    return polygon
