@@ -1,0 +1,43 @@
+# Sourced by the other scripts: an environment of its own, made once and kept up to date.
+#
+# use_environment EXTRAS  makes .venv where it is missing, installs this package with the extras
+# that are asked for, and puts it on the PATH. AGV_MOTION_VENV names another place.
+
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+venv=${AGV_MOTION_VENV:-$root/.venv}
+
+newest_python() {
+    for python in python3.13 python3.12 python3.11 python3.10 python3 python; do
+        if "$python" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info < (3, 15))' 2>/dev/null; then
+            echo "$python"
+            return
+        fi
+    done
+    echo 'error: no Python 3.10 to 3.14 was found: install one (apt install python3 python3-venv)' >&2
+    exit 1
+}
+
+use_environment() {
+    stamp="$venv/agv_motion.$1"
+    if [ ! -x "$venv/bin/python" ]; then
+        python=$(newest_python)
+        echo "Making an environment in $venv with $($python --version)" >&2
+        "$python" -m venv "$venv" || {
+            rm -rf "$venv"
+            echo 'error: this Python cannot make environments: apt install python3-venv' >&2
+            exit 1
+        }
+    fi
+    if [ ! -e "$stamp" ] || [ -n "$(find "$root/agv_motion" "$root/config" "$root/launch_scripts" \
+        "$root/setup.py" "$root/package.xml" -newer "$stamp" -print -quit)" ]; then
+        echo "Installing agv_motion[$1]; the first time this takes a minute" >&2
+        rm -rf "$root/build"
+        "$venv/bin/python" -m pip install --quiet --disable-pip-version-check "$root[$1]"
+        touch "$stamp"
+    fi
+    PATH="$venv/bin:$PATH"
+    AMENT_PREFIX_PATH="$venv${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}"
+    ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}
+    export PATH AMENT_PREFIX_PATH ROS_AUTOMATIC_DISCOVERY_RANGE
+}
