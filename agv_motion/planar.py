@@ -41,7 +41,9 @@ REST = Twist(0.0, 0.0, 0.0)
 
 
 def wrap(angle: float) -> float:
-    """Return ``angle`` [rad] brought into [-pi, pi)."""
+    """Return ``angle`` [rad] brought into [-pi, pi); one that lies there is left as it is."""
+    if -pi <= angle < pi:
+        return angle
     wrapped = (angle + pi) % tau - pi
     return wrapped if wrapped < pi else -pi  # the modulo of a tiny negative rounds up to tau
 

@@ -1,0 +1,87 @@
+"""The report of a trajectory before anything moves: what it asks, where and why it is slow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from agv_motion.trajectory.motions import Drive, Turn
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from agv_motion.trajectory.trajectory import Trajectory
+
+
+class Slow(NamedTuple):
+    """A stretch on which the curve does not allow the cruising speed."""
+
+    start: float
+    """[m] of way driven"""
+    end: float
+    """[m]"""
+    speed: float
+    """[m/s] the lowest allowed there"""
+    reason: str
+    """name of the limit"""
+
+
+class Feasibility(NamedTuple):
+    """What a trajectory asks of the robot."""
+
+    length: float
+    """[m] of way driven"""
+    turn: float
+    """[rad] turned on the spot, all turns added up without sign"""
+    duration: float
+    """[s]"""
+    top_speed: float
+    """[m/s] reached on the way"""
+    top_curvature: float
+    """[1/m] of the sharpest bend"""
+    slow: tuple[Slow, ...]
+    """where and why the cruising speed is not allowed, in the order of the way"""
+
+
+def examine(trajectory: Trajectory) -> Feasibility:
+    """Return what ``trajectory`` asks of the robot, and where it has to be slow."""
+    drives = [motion for motion in trajectory.motions if isinstance(motion, Drive)]
+    slow: list[Slow] = []
+    driven = 0.0
+    for motion in trajectory.motions:
+        if isinstance(motion, Drive):
+            slow += _stretches(trajectory, motion, driven)
+        driven += motion.length
+    return Feasibility(
+        length=driven,
+        turn=sum(motion.angle for motion in trajectory.motions if isinstance(motion, Turn)),
+        duration=trajectory.duration,
+        top_speed=max((drive.profile.top_speed for drive in drives), default=0.0),
+        top_curvature=max((_top_curvature(drive) for drive in drives), default=0.0),
+        slow=tuple(slow),
+    )
+
+
+def _top_curvature(drive: Drive) -> float:
+    course = drive.course
+    return float(max(np.abs(course.curvature).max(), np.abs(course.middle_curvature).max()))
+
+
+def _stretches(trajectory: Trajectory, drive: Drive, driven: float) -> Iterator[Slow]:
+    """Yield the runs of nodes that are held below the cruising speed by one limit."""
+    course, limits, request = drive.course, trajectory.limits, trajectory.request
+    if not limits or request is None:
+        return
+    ceilings = np.stack([limit.ceiling(course.curvature) for limit in limits])
+    lowest = ceilings.min(axis=0)
+    slow = lowest < request.cruising_speed * (1.0 - 1e-9)
+    holder = np.where(slow, ceilings.argmin(axis=0), -1)
+    for nodes in np.split(np.arange(len(holder)), np.flatnonzero(np.diff(holder)) + 1):
+        if slow[nodes[0]]:
+            yield Slow(
+                start=driven + float(course.way[nodes[0]]),
+                end=driven + float(course.way[nodes[-1]]),
+                speed=float(lowest[nodes].min()),
+                reason=limits[holder[nodes[0]]].name,
+            )

@@ -1,0 +1,204 @@
+"""From goals to a trajectory: curves, their limits, the fastest speed; all checked beforehand."""
+
+from __future__ import annotations
+
+from cmath import phase
+from itertools import pairwise
+from math import copysign
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.planar import Pose, require_finite, wrap
+from agv_motion.trajectory.arc_length import ArcLength
+from agv_motion.trajectory.bezier import connect
+from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory.limits import lowest_ceiling
+from agv_motion.trajectory.motions import STILL, Drive, Motion, Speeds, Turn
+from agv_motion.trajectory.request import Request
+from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
+from agv_motion.trajectory.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.trajectory.bezier import Column
+    from agv_motion.trajectory.limits import Limit
+
+NOTHING = 1e-9
+"""[m], [rad], [m/s], [rad/s] What is shorter or slower than this is none."""
+
+
+class Planner:
+    """Makes trajectories for one robot."""
+
+    def __init__(self, parameters: GhostParameters | None = None) -> None:
+        """Plan for a robot of ``parameters``."""
+        self.parameters = parameters or GhostParameters()
+        self._limits = self.parameters.limits()
+
+    def rotation(
+        self, start: Pose, heading: float, request: Request, present: Speeds = STILL
+    ) -> Trajectory:
+        """Return the turn on the spot, the shorter way round, to ``heading`` [rad].
+
+        Raises:
+            SignalError: A number is not finite.
+            GeometryError: The present motion cannot go over into this turn.
+
+        """
+        require_finite('rotation (start, heading)', (*start, heading))
+        end = start._replace(theta=wrap(heading))
+        turns = self._turn(start, end, request, present)
+        return self._trajectory(start, end, turns, request, present)
+
+    def drive(
+        self, start: Pose, goals: Sequence[Pose], request: Request, present: Speeds = STILL
+    ) -> Trajectory:
+        """Return the way from ``start`` through ``goals`` to the last of them.
+
+        With ``delta_curve`` = 0 the curves are straight lines, and the robot turns on the spot at
+        their ends: what a curve tends to as its handles shrink.
+
+        Args:
+            start: Present pose.
+            goals: Poses to pass, at least one.
+            request: Pace, shape and sense.
+            present: Speeds to start with.
+
+        Raises:
+            SignalError: A number is not finite.
+            ConfigurationError: No goal.
+            GeometryError: A curve has a cusp, or the present motion cannot go over into this way.
+
+        """
+        if not goals:
+            msg = 'no goal given: a way needs at least one pose'
+            raise ConfigurationError(msg)
+        require_finite('poses', tuple(number for pose in (start, *goals) for number in pose))
+        motions: list[Motion] = []
+        joined = [start]  # by curves, without a stop
+        for goal in goals:
+            there = goal._replace(theta=wrap(goal.theta))
+            if request.delta_curve > 0.0 and abs(_point(there) - _point(joined[-1])) > NOTHING:
+                joined.append(there)
+                continue
+            motions += self._curves(joined, request, _first(motions, present))
+            motions += self._corners(joined[-1], there, request, _first(motions, present))
+            joined = [there]
+        motions += self._curves(joined, request, _first(motions, present))
+        return self._trajectory(start, joined[-1], motions, request, present)
+
+    def _trajectory(
+        self, start: Pose, end: Pose, motions: list[Motion], request: Request, present: Speeds
+    ) -> Trajectory:
+        if not motions and max(abs(present.linear), abs(present.angular)) > NOTHING:
+            raise GeometryError(_other_motion(present))
+        return Trajectory((start, end), motions, request, self._limits)
+
+    def _curves(self, poses: Sequence[Pose], request: Request, present: Speeds) -> list[Motion]:
+        """Return the drive on curves through ``poses``; none for a single one."""
+        if len(poses) < 2:
+            return []
+        delta, backward = request.delta_curve, request.backward
+        course = ArcLength([connect(a, b, delta, backward=backward) for a, b in pairwise(poses)])
+        return [self._along(course, (poses[0], poses[-1]), request, present)]
+
+    def _corners(self, here: Pose, there: Pose, request: Request, present: Speeds) -> list[Motion]:
+        """Return a turn into the straight line, the drive along it, a turn into the goal."""
+        corner = Request(self.parameters.turn_acceleration, self.parameters.turn_rate)
+        line = _point(there) - _point(here)
+        if abs(line) <= NOTHING:
+            return self._turn(here, there, corner, present)
+        heading = wrap(phase(-line if request.backward else line))
+        ends = here._replace(theta=heading), there._replace(theta=heading)
+        motions = self._turn(here, ends[0], corner, present)
+        course = ArcLength([connect(*ends, 1.0 / 3.0, backward=request.backward)])
+        motions.append(self._along(course, ends, request, _first(motions, present)))
+        return motions + self._turn(ends[1], there, corner, STILL)
+
+    def _along(
+        self, course: ArcLength, ends: tuple[Pose, Pose], request: Request, present: Speeds
+    ) -> Drive:
+        """Return the fastest drive along ``course``.
+
+        Raises:
+            GeometryError: The robot moves the other way, or turns on the spot, or too fast.
+
+        """
+        speed = -present.linear if request.backward else present.linear
+        if speed < -NOTHING or (abs(speed) <= NOTHING and abs(present.angular) > NOTHING):
+            raise GeometryError(_other_motion(present))
+        profile = plan_speed(
+            course.way,
+            _ceiling(course, self._limits, request.cruising_speed),
+            request.speed_ramps,
+            max(speed, 0.0),
+            self.parameters.s_curve,
+        )
+        return Drive(course, ends, profile, request.speed_ramps, backward=request.backward)
+
+    def _turn(self, start: Pose, end: Pose, request: Request, present: Speeds) -> list[Motion]:
+        """Return the turn on the spot; none where the robot looks there already.
+
+        Raises:
+            GeometryError: The robot drives, or turns the other way, or too fast.
+
+        """
+        angle = wrap(end.theta - start.theta)
+        if abs(angle) <= NOTHING:
+            return []
+        sign = copysign(1.0, angle)
+        if abs(present.linear) > NOTHING or sign * present.angular < -NOTHING:
+            raise GeometryError(_other_motion(present))
+        rate = min(request.cruising_speed, self.parameters.spot_rate())
+        profile = plan_speed(
+            np.array([0.0, abs(angle)]),
+            np.array([rate, rate]),
+            request.speed_ramps,
+            max(sign * present.angular, 0.0),
+            self.parameters.s_curve,
+        )
+        return [Turn(start, end, sign, profile, request.speed_ramps)]
+
+
+def _ceiling(course: ArcLength, limits: Sequence[Limit], cruising_speed: float) -> Column:
+    """Return the highest speed at the nodes such that the limits hold between them too.
+
+    The plan runs straight between nodes in the squared speed. Where the true ceiling hangs below
+    that line in the middle of a cell, its ends are lowered by as much, but no more than a tenth;
+    where this is not enough, the higher end comes down until the line meets the middle.
+    """
+    square = lowest_ceiling(limits, course.curvature, cruising_speed) ** 2
+    middle = lowest_ceiling(limits, course.middle_curvature, cruising_speed) ** 2
+    length = np.diff(course.way)
+    joint = length <= SHORTEST * course.length  # of two curves, where the curvature may step
+    share = (course.middle_way - course.way[:-1]) / np.where(joint, 1.0, length)
+    first, last = square[:-1], square[1:]
+    excess = np.where(joint, 0.0, np.maximum(first + share * (last - first) - middle, 0.0))
+    either = np.maximum(np.append(excess, 0.0), np.append(0.0, excess))
+    square = square - np.minimum(either, 0.1 * square)
+    share[joint], middle[joint] = 0.5, np.inf
+    first, last = square[:-1], square[1:]
+    first_most = np.maximum(middle, (middle - share * last) / (1.0 - share))
+    last_most = np.maximum(middle, (middle - (1.0 - share) * first) / share)
+    most = np.minimum(np.append(first_most, np.inf), np.append(np.inf, last_most))
+    ceiling: Column = np.sqrt(np.minimum(square, most))
+    return ceiling
+
+
+def _point(pose: Pose) -> complex:
+    return complex(pose.x, pose.y)
+
+
+def _first(motions: Sequence[Motion], present: Speeds) -> Speeds:
+    """Return the speeds a further motion starts with: only the first one starts in motion."""
+    return STILL if motions else present
+
+
+def _other_motion(present: Speeds) -> str:
+    return (
+        f'the robot moves with {present.linear:.4g} m/s and {present.angular:.4g} rad/s, which '
+        'cannot go over into this trajectory without a jump: stop it first'
+    )

@@ -1,0 +1,97 @@
+"""Arc length against mpmath, and its inverse against itself."""
+
+from __future__ import annotations
+
+from math import pi
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from agv_motion.errors import GeometryError
+from agv_motion.planar import Pose
+from agv_motion.trajectory.arc_length import GAUSS_NODES, GAUSS_WEIGHTS, ArcLength
+from agv_motion.trajectory.bezier import CubicBezier, connect
+
+ANGLES = st.floats(-pi, pi, exclude_max=True)
+CURVES = st.builds(
+    lambda distance, bearing, first, last, delta: connect(
+        Pose(0.0, 0.0, first),
+        Pose(distance * np.cos(bearing), distance * np.sin(bearing), last),
+        delta,
+    ),
+    st.floats(0.01, 100.0), ANGLES, ANGLES, ANGLES, st.floats(0.05, 2.0),
+)  # fmt: skip
+
+
+def measured(curve):
+    """Return the length by mpmath, cut where the curve is nearest to a cusp."""
+    u = np.linspace(0.0, 1.0, 4001)
+    speed = np.abs(curve.velocity(u))
+    slowest = u[1:-1][(speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:])]
+    cuts = {float(s + d) for s in slowest for d in (-0.05, -5e-3, -5e-4, 0, 5e-4, 5e-3, 0.05)}
+    points = sorted({0.0, *(cut for cut in cuts if 0.0 < cut < 1.0), 1.0})
+    return float(mpmath.quad(lambda x: abs(curve.velocity(float(x))), points, maxdegree=5))
+
+
+@settings(max_examples=12)
+@given(CURVES)
+def test_the_length_is_that_of_mpmath(curve):
+    try:
+        length = ArcLength([curve]).length
+    except GeometryError:
+        return  # a cusp, told as one
+    assert length == pytest.approx(measured(curve), rel=1e-9)
+
+
+@given(CURVES, st.floats(0.0, 1.0))
+def test_the_inverse_gives_back_the_way(curve, share):
+    try:
+        course = ArcLength([curve])
+    except GeometryError:
+        return
+    way = share * course.length
+    _, u = course.locate(way)
+    nodes = np.array([cell.first_u for cell in course._cells])  # noqa: SLF001 - where |P'| is tame
+    ends = np.append(nodes[nodes < u], u)
+    inside = ends[:-1, None] + np.diff(ends)[:, None] * GAUSS_NODES
+    back = float((np.diff(ends)[:, None] * np.abs(curve.velocity(inside)) @ GAUSS_WEIGHTS).sum())
+    assert back == pytest.approx(way, abs=1e-11 * course.length)
+
+
+def test_a_straight_line_with_handles_of_a_third_is_gone_evenly():
+    course = ArcLength([connect(Pose(0, 0, 0), Pose(3, 0, 0), 1 / 3)])
+    assert course.length == pytest.approx(3.0, abs=1e-15)
+    curve, u = course.locate(1.2)
+    assert curve.point(u) == pytest.approx(1.2, abs=1e-15)
+
+
+def test_nearly_no_handles_do_not_freeze_the_way():
+    """At the ends P' is a millionth of what it is between; the way must be resolved there too."""
+    course = ArcLength([connect(Pose(0, 0, 0), Pose(2, 0, 0), 1e-6)])
+    for way in (0.0, 1e-9, 1e-6, 1e-3, 1.0, 1.999999, 2.0):
+        curve, u = course.locate(way)
+        assert curve.point(u).real == pytest.approx(way, abs=1e-12)
+
+
+def test_a_chain_goes_over_from_curve_to_curve():
+    first = connect(Pose(0, 0, 0), Pose(2, 1, 0.5), 0.4)
+    second = connect(Pose(2, 1, 0.5), Pose(4, 0, 0), 0.4)
+    chain = ArcLength([first, second])
+    joint = ArcLength([first]).length
+    assert chain.length == pytest.approx(joint + ArcLength([second]).length, rel=1e-14)
+    assert chain.locate(joint - 1e-6)[0] is first
+    assert chain.locate(joint + 1e-6)[0] is second
+    assert np.all(np.diff(chain.way) >= 0.0)
+    assert len(chain.middle_curvature) == len(chain.way) - 1
+
+
+def test_a_cusp_is_refused_by_name():
+    """P' = 3 (1 - 2u)^2 - 3j (1 - 2u) ... vanishes at u = 1/2."""
+    with pytest.raises(GeometryError, match='curve 2 has a cusp near 50 %'):
+        ArcLength([
+            connect(Pose(-1, 0, 0), Pose(0, 0, 0), 0.4),
+            CubicBezier(0j, 1 + 0j, 1 + 1j, 1 - 1j),
+        ])  # fmt: skip
