@@ -69,6 +69,7 @@ setup(
             'hypothesis>=6.100',
             'matplotlib>=3.8',
             'mcap-ros2-support>=0.5',
+            'mpmath>=1.3',
             'mypy>=1.11',
             'pytest>=8',
             'ruff>=0.12',

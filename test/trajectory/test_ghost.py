@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from math import atan2, hypot, inf, nan, pi, sin, sqrt
 
 import numpy as np
@@ -35,8 +34,9 @@ def leave(made, goal, delta=0.4, ramps=0.5, cruise=0.8, **kind):
     try:
         made.compute_trajectory(goal, delta, ramps, cruise, **kind)
     except GeometryError as error:
-        assert 'cusp' in str(error)
-        return False
+        if 'cusp' in str(error):
+            return False
+        raise
     return True
 
 
@@ -55,10 +55,10 @@ def test_a_straight_line_in_closed_form():
 
 
 @settings(max_examples=40)
-@given(POSES, POSES, DELTAS, st.booleans(), ROUNDINGS, st.integers(0, 999))
-def test_the_goal_is_reached_whatever_the_step(start, goal, delta, backward, rounding, seed):
-    draw = random.Random(seed)
-    for step in (lambda: 0.5, lambda: 0.017, lambda: draw.uniform(0.0, 0.3)):
+@given(POSES, POSES, DELTAS, st.booleans(), ROUNDINGS)
+def test_the_goal_is_reached_whatever_the_step(start, goal, delta, backward, rounding):
+    draw = np.random.default_rng(1)
+    for step in (lambda: 0.5, lambda: 0.017, lambda: float(draw.uniform(0.0, 0.3))):
         made = ghost(start, s_curve=rounding)
         if not leave(made, goal, delta, backward=backward):
             return
@@ -191,12 +191,11 @@ def test_the_servo_hears_of_the_speed_in_advance():
 
 
 @settings(max_examples=60)
-@given(POSES, POSES, DELTAS, st.booleans(), ROUNDINGS, st.floats(0.05, 0.95))
-def test_a_new_goal_in_motion_makes_no_jump_of_speed(
-    first, second, delta, backward, rounding, share
-):
+@given(st.tuples(POSES, POSES), DELTAS, st.booleans(), ROUNDINGS, st.floats(0.05, 0.95))
+def test_a_new_goal_in_motion_makes_no_jump_of_speed(goals, delta, backward, rounding, share):
     """Whatever the second goal: if its curve cannot be gone at once, the Ghost brakes first."""
     made = ghost(s_curve=rounding)
+    first, second = goals
     if not leave(made, first, 0.4):
         return
     made.advance(share * made.trajectory.duration)

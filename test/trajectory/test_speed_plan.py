@@ -60,12 +60,12 @@ def test_a_start_in_motion_by_hand():
 
 
 def test_faster_than_cruising_is_refused():
-    with pytest.raises(GeometryError, match='1.2 m/s is too fast'):
+    with pytest.raises(GeometryError, match=r'1\.2 m/s is too fast'):
         plain(30.0, 1.0, 0.5, start=1.2)
 
 
 def test_too_short_to_brake_is_refused():
-    with pytest.raises(GeometryError, match=r'0.9 m, allows 0.9487 m/s'):
+    with pytest.raises(GeometryError, match=r'0\.9 m, allows 0\.9487 m/s'):
         plain(0.9, 1.0, 0.5, start=1.0)
 
 
