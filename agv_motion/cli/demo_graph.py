@@ -120,6 +120,25 @@ class DemoGraph:
         self._recorder.close()
         rclpy.try_shutdown()
 
+    def idle(self, begun: float, seconds: float) -> tuple[float, float]:
+        """Run for ``seconds``; return when the wheels first turned after ``begun`` and the load.
+
+        Args:
+            begun: When the process began, by `time.perf_counter` [s].
+            seconds: How long to run [s].
+
+        Returns:
+            Time from ``begun`` to the first turret command [s], and processor time per second.
+
+        """
+        used, until = time.process_time(), time.perf_counter() + seconds
+        spin([self._recorder, *self._nodes], lambda: time.perf_counter() > until)
+        load = (time.process_time() - used) / seconds
+        first = self._recorder.arrivals['turrets/command'][0] * 1e-9 - begun
+        self._recorder.close()
+        rclpy.try_shutdown()
+        return first, load
+
     def report(self, console: Console, output: Path) -> None:
         """Print the summary, and draw the figure beside the bag."""
         limit = self._wheels.max_wheel_speed

@@ -121,7 +121,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         self.serve(Trigger, '~/recalibrate', self._on_recalibrate)
         if isinstance(self._source, SimulatedSource):
             self.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
-        self.every(1.0 / given.rate, self._tick)
+        self.every(1.0 / given.rate, self.tick)
         if given.state_file:
             self.every(SAVE_PERIOD, self._save, Clock(clock_type=ClockType.STEADY_TIME))
             complaint = state_file.restore(given.state_file, self._probes)
@@ -150,7 +150,8 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
             return Diagnosis(WARN, f'resting: {self._why_invalid}', values)
         return Diagnosis(OK, 'all probes believable', values)
 
-    def _tick(self) -> None:
+    def tick(self) -> None:
+        """Read the source, and tell the sap flow or why there is none."""
         now = self.get_clock().now()
         seconds = now.nanoseconds * 1e-9
         if not self._learnt:

@@ -156,7 +156,7 @@ class Simulator(ManagedNode[SimulatorParameters]):
         self._platform.step(*self._wanted, 1.0 / given.rate)
         self.steps += 1
         self.time = self._start + self.steps / given.rate
-        stamp = stamp_of(self.time)
+        stamp = stamp_of(round(self._start * 1e6) * 1000 + round(self.steps * 1e9 / given.rate))
         self._clock_publisher.publish(ClockMessage(clock=stamp))
         self._publish_state(stamp)
         self._publish_truth(stamp)

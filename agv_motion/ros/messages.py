@@ -21,10 +21,10 @@ def seconds_of(stamp: Any) -> float:
     return float(stamp.sec) + float(stamp.nanosec) * 1e-9
 
 
-def stamp_of(seconds: float) -> Time:
-    """Return seconds as a builtin_interfaces/Time."""
-    whole = int(seconds // 1.0)
-    return Time(sec=whole, nanosec=min(int((seconds - whole) * 1e9), 999_999_999))
+def stamp_of(nanoseconds: int) -> Time:
+    """Return nanoseconds as a builtin_interfaces/Time."""
+    seconds, rest = divmod(nanoseconds, 1_000_000_000)
+    return Time(sec=seconds, nanosec=rest)
 
 
 def twist_of(message: Any) -> Twist:
