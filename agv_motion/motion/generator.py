@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from math import atan2, hypot
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.polar import STILL, PolarCommand
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import require_finite, wrap
+from agv_motion.planar import wrap
 
 if TYPE_CHECKING:
     from agv_motion.planar import Pose
@@ -26,11 +27,19 @@ class SapFlow(NamedTuple):
     """what the tree remembers of places"""
 
 
+class Activity(Enum):
+    """What the tree is at."""
+
+    RESTING = 'resting: the sap stands'
+    TURNING = 'turning on the spot at the goal'
+    WALKING = 'walking to the goal'
+
+
 class Motion(NamedTuple):
-    """What the tree does now, and why."""
+    """What the tree does now."""
 
     command: PolarCommand
-    reason: str
+    activity: Activity
 
 
 @dataclass(frozen=True)
@@ -70,11 +79,10 @@ def checked_sap_flow(flow: SapFlow) -> SapFlow:
         SignalError: One does not.
 
     """
-    require_finite('sap flow (s1, s2, s3)', flow)
-    if not all(0.0 <= s <= 1.0 for s in flow):
-        msg = f'sap flow {tuple(flow)} must lie in [0, 1]: normalise it'
-        raise SignalError(msg)
-    return flow
+    if 0.0 <= flow.s1 <= 1.0 and 0.0 <= flow.s2 <= 1.0 and 0.0 <= flow.s3 <= 1.0:
+        return flow
+    msg = f'sap flow {tuple(flow)} must be three numbers in [0, 1]: normalise it'
+    raise SignalError(msg)
 
 
 def polar_command(flow: SapFlow, pose: Pose, target: tuple[float, float]) -> PolarCommand:
@@ -98,10 +106,10 @@ class MotionGenerator:
         self.parameters = parameters
         self.resting = True
 
-    def decide(self, flow: SapFlow, pose: Pose, goal: tuple[float, float] | None) -> Motion:
+    def decide(self, flow: SapFlow, pose: Pose, goal: tuple[float, float]) -> Motion:
         """Return the command that ``flow`` asks for at ``pose``.
 
-        At the goal, or without one, the tree turns on the spot.
+        At the goal the tree turns on the spot.
 
         Args:
             flow: Normalised sap flow, checked.
@@ -113,12 +121,7 @@ class MotionGenerator:
         mean = (flow.s1 + flow.s2 + flow.s3) / 3.0
         self.resting = mean < (given.wake_above if self.resting else given.rest_below)
         if self.resting:
-            return Motion(STILL, f'resting: sap flow below {given.rest_below:.2f}')
-        if goal is None:
-            return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), 'turning: no goal')
-        command = polar_command(flow, pose, goal)
-        distance = hypot(goal[0] - pose.x, goal[1] - pose.y)
-        if distance < given.arrival:
-            at_goal = command._replace(v=0.0)
-            return Motion(at_goal, f'turning at the goal ({goal[0]:.1f}, {goal[1]:.1f})')
-        return Motion(command, f'going to ({goal[0]:.1f}, {goal[1]:.1f})')
+            return Motion(STILL, Activity.RESTING)
+        if hypot(goal[0] - pose.x, goal[1] - pose.y) < given.arrival:
+            return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), Activity.TURNING)
+        return Motion(polar_command(flow, pose, goal), Activity.WALKING)

@@ -152,12 +152,11 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
 
     def tick(self) -> None:
         """Read the source, and tell the sap flow or why there is none."""
-        now = self.get_clock().now()
-        seconds = now.nanoseconds * 1e-9
+        seconds = self.seconds()
         if not self._learnt:
             self._learn(seconds)
         for sample in self._source.read(seconds):
-            self._take(sample, seconds, now.to_msg())
+            self._take(sample, seconds)
         complaint = self._source.complaint()
         if complaint:
             self.refuse(complaint)
@@ -177,15 +176,16 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
             for probe, value in zip(self._probes, sample.values, strict=True):
                 probe.update(sample.time, value)
 
-    def _take(self, sample: Sample, now: float, stamp: Any) -> None:
+    def _take(self, sample: Sample, now: float) -> None:
         """Let the probes see one sample, and publish what was read."""
         self._read_at = now
-        self._message.header.stamp = stamp
+        self.stamp(self._message)
         for i, value in enumerate(sample.values):
             self._readings[i] = self._probes[i].update(sample.time, value)
             if value == value:  # noqa: PLR0124 - not NaN
                 message = Temperature(temperature=value)
-                message.header.stamp, message.header.frame_id = stamp, f'probe_{i + 1}'
+                message.header.stamp = self._message.header.stamp
+                message.header.frame_id = f'probe_{i + 1}'
                 self._raw[i].publish(message)
 
     def _doubt(self, now: float) -> str:

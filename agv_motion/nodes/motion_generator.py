@@ -12,17 +12,12 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.motion import generator
-from agv_motion.motion.generator import (
-    Motion,
-    RestParameters,
-    SapFlow,
-    checked_sap_flow,
-)
-from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, to_twist
+from agv_motion.motion.generator import RestParameters, SapFlow, checked_sap_flow
+from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import REST, Pose
+from agv_motion.planar import REST, Pose, Twist
 from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
@@ -111,7 +106,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def halt(self) -> None:
         """Send the last word: no motion."""
-        self._publish(Motion(STILL, 'stopped'))
+        self._publish(REST, 'stopped')
 
     def accept(self, parameters: MotionGeneratorParameters) -> None:
         """Take over new thresholds."""
@@ -125,12 +120,12 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         vector = message.vector
         self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
         self._watchdogs['sap flow'].feed()
-        self._publish(self._decide())
+        self._move()
 
     def _on_valid(self, message: Bool) -> None:
         self._valid = message.data
         if not self._valid:
-            self._publish(self._decide())
+            self._move()
 
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         self._require_map(message.header.frame_id)
@@ -157,7 +152,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
-        self._publish(self._decide())
+        self._move()
         return 'paused' if self._paused else 'going on'
 
     def _tick(self) -> None:
@@ -174,39 +169,45 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
                 )
             if silence is Silence.LOST:
                 self._lost = self._lost or name
-        self._publish(self._decide())
+        self._move()
 
-    def _decide(self) -> Motion:
-        """Return what to do with what is known now."""
+    def _obstacle(self) -> str:
+        """Return why the tree must not move now, in words; empty if it may."""
         if self._paused:
-            return Motion(STILL, 'paused')
+            return 'paused'
         if not self._valid:
-            return Motion(STILL, 'resting: a probe cannot be believed')
+            return 'resting: a probe cannot be believed'
         if self._lost or self._sap_flow is None or self._pose is None:
-            return Motion(STILL, f'resting: no {self._lost or "input"}')
+            return f'resting: no {self._lost or "input"}'
         if self._zone is not None and not self._zone.contains(self._pose.x, self._pose.y):
-            x, y = self._pose.x, self._pose.y
-            return Motion(STILL, f'stopped: the tree {self._zone.why_not(x, y)}')
-        return self._generator.decide(self._sap_flow, self._pose, self._goal)
+            return f'stopped: the tree {self._zone.why_not(self._pose.x, self._pose.y)}'
+        return ''
 
-    def _publish(self, motion: Motion) -> None:
+    def _move(self) -> None:
+        """Command what the sap flow asks for, or an explicit zero."""
+        obstacle = self._obstacle()
+        if obstacle or self._sap_flow is None or self._pose is None:
+            self._publish(REST, obstacle)
+            return
+        command, activity = self._generator.decide(self._sap_flow, self._pose, self._goal)
         given = self.parameters
-        twist = REST
-        if motion.command is not STILL:
-            twist = to_twist(motion.command, given.linear_speed, given.platform_radius)
-        if given.stamped:
-            self._message.header.stamp = self.get_clock().now().to_msg()
+        twist = to_twist(command, given.linear_speed, given.platform_radius)
+        self._publish(twist, activity.value)
+
+    def _publish(self, twist: Twist, state: str) -> None:
+        if self.parameters.stamped:
+            self.stamp(self._message)
             fill_twist(self._message.twist, twist)
         else:
             fill_twist(self._message, twist)
         self._command.publish(self._message)
-        if motion.reason != self._told:
-            self._told = motion.reason
-            self._state.publish(String(data=motion.reason))
+        if state != self._told:
+            self._told = state
+            self._state.publish(String(data=state))
 
     def _publish_goal(self) -> None:
         message = PoseStamped()
-        message.header.stamp = self.get_clock().now().to_msg()
+        self.stamp(message)
         message.header.frame_id = self.parameters.map_frame
         fill_pose(message.pose, Pose(*self._goal, 0.0))
         self._goal_publisher.publish(message)

@@ -60,6 +60,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
         super().__init__(name, **kwargs)
         self.active = False
         self._entities: list[Callable[[], Any]] = []
+        self._now = self.get_clock().handle.get_now
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.complaint = ''
         """Why the last input that was not used was refused."""
@@ -98,7 +99,12 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
     def seconds(self) -> float:
         """Return the time of the node's clock [s], simulated where `use_sim_time` is set."""
-        return float(self.get_clock().now().nanoseconds) * 1e-9
+        return float(self._now().nanoseconds) * 1e-9
+
+    def stamp(self, message: Any) -> None:
+        """Set the stamp of a message's header to now, without a new object on the hot path."""
+        stamp = message.header.stamp
+        stamp.sec, stamp.nanosec = divmod(self._now().nanoseconds, 1_000_000_000)
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
         """Return a publisher that lives until cleanup."""

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.generator import (
+    Activity,
     MotionGenerator,
     RestParameters,
     SapFlow,
@@ -45,13 +46,12 @@ def test_rest_has_hysteresis():
     assert states == [True, False, False, False, True, True, True, False]
 
 
-def test_without_a_goal_and_at_the_goal_it_turns_on_the_spot():
+def test_at_the_goal_it_turns_on_the_spot():
     generator = MotionGenerator(RestParameters(arrival=1.0))
     flow, pose = SapFlow(1.0, 0.9, 0.9), Pose(0.0, 0.0, 0.0)
-    for goal in (None, (0.5, 0.5)):
-        command = generator.decide(flow, pose, goal).command
-        assert command.v == 0.0
-        assert command.omega == pytest.approx(0.8)
+    command, activity = generator.decide(flow, pose, (0.5, 0.5))
+    assert activity is Activity.TURNING
+    assert command == pytest.approx((0.0, 0.0, 0.8))
 
 
 @pytest.mark.parametrize('flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01)])

@@ -84,7 +84,7 @@ def test_it_rests_while_the_sap_stands(senses):
     senses.moves()
     senses.feel(0.05, 0.0, 0.1)
     senses.rests()
-    senses.tester.wait(senses.states, lambda m: 'sap flow below' in m.data)
+    senses.tester.wait(senses.states, lambda m: 'the sap stands' in m.data)
 
 
 def test_a_probe_not_to_be_believed_means_rest(senses):
