@@ -1,0 +1,202 @@
+r"""Omnidirectional wheels of a rigid body: twist <-> rim speed of each, any number >= 3, anywhere.
+
+The driven speeds are linear in the twist; the way back is the pseudo-inverse of their
+:math:`n \times 3` matrix, computed once. What the best twist leaves unexplained is slip.
+
+Source: P. F. Muir, C. P. Neuman, "Kinematic modeling of wheeled mobile robots", J. Robotic
+Systems 4(2), 1987, sections 4 and 6.
+"""
+
+from __future__ import annotations
+
+from math import isfinite, sqrt
+from operator import mul
+from sys import float_info
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agv_motion.errors import GeometryError, SignalError
+from agv_motion.kinematics.omniwheel_placement import OmniWheel, Row, require_driven
+from agv_motion.kinematics.turrets import TwistFit
+from agv_motion.planar import Twist, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+Matrix = NDArray[np.float64]
+
+SINGULAR = 1e-6
+"""[-] Ratio of the least to the greatest singular value below which a placement is refused."""
+
+
+class OmniCommand(NamedTuple):
+    """What each wheel must do, in the order of the wheels."""
+
+    speed: list[float]
+    """(n,) [m/s] rim speed along the rolling direction"""
+    scale: float
+    """[-] in (0, 1]: the factor by which the twist was reduced to hold the wheel speed limit"""
+
+
+class _Solution(NamedTuple):
+    """The least-squares way back from the speeds of some of the wheels."""
+
+    rows: tuple[Row, ...]
+    """One a wheel: what 1 m/s at its rim adds to vx, vy, wz; zeros where the wheel is missing"""
+    checks: tuple[tuple[float, ...], ...]
+    """Orthonormal combinations of the wheel speeds that every twist leaves zero"""
+    wheels: int
+
+
+class OmniWheels:
+    """The roller wheels of one base: where they are, and both maps between twist and wheels."""
+
+    def __init__(self, wheels: Sequence[OmniWheel]) -> None:
+        """Build the matrix and its pseudo-inverse once.
+
+        Args:
+            wheels: (n,) n >= 3 wheels in any placement.
+
+        Raises:
+            GeometryError: Fewer than three wheels, a number not finite, a wheel whose rollers are
+                free along its own rolling direction, or a placement in which some motion of the
+                base turns no wheel (the message names that motion).
+
+        """
+        self.wheels = tuple(OmniWheel(*map(float, wheel)) for wheel in wheels)
+        for number, wheel in enumerate(self.wheels):
+            require_driven(number, wheel)
+        self._driven = tuple(wheel.driven() for wheel in self.wheels)
+        self._free = tuple(wheel.free() for wheel in self.wheels)
+        self._solutions: dict[tuple[int, ...], _Solution] = {}
+        self._whole = self._solution(tuple(range(len(self.wheels))))
+
+    def __len__(self) -> int:
+        """Return the number of wheels."""
+        return len(self.wheels)
+
+    @property
+    def matrix(self) -> Matrix:
+        """(n, 3) rim speeds [m/s] of unit vx, vy and wz."""
+        return np.array(self._driven)
+
+    def command(self, twist: Twist, max_wheel_speed: float = float_info.max) -> OmniCommand:
+        """Return the rim speed of each wheel for ``twist``.
+
+        When a wheel would exceed its limit the whole twist is scaled by one factor, so the base
+        stays on its way and only takes longer.
+
+        Args:
+            twist: Wanted velocity of the base frame.
+            max_wheel_speed: Limit of every wheel [m/s].
+
+        Raises:
+            SignalError: ``twist`` is not finite.
+
+        """
+        vx, vy, wz = twist
+        speeds = [a * vx + b * vy + c * wz for a, b, c in self._driven]
+        fastest = max(*speeds, -min(speeds))
+        if not isfinite(vx + vy + wz + fastest):
+            require_finite('twist', twist)
+            require_finite('wheel speeds', tuple(speeds))
+        if fastest > max_wheel_speed:
+            scale = max_wheel_speed / fastest
+            return OmniCommand([scale * speed for speed in speeds], scale)
+        return OmniCommand(speeds, 1.0)
+
+    def free_roller_speeds(self, twist: Twist) -> list[float]:
+        """Return (n,) the speed [m/s] of each wheel along its slide direction for ``twist``."""
+        require_finite('twist', twist)
+        vx, vy, wz = twist
+        return [a * vx + b * vy + c * wz for a, b, c in self._free]
+
+    def twist(self, speeds: Sequence[float], missing: Collection[int] = ()) -> TwistFit:
+        """Return the twist that fits measured rim speeds best, and what it leaves unexplained.
+
+        The same map takes travels [m] to a displacement. The residual is the root mean square
+        over the measured wheels [m/s]: how much they slip against each other. Three wheels agree
+        with some twist whatever they measure, so theirs is zero.
+
+        Args:
+            speeds: (n,) rim speeds [m/s].
+            missing: Numbers of the wheels, from 0, whose speeds are unknown and not looked at.
+
+        Raises:
+            SignalError: The length differs from the number of wheels, a value is not finite, or
+                the wheels left cannot tell the twist (the message names the motion they miss).
+
+        """
+        vx, vy, wz, residual = self.solve(speeds, missing)
+        return TwistFit(Twist(vx, vy, wz), residual)
+
+    def solve(
+        self, speeds: Sequence[float], missing: Collection[int] = ()
+    ) -> tuple[float, float, float, float]:
+        """Return what :meth:`twist` does as plain numbers, which takes half as long."""
+        if len(speeds) != len(self._driven):
+            msg = f'{len(speeds)} speeds for {len(self._driven)} wheels: give one each'
+            raise SignalError(msg)
+        solution = self._whole
+        if missing:
+            solution = self._without(missing)
+            speeds = [0.0 if i in missing else speed for i, speed in enumerate(speeds)]
+        vx = vy = wz = 0.0
+        for speed, (to_x, to_y, to_z) in zip(speeds, solution.rows):  # noqa: B905 - strict costs
+            vx += to_x * speed
+            vy += to_y * speed
+            wz += to_z * speed
+        if not isfinite(vx + vy + wz):
+            require_finite('wheel speeds', tuple(speeds))
+        if not solution.checks:
+            return vx, vy, wz, 0.0
+        unexplained = 0.0
+        for check in solution.checks:
+            part = sum(map(mul, check, speeds))
+            unexplained += part * part
+        return vx, vy, wz, sqrt(unexplained / solution.wheels)
+
+    def _without(self, missing: Collection[int]) -> _Solution:
+        present = tuple(i for i in range(len(self)) if i not in missing)
+        try:
+            return self._solution(present)
+        except GeometryError as error:
+            msg = f'only wheels {present} of {len(self)} measure, and {error}'
+            raise SignalError(msg) from error
+
+    def _solution(self, present: tuple[int, ...]) -> _Solution:
+        """Return the pseudo-inverse for some of the wheels, from memory after the first time."""
+        if present not in self._solutions:
+            self._solutions[present] = self._solve(present)
+        return self._solutions[present]
+
+    def _solve(self, present: tuple[int, ...]) -> _Solution:
+        if len(present) < 3:
+            msg = f'{len(present)} wheel(s) cannot tell a twist: at least 3 are needed'
+            raise GeometryError(msg)
+        some = self.matrix[list(present)]
+        reach = sqrt(float(np.mean([(w.x * w.x + w.y * w.y) for w in self.wheels]))) or 1.0
+        left, values, right = np.linalg.svd(some / (1.0, 1.0, reach))  # all columns in m/s
+        if values[-1] < SINGULAR * values[0]:
+            missed = right[-1] / (1.0, 1.0, reach)
+            msg = f'no wheel turns when the base {_motion(missed)}: turn or move a wheel'
+            raise GeometryError(msg)
+        rows, checks = np.zeros((len(self), 3)), np.zeros((len(present) - 3, len(self)))
+        rows[list(present)] = np.linalg.pinv(some).T
+        checks[:, list(present)] = left.T[3:]
+        return _Solution(
+            tuple((float(a), float(b), float(c)) for a, b, c in rows),
+            tuple(tuple(map(float, check)) for check in checks),
+            len(present),
+        )
+
+
+def _motion(twist: Matrix) -> str:
+    """Return the motion of ``twist`` in words."""
+    vx, vy, wz = map(float, twist)
+    speed = sqrt(vx * vx + vy * vy)
+    if abs(wz) < SINGULAR * speed:
+        return f'moves along ({vx / speed + 0.0:.4g}, {vy / speed + 0.0:.4g})'
+    return f'rotates about ({-vy / wz + 0.0:.4g}, {vx / wz + 0.0:.4g}) m'

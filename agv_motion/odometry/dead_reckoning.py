@@ -1,0 +1,101 @@
+r"""Adding up displacements of a base: its pose exactly, and how uncertain it has become.
+
+A displacement :math:`(d_x, d_y, a)` of constant twist is an arc; its chord is the arc turned by
+:math:`a/2` and shortened by :math:`\sin(a/2)/(a/2)`.
+
+The error of the pose is kept as a small motion of the world about the origin: true pose =
+exp(error) * pose. In this form (the right-invariant one) an error made once stays the same
+however the base goes on, so the covariance only grows by what each step adds: the noise of the
+displacement, turned and shifted to the origin. It can also be subtracted: the difference between
+two times is the covariance of the motion between them.
+
+Source: A. Barrau, S. Bonnabel, "The invariant extended Kalman filter as a stable observer", IEEE
+Trans. Autom. Control 62(4), 2017.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
+from agv_motion.planar import Pose, require_finite, wrap
+
+Displacement = tuple[float, float, float]
+"""Twist times duration, in the frame of the base [m, m, rad]."""
+
+
+class DeadReckoning:
+    """A pose in the frame `odom`, and the covariance of its error about the origin.
+
+    Both are kept as plain numbers: to build tuples of them would cost as much as the step.
+    """
+
+    __slots__ = ('_heading', '_tt', '_x', '_xt', '_xx', '_xy', '_y', '_yt', '_yy')
+
+    def __init__(self) -> None:
+        """Start at the origin, with certainty."""
+        self.set(Pose(0.0, 0.0, 0.0))
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the base."""
+        return Pose(self._x, self._y, self._heading)
+
+    @property
+    def origin_covariance(self) -> Covariance:
+        """Covariance of the error about the origin; its differences belong to times between."""
+        return Covariance(self._xx, self._xy, self._xt, self._yy, self._yt, self._tt)
+
+    def covariance(self) -> Covariance:
+        """Return the covariance of the pose in the axes of `odom`, as nav_msgs/Odometry has it."""
+        return shift(self.origin_covariance, self._x, self._y)
+
+    def set(self, pose: Pose, covariance: Covariance = CERTAIN) -> None:
+        """Go on from ``pose``, known as well as ``covariance`` (axes of `odom`) says.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        require_finite('pose', pose)
+        require_finite('covariance', covariance)
+        self._x, self._y, self._heading = pose.x, pose.y, wrap(pose.theta)
+        self._xx, self._xy, self._xt, self._yy, self._yt, self._tt = shift(
+            covariance, -pose.x, -pose.y
+        )
+
+    def carry(
+        self, displacement: Displacement, covariance: Covariance, variance: float = 1.0
+    ) -> None:
+        """Follow ``displacement``, whose covariance is ``variance`` times ``covariance``.
+
+        Args:
+            displacement: Twist times duration, in the frame of the base [m, m, rad].
+            covariance: In the frame of the base halfway.
+            variance: Factor on it.
+
+        """
+        dx, dy, turn = displacement
+        half = 0.5 * turn
+        heading = self._heading + half
+        c, s = cos(heading), sin(heading)
+        chord = sin(half) / half if half else 1.0
+        step_x, step_y = chord * (c * dx - s * dy), chord * (s * dx + c * dy)
+        x, y = self._x + 0.5 * step_x, self._y + 0.5 * step_y
+        self._x += step_x
+        self._y += step_y
+        heading += half
+        self._heading = heading if -pi <= heading < pi else wrap(heading)
+
+        xx, xy, xt, yy, yt, tt = covariance  # rotate() and shift(), written out: the hot path
+        mean, half_difference = 0.5 * (xx + yy), 0.5 * (xx - yy)
+        c2, s2 = c * c - s * s, 2.0 * c * s
+        along, across = half_difference * c2 - xy * s2, half_difference * s2 + xy * c2
+        turned_xt, turned_yt = c * xt - s * yt, s * xt + c * yt
+        xt, yt = turned_xt + y * tt, turned_yt - x * tt
+        self._xx += variance * (mean + along + y * (turned_xt + xt))
+        self._xy += variance * (across - x * xt + y * turned_yt)
+        self._xt += variance * xt
+        self._yy += variance * (mean - along - x * (turned_yt + yt))
+        self._yt += variance * yt
+        self._tt += variance * tt

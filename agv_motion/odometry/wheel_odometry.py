@@ -1,0 +1,168 @@
+"""Odometry of any base from its wheel encoders: pose, twist, covariance and slip.
+
+The noise of each wheel grows like a random walk with the distance it rolls; the residual of the
+fit, what the wheels measure against each other, tells when it is worse than that.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
+from agv_motion.odometry.dead_reckoning import DeadReckoning
+from agv_motion.odometry.encoders import Encoders, Step
+from agv_motion.odometry.parameters import OdometryParameters
+from agv_motion.planar import Pose, Twist, require_finite, wrap
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.odometry.base import Base
+    from agv_motion.odometry.yaw_rate import Turn
+
+SLIP = 9.0
+"""[-] Wheels slip when their residual shows more than this many times the usual variance."""
+
+
+class WheelOdometry:
+    """Pose and twist of a base in its `odom` frame, from the angles of its wheels."""
+
+    def __init__(
+        self,
+        base: Base,
+        wheel_radii: Sequence[float],
+        parameters: OdometryParameters | None = None,
+    ) -> None:
+        """Start at the origin, with nothing read yet.
+
+        Args:
+            base: Turns travels into a displacement.
+            wheel_radii: (n,) rolling radius of each wheel [m].
+            parameters: How far the wheels can be trusted.
+
+        Raises:
+            ConfigurationError: The radii are not n finite numbers above zero.
+
+        """
+        if len(wheel_radii) != len(base):
+            msg = f'{len(wheel_radii)} wheel_radii for {len(base)} wheels: give one each'
+            raise ConfigurationError(msg)
+        given = parameters or OdometryParameters()
+        self._base = base
+        self._encoders = Encoders(wheel_radii, given)
+        self._reckoning = DeadReckoning()
+        self._walk = given.wheel_noise**2 / len(base)
+        self._quantum = (given.encoder_resolution * max(wheel_radii)) ** 2 / 6.0  # two roundings
+        self._gap_noise = given.gap_noise / len(base)
+        self._steering: Sequence[float] = ()
+        self._displacement = 0.0, 0.0, 0.0
+        self._unexplained = 0.0
+        self._duration = 1.0
+
+    @property
+    def stamp(self) -> float | None:
+        """Time of the last reading [s]; None before the first."""
+        return self._encoders.stamp
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the base in `odom`."""
+        return self._reckoning.pose
+
+    @property
+    def twist(self) -> Twist:
+        """Mean velocity over the last step, in the frame of the base."""
+        vx, vy, wz = (component / self._duration for component in self._displacement)
+        return Twist(vx, vy, wz)
+
+    @property
+    def residual(self) -> float:
+        """Root mean square of what the wheels measured against each other last [m/s]."""
+        return self._unexplained / self._duration
+
+    @property
+    def origin_covariance(self) -> Covariance:
+        """Covariance of the error about the origin of `odom`, see `dead_reckoning`."""
+        return self._reckoning.origin_covariance
+
+    def covariance(self) -> Covariance:
+        """Return the covariance of the pose in the axes of `odom`."""
+        return self._reckoning.covariance()
+
+    def set_odometry(self, pose: Pose, covariance: Covariance = CERTAIN) -> None:
+        """Go on from ``pose``, known as well as ``covariance`` says; the encoders count on.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        self._reckoning.set(pose, covariance)
+
+    def update(
+        self,
+        stamp: float,
+        angles: Sequence[float],
+        steering: Sequence[float] = (),
+        turn: Turn | None = None,
+    ) -> Step:
+        """Take a reading of the encoders and carry pose, covariance and twist on.
+
+        Args:
+            stamp: Time of the reading [s].
+            angles: (n,) angle of each wheel [rad].
+            steering: (n,) steering angles [rad] of a base on turrets.
+            turn: What a gyroscope says of the turn since the last reading.
+
+        Returns:
+            What the reading was good for.
+
+        Raises:
+            SignalError: A wrong number of values, or one that is not finite; nothing has changed.
+
+        """
+        base, encoders = self._base, self._encoders
+        halfway = self._halfway(steering) if base.steers or steering else steering
+        step = encoders.read(stamp, angles)
+        if step is not Step.MOVED and (step is Step.DUPLICATE or step is Step.LATE):
+            return step
+        if steering:
+            self._steering = list(steering)
+        variance, covariance = self._walk * encoders.rolled, base.unit_covariance
+        if not encoders.travel:
+            self._lose()
+            return step
+        dx, dy, angle, residual = base.displacement(encoders.travel, halfway)
+        displacement, duration = (dx, dy, angle), encoders.duration
+        if residual:
+            variance = self._with_slip(variance, residual)
+        if step is Step.GAP:
+            variance += (self._gap_noise * encoders.rolled) ** 2
+        if turn is not None:
+            covariance, variance = scale(covariance, variance), 1.0
+            displacement, covariance = turn.correct(displacement, covariance, duration)
+        self._reckoning.carry(displacement, covariance, variance)
+        self._displacement, self._unexplained, self._duration = displacement, residual, duration
+        return step
+
+    def _with_slip(self, variance: float, residual: float) -> float:
+        """Return the variance [m2] of a travel: the usual one, or what the residual shows."""
+        shown = len(self._base) * residual * residual / self._base.redundancy
+        return shown if shown > SLIP * (variance + self._quantum) else variance
+
+    def _halfway(self, steering: Sequence[float]) -> Sequence[float]:
+        """Return the steering angles halfway between the last reading and this one."""
+        require_finite('steering angles', tuple(steering))
+        expected = len(self._base) if self._base.steers else 0
+        if len(steering) != expected:
+            msg = f'{len(steering)} steering angles given, this base has {expected}: give one each'
+            raise SignalError(msg)
+        if not self._steering:  # the first reading
+            return steering
+        return [a + 0.5 * wrap(b - a) for a, b in zip(self._steering, steering, strict=True)]
+
+    def _lose(self) -> None:
+        """Stay where the base was last seen, as uncertain as the way it may have gone on."""
+        way = self._encoders.rolled / len(self._base)
+        self._reckoning.carry((0.0, 0.0, 0.0), self._base.unit_covariance, way * way)
+        self._displacement, self._unexplained = (0.0, 0.0, 0.0), 0.0

@@ -1,0 +1,131 @@
+"""A gyroscope beside the wheels: its turn between two readings, and its bias learnt at rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+from agv_motion.odometry.covariance import Covariance
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import require_finite
+
+if TYPE_CHECKING:
+    from agv_motion.odometry.dead_reckoning import Displacement
+
+
+@dataclass(frozen=True)
+class YawRateParameters:
+    """How good the gyroscope is."""
+
+    noise: Annotated[
+        float, Spec('standard deviation of the turn after 1 s', 'rad', (1e-7, 1.0))
+    ] = 0.002
+    bias: Annotated[
+        float, Spec('standard deviation of the rate at rest, when new', 'rad/s', (0.0, 1.0))
+    ] = 0.01
+    bias_walk: Annotated[
+        float, Spec('standard deviation of its change within 1 s', 'rad/s', (0.0, 1.0))
+    ] = 2e-5
+    max_gap: Annotated[float, Spec('silence over which nothing is told', 's', (1e-3, 10.0))] = 0.2
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+class Turn(NamedTuple):
+    """What the gyroscope says of the turn over some time."""
+
+    angle: float
+    """[rad]"""
+    variance: float
+    """[rad2]"""
+    duration: float
+    """[s]"""
+
+    def correct(
+        self, displacement: Displacement, covariance: Covariance, duration: float
+    ) -> tuple[Displacement, Covariance]:
+        """Return the displacement of the wheels and its covariance, given this turn as well.
+
+        The turn is a measurement of one of the three numbers of a normal distribution; its share
+        of the others follows from their correlation.
+
+        Args:
+            displacement: What the wheels say [m, m, rad].
+            covariance: Of it.
+            duration: Over which the wheels say so [s]; the turn is stretched to it.
+
+        """
+        if self.duration <= 0.0:
+            return displacement, covariance
+        stretch = duration / self.duration
+        xx, xy, xt, yy, yt, tt = covariance
+        total = tt + self.variance * stretch * stretch
+        dx, dy, angle = displacement
+        surprise = (self.angle * stretch - angle) / total
+        corrected = dx + xt * surprise, dy + yt * surprise, angle + tt * surprise
+        return corrected, Covariance(
+            xx - xt * xt / total,
+            xy - xt * yt / total,
+            xt - xt * tt / total,
+            yy - yt * yt / total,
+            yt - yt * tt / total,
+            tt - tt * tt / total,
+        )
+
+
+class YawRate:
+    """Adds up the rate of a gyroscope, less its bias, between two readings of the wheels."""
+
+    def __init__(self, parameters: YawRateParameters | None = None) -> None:
+        """Start with no bias, as uncertain of it as the parameters say."""
+        self._given = parameters or YawRateParameters()
+        self.bias = 0.0
+        """[rad/s] what the gyroscope tells at rest"""
+        self.bias_variance = self._given.bias**2
+        self._stamp: float | None = None
+        self._rate = 0.0
+        self._angle = self._duration = 0.0
+
+    def add(self, stamp: float, rate: float, *, at_rest: bool = False) -> None:
+        """Take a measurement.
+
+        Args:
+            stamp: Time [s]; one that is not after the last is ignored.
+            rate: Measured yaw rate [rad/s].
+            at_rest: Whether the wheels stand still, so that the rate is nothing but bias.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        require_finite('yaw rate and its stamp', (stamp, rate))
+        duration = 0.0 if self._stamp is None else stamp - self._stamp
+        if self._stamp is not None and -self._given.max_gap < duration <= 0.0:
+            return
+        if 0.0 < duration <= self._given.max_gap:
+            self._angle += duration * (0.5 * (rate + self._rate) - self.bias)
+            self._duration += duration
+            self._learn(rate, duration, at_rest=at_rest)
+        else:
+            self._angle = self._duration = 0.0
+        self._stamp, self._rate = stamp, rate
+
+    def _learn(self, rate: float, duration: float, *, at_rest: bool) -> None:
+        """Let the bias walk on, and at rest move it towards the rate (a scalar Kalman filter)."""
+        self.bias_variance += self._given.bias_walk**2 * duration
+        if at_rest:
+            noise = self._given.noise**2 / duration
+            gain = self.bias_variance / (self.bias_variance + noise)
+            self.bias += gain * (rate - self.bias)
+            self.bias_variance *= 1.0 - gain
+
+    def take(self) -> Turn | None:
+        """Return the turn since this was last asked; None when nothing was measured."""
+        if self._duration == 0.0:
+            return None
+        variance = self._given.noise**2 * self._duration
+        turn = Turn(self._angle, variance + self.bias_variance * self._duration**2, self._duration)
+        self._angle = self._duration = 0.0
+        return turn
