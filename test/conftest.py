@@ -8,6 +8,8 @@ from pathlib import Path
 
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 100)
+# shared memory left by a killed process can swallow messages of the next one on its port
+os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
 
 import pytest
 from hypothesis import settings

@@ -9,6 +9,8 @@ import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -16,6 +18,12 @@ if TYPE_CHECKING:
 
 DISCOVERY = 0.5
 """[s] How long to listen to the graph before telling what is there, as `ros2` does."""
+
+SETTLED, LONGEST = 0.4, 4.0
+"""[s] ... and on until nothing new has come for so long, but no longer than this in all."""
+
+PATIENCE = 5.0
+"""[s] A lost announcement comes again after three seconds; a named topic is worth that wait."""
 
 
 def forever() -> bool:
@@ -38,12 +46,42 @@ def joined(
         parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
     )
     try:
-        end = time.monotonic() + spin_time
-        spin(node, lambda: time.monotonic() > end)
+        if spin_time > 0.0:
+            _listen(node, spin_time)
         yield node
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _listen(node: Any, spin_time: float) -> None:
+    """Spin for ``spin_time`` [s], then until others have been found and nothing new comes."""
+    start = changed = time.monotonic()
+    known: tuple[int, int] = (0, 0)
+
+    def settled() -> bool:
+        nonlocal known, changed
+        now = time.monotonic()
+        found = len(node.get_node_names()), len(node.get_topic_names_and_types())
+        if found != known:
+            known, changed = found, now
+        quiet = now - changed >= SETTLED and _complete(node)
+        return now - start >= spin_time and (quiet or now - start >= max(LONGEST, spin_time))
+
+    spin(node, settled)
+
+
+def _complete(node: Any) -> bool:
+    """Return whether there are other nodes and something of each of them is known."""
+    from rclpy.node import NodeNameNonExistentError
+
+    others = [one for one in node.get_node_names_and_namespaces() if one[0] != node.get_name()]
+    try:
+        return bool(others) and all(
+            node.get_publisher_names_and_types_by_node(*other) for other in others
+        )
+    except NodeNameNonExistentError:  # it has left meanwhile
+        return False
 
 
 def spin(node: Any, until: Callable[[], bool] = forever) -> None:
@@ -56,6 +94,8 @@ def spin(node: Any, until: Callable[[], bool] = forever) -> None:
             rclpy.spin_once(node, timeout_sec=0.05)
     except ExternalShutdownException:
         return
+    except KeyboardInterrupt:
+        raise typer.Exit from None
 
 
 def topics(node: Any, *, hidden: bool = False) -> dict[str, list[str]]:
@@ -104,8 +144,9 @@ def topic_class(node: Any, topic: str, *, wait: bool = False) -> Any:
 
     """
     name, warned = full_name(node, topic), False
+    _await(node, name)
     while name not in topics(node, hidden=True):
-        print(f'WARNING: topic [{topic}] does not appear to be published yet')  # noqa: T201
+        typer.echo(f'WARNING: topic [{topic}] does not appear to be published yet')
         if not wait or warned:
             msg = f'Could not determine the type for the passed topic{_near(node, name)}'
             raise ConfigurationError(msg)
@@ -125,11 +166,18 @@ def require_topic(node: Any, topic: str) -> list[str]:
         ConfigurationError: It is not.
 
     """
+    _await(node, full_name(node, topic))
     types = topics(node, hidden=True).get(full_name(node, topic))
     if types is None:
         msg = f"Unknown topic '{topic}'{_near(node, topic)}"
         raise ConfigurationError(msg)
     return types
+
+
+def _await(node: Any, name: str) -> None:
+    """Give a topic that was named the time to be found."""
+    end = time.monotonic() + PATIENCE
+    spin(node, lambda: name in topics(node, hidden=True) or time.monotonic() > end)
 
 
 def _near(node: Any, name: str) -> str:

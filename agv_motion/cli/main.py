@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from agv_motion.cli import demo, doctor, nodes, topic
+from agv_motion.cli import demo, doctor, nodes, parameters, topic
 from agv_motion.errors import AgvMotionError
 
 app = typer.Typer(
@@ -23,6 +23,7 @@ app.add_typer(nodes.app, name='nodes')
 app.command(
     context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
 )(nodes.run)
+app.command()(parameters.parameters)
 app.command()(demo.demo)
 app.command()(doctor.doctor)
 

@@ -65,6 +65,18 @@ def available() -> list[str]:
     )
 
 
+def require_node(name: str) -> None:
+    """Raise unless there is a node of this name.
+
+    Raises:
+        ConfigurationError: There is none; the message lists those there are.
+
+    """
+    if name not in available():
+        msg = f"no node '{name}'{meant(name, available())}; there are {', '.join(available())}"
+        raise ConfigurationError(msg)
+
+
 def run(
     context: typer.Context,
     node: Annotated[str, typer.Argument(help='Name of the node, such as wheel_kinematics.')] = '',
@@ -77,8 +89,6 @@ def run(
     if not node:
         typer.echo('\n'.join(available()))
         return
-    if node not in available():
-        msg = f"no node '{node}'{meant(node, available())}; there are {', '.join(available())}"
-        raise ConfigurationError(msg)
+    require_node(node)
     sys.argv = [node, *context.args]
     importlib.import_module(f'agv_motion.nodes.{node}').main()

@@ -1,0 +1,87 @@
+"""`agv nodes`, `agv run` and `agv doctor`."""
+
+from __future__ import annotations
+
+import json
+import signal
+import time
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from sensor_msgs.msg import JointState
+
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.run import start
+
+
+def test_nodes_with_their_states(agv, graph):
+    start(graph.add(WheelKinematics(context=graph.context)))
+    graph.add(rclpy.create_node('plain', context=graph.context))
+    assert agv('nodes', '--spin-time', '5')[1].splitlines() == [
+        '/plain',
+        '/wheel_kinematics [active]',
+    ]
+
+
+def test_run_lists_and_refuses(alone):
+    status, out, _ = alone('run')
+    assert status == 0
+    assert {'granier_probe', 'motion_generator', 'simulator', 'wheel_kinematics'} <= set(
+        out.split()
+    )
+    status, _, errors = alone('run', 'wheel_cinematics')
+    assert status == 1
+    assert "did you mean 'wheel_kinematics'?" in errors
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'word'),
+    [
+        (('-p', 'wheel_radius:=-1.0'), 'wheel_radius'),
+        (('-p', 'turret_x:=[1.0]'), '1 values in turret_x, 3 in turret_y'),
+        (('-p', 'executor:=magic'), 'choose one of events, single_threaded'),
+        (('-p', 'wheel_radius:=1'), 'wheel_radius'),
+    ],
+)
+def test_a_node_that_cannot_start_says_why_and_ends_with_1(alone, arguments, word):
+    status, _, errors = alone('run', 'wheel_kinematics', '--ros-args', *arguments)
+    assert status == 1
+    assert word in errors
+    assert 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('executor', ['events', 'single_threaded'])
+def test_a_stopped_node_says_zero_and_ends_with_0(agv, graph, number, executor):
+    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    commands = []
+    node.create_subscription(JointState, 'turrets/command', commands.append, 1)
+    process = agv.start('run', 'wheel_kinematics', '--ros-args', '-p', f'executor:={executor}')
+    graph.spin_until(lambda: node.count_publishers('/turrets/command') == 1)
+    graph.spin_for(0.3)
+    commands.clear()
+    process.send_signal(number)
+    graph.spin_until(lambda: process.poll() is not None)
+    graph.spin_until(lambda: commands)
+    process.communicate()
+    assert process.returncode == 0
+    assert not any(commands[-1].velocity)
+
+
+def test_doctor_finds_what_is_there_and_tries_to_talk(alone):
+    status, out, _ = alone('doctor', '--json')
+    findings = {finding['what']: finding for finding in json.loads(out)}
+    assert status == 0
+    assert findings['rclpy']['state'] not in {'missing', ''}
+    assert 'hear each other' in findings['two participants']['state']
+    assert 'what to do' in alone('doctor', '--no-talk')[1]
+
+
+def test_help_is_quick(alone):
+    begin = time.monotonic()
+    status, out, _ = alone('--help')
+    assert status == 0
+    assert 'demo' in out
+    assert time.monotonic() - begin < 3.0

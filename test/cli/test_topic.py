@@ -1,0 +1,126 @@
+"""`agv topic` says what `ros2 topic` says, on a real graph."""
+
+from __future__ import annotations
+
+import re
+import signal
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import TwistStamped
+from std_msgs.msg import Float64MultiArray
+
+
+@pytest.fixture(scope='module')
+def talker(alone):
+    """Let the command itself say hello 50 times a second, long enough to be found."""
+    process = alone.start(
+        'topic', 'pub', '-r', '50', '-p', '100000', '/chatter', 'std_msgs/msg/String', 'data: hello'
+    )
+    alone('topic', 'echo', '/chatter', '--once')
+    yield process
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=10.0)
+
+
+def test_list(alone, talker):
+    _, out, _ = alone('topic', 'list')
+    assert {'/chatter', '/parameter_events', '/rosout'} <= set(out.split())
+    assert '/chatter [std_msgs/msg/String]' in alone('topic', 'list', '-t')[1].splitlines()
+    assert int(alone('topic', 'list', '-c')[1]) == len(out.split())
+    assert ' * /chatter [std_msgs/msg/String] 1 publisher' in alone('topic', 'list', '-v')[1]
+
+
+def test_info(alone, talker):
+    status, out, _ = alone('topic', 'info', '/chatter')
+    assert (status, out) == (
+        0, 'Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n',
+    )  # fmt: skip
+    assert 'Endpoint type: PUBLISHER' in alone('topic', 'info', '/chatter', '-v')[1]
+
+
+@pytest.mark.parametrize(
+    ('options', 'output'),
+    [
+        ((), 'data: hello\n---\n'),
+        (('--csv',), 'hello\n'),
+        (('--field', 'data'), 'hello\n---\n'),
+        (('-l', '2'), 'data: he...\n---\n'),
+        (('--no-str',), "data: '<string length: <5>>'\n---\n"),
+        (('--filter', 'm.data == "hello"'), 'data: hello\n---\n'),
+    ],
+)
+def test_echo_once(alone, talker, options, output):
+    assert alone('topic', 'echo', '/chatter', '--once', *options)[:2] == (0, output)
+
+
+def test_echo_goes_on_until_interrupted(alone, talker):
+    process = alone.start('topic', 'echo', '/chatter')
+    for _ in range(10):
+        assert process.stdout.readline() in {'data: hello\n', '---\n'}
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=10.0)
+    assert process.returncode == 0
+
+
+def test_what_the_filter_leaves_out_is_not_shown(alone, talker):
+    arguments = ('topic', 'echo', '/chatter', '--timeout', '0.5', '--filter', 'm.data == "bye"')
+    assert alone(*arguments)[:2] == (0, '')
+
+
+def test_hz_and_bw(alone, talker):
+    _, out, _ = alone('topic', 'hz', '/chatter', '--duration', '2')
+    assert 40 <= int(re.findall(r'average rate: (\d+)\.', out)[-1]) <= 60
+    assert re.search(r'\tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+', out)
+    _, out, _ = alone('topic', 'bw', '/chatter', '--duration', '2')
+    assert out.startswith('Subscribed to [/chatter]\n')
+    assert re.search(r'[\d.]+ K?B/s from \d+ messages\n\tMessage size mean: ', out)
+
+
+def test_pub(agv, graph):
+    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    heard = []
+    node.create_subscription(TwistStamped, 'cmd_vel', heard.append, 10)
+    status, out, _ = agv(
+        'topic', 'pub', '--once', '/cmd_vel', 'geometry_msgs/msg/TwistStamped',
+        '{header: auto, twist: {linear: {x: 1}}}',
+    )  # fmt: skip
+    assert status == 0
+    assert 'publisher: beginning loop\npublishing #1: geometry_msgs.msg.TwistStamped(' in out
+    graph.spin_until(lambda: heard)
+    assert heard[0].twist.linear.x == 1.0
+    assert heard[0].header.stamp.sec > 0
+
+
+def test_pub_some_times_with_arrays(agv, graph):
+    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    heard = []
+    node.create_subscription(Float64MultiArray, 'array', heard.append, 10)
+    agv(
+        'topic', 'pub', '-t', '3', '-r', '20', '/array', 'std_msgs/Float64MultiArray',
+        '{layout: {dim: [{label: a, size: 2}]}, data: [1, 2]}',
+    )  # fmt: skip
+    assert len(heard) == 3
+    assert list(heard[0].data) == [1.0, 2.0]
+    assert heard[0].layout.dim[0].label == 'a'
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'word'),
+    [
+        (('info', '/chater'), "Unknown topic '/chater'; did you mean '/chatter'?"),
+        (('echo', '/chatter', 'std_msgs/msg/Sting'), "did you mean 'String'?"),
+        (('echo', '/chatter', '--field', 'date', '--once'), 'it has data'),
+        (('echo', '/chatter', '--qos-reliability', 'maybe'), 'choose one of'),
+        (('pub', '/chatter', 'std_msgs/msg/String', '{date: 1}'), "did you mean 'data'?"),
+        (('pub', '/chatter', 'std_msgs/msg/String', 'hello'), 'dictionary in YAML'),
+        (('pub', '/chatter', 'nowhere_msgs/msg/String'), "package 'nowhere_msgs' has no msg"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(alone, talker, arguments, word):
+    status, _, errors = alone('topic', *arguments)
+    assert status == 1
+    assert word in errors
+    assert 'Traceback' not in errors
