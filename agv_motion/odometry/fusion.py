@@ -1,0 +1,246 @@
+"""Fusion of odometry with position fixes: where the robot is in `map`, and whether to believe it.
+
+The estimate is a `belief`. Around it stand a gate that keeps outliers out and a buffer in which
+late fixes take their place in time (`fix_buffer`), an `alignment` that finds the heading at the
+start, and the judgement that the robot was carried away: when fixes in a row agree with one
+another but no more with the belief.
+"""
+
+from __future__ import annotations
+
+from math import ceil, hypot, inf, sqrt
+from typing import TYPE_CHECKING
+
+from agv_motion.errors import SignalError
+from agv_motion.odometry.alignment import Sighting, align, thin
+from agv_motion.odometry.belief import Belief, Drift, believe, covariance_at
+from agv_motion.odometry.covariance import Covariance, is_positive_definite, rotate, shift
+from agv_motion.odometry.fix_buffer import FixBuffer
+from agv_motion.odometry.fusion_parameters import FusionParameters
+from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
+from agv_motion.odometry.history import OdometryHistory, Waypoint
+from agv_motion.planar import Pose, compose, inverse, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.odometry.fix import Fix
+
+AGREEING = 0.6
+"""[-] Share of the fixes that must agree on where the robot is."""
+MOST_SIGHTINGS = 24
+"""Fixes kept while searching, spread over the way; more would only take time."""
+MOST_WAITING = 50
+"""Fixes that may wait for odometry to come up to them."""
+CLOCK_SET_BACK = 10.0
+"""[s] Odometry that much before the last is not late: time itself began again."""
+DOUBT = 3
+"""Fixes rejected in a row that make the estimate doubtful."""
+
+
+class PoseFusion:
+    """Takes odometry and fixes in any order; tells pose and health at any time."""
+
+    def __init__(self, parameters: FusionParameters | None = None) -> None:
+        """Start knowing nothing."""
+        self._given = parameters or FusionParameters()
+        self._drift = Drift(self._given.position_drift**2, self._given.heading_drift**2)
+        self._history = OdometryHistory(self._given.horizon)
+        self._waiting: list[Fix] = []
+        self._verdicts = dict.fromkeys(Verdict, 0)
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget where the robot is and search for it anew."""
+        self._buffer: FixBuffer | None = None
+        self._guess: Belief | None = None
+        self._sightings: list[Sighting] = []
+        self._accepted_at: float | None = None
+
+    def set_pose(self, pose: Pose, covariance: Covariance) -> None:
+        """Believe that the robot is at ``pose``, as somebody says.
+
+        Args:
+            pose: In `map`, now.
+            covariance: Of it, in the axes of `map`.
+
+        Raises:
+            SignalError: A number is not finite, the covariance is not positive definite, or there
+                is no odometry yet to go on from.
+
+        """
+        require_finite('pose', pose)
+        require_finite('covariance of the pose', covariance)
+        if not is_positive_definite(covariance):
+            msg = f'covariance {tuple(covariance)} of the pose is not positive definite: mend it'
+            raise SignalError(msg)
+        if not self._history:
+            msg = 'the pose can be set once there is odometry: start that first'
+            raise SignalError(msg)
+        self.restart()
+        self._track(believe(pose, covariance, self._history.newest))
+
+    def add_odometry(self, stamp: float, pose: Pose, origin_covariance: Covariance) -> None:
+        """Take in where odometry sees the robot; a stamp that is not newer is ignored.
+
+        Args:
+            stamp: Time [s].
+            pose: In `odom`.
+            origin_covariance: Of the error about the origin of `odom` since odometry began, see
+                `dead_reckoning`.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        require_finite('odometry', (stamp, *pose, *origin_covariance))
+        now = Waypoint(stamp, pose, origin_covariance)
+        if self._history:
+            last = self._history.newest
+            elapsed = stamp - last.stamp
+            if -CLOCK_SET_BACK < elapsed <= 0.0:
+                return
+            way = hypot(pose.x - last.pose.x, pose.y - last.pose.y)
+            if elapsed < 0.0:
+                self._history.clear()
+                self.restart()
+            elif way > self._given.max_speed * elapsed or origin_covariance.tt < last.noise.tt:
+                self._begin_anew(last, now)
+        self._history.append(now)
+        if self._waiting and self._waiting[0].stamp <= stamp:
+            ready = [fix for fix in self._waiting if fix.stamp <= stamp]
+            del self._waiting[: len(ready)]
+            for fix in ready:
+                self._judge(fix)
+
+    def add_fix(self, fix: Fix) -> Verdict:
+        """Take in a position fix, in time, late or out of order; return what became of it."""
+        newest = self._history.newest.stamp if self._history else fix.stamp - 1.0
+        if newest < fix.stamp <= newest + max(self._given.horizon, 1.0):
+            if fix not in self._waiting:
+                self._waiting = sorted([*self._waiting, fix], key=lambda waiting: waiting.stamp)
+            del self._waiting[:-MOST_WAITING]
+            return self._count(Verdict.WAITING)
+        return self._judge(fix)
+
+    def estimate(self) -> Estimate | None:
+        """Return where the robot is as of the newest odometry; None while nothing is known."""
+        belief = self._belief()
+        if belief is None:
+            return None
+        now = self._history.newest
+        covariance = covariance_at(belief, now, self._drift)
+        return Estimate(
+            now.stamp,
+            compose(belief.map_to_odom, now.pose),
+            rotate(covariance, belief.map_to_odom.theta),
+            belief.map_to_odom,
+        )
+
+    def health(self) -> Health:
+        """Return how far the estimate is to be trusted."""
+        estimate = self.estimate()
+        if estimate is None:
+            state = State.SEARCHING if self._sightings else State.WAITING
+            return Health(state, inf, inf, inf, dict(self._verdicts))
+        since = inf if self._accepted_at is None else estimate.stamp - self._accepted_at
+        state = State.TRACKING
+        if self._buffer is None:
+            state = State.SEARCHING
+        elif len(self._buffer.rejected()) >= DOUBT:
+            state = State.DOUBTFUL
+        elif since > self._given.fix_timeout:
+            state = State.ODOMETRY_ONLY
+        xx, _, _, yy, _, tt = estimate.covariance
+        return Health(state, sqrt(max(xx, yy)), sqrt(tt), since, dict(self._verdicts))
+
+    def _belief(self) -> Belief | None:
+        return self._buffer.belief if self._buffer is not None else self._guess
+
+    def _judge(self, fix: Fix) -> Verdict:
+        """Decide about a fix that is not newer than the odometry."""
+        if fix.stamp > self._history.newest.stamp:
+            return self._count(Verdict.EARLY)
+        horizon = max(self._history.newest.stamp - self._given.horizon, self._history.oldest.stamp)
+        if fix.stamp < horizon or (self._buffer is not None and fix.stamp < self._buffer.start):
+            return self._count(Verdict.LATE)
+        sighting = Sighting(fix, self._history.at(fix.stamp))
+        if self._buffer is None:
+            return self._count(self._search(sighting))
+        if sighting in self._buffer:
+            return self._count(Verdict.DUPLICATE)
+        verdict = Verdict.REJECTED
+        if self._buffer.take(sighting):
+            verdict = Verdict.ACCEPTED
+            self._accepted_at = max(fix.stamp, self._accepted_at or fix.stamp)
+        elif self._is_kidnapped(self._buffer):
+            verdict = Verdict.KIDNAPPED
+        if self._buffer is not None:
+            self._buffer.forget(horizon)
+        return self._count(verdict)
+
+    def _search(self, sighting: Sighting) -> Verdict:
+        """Keep the fix, and see whether enough of them agree on position and heading."""
+        if any(known.fix == sighting.fix for known in self._sightings):
+            return Verdict.DUPLICATE
+        self._sightings.append(sighting)
+        self._sightings.sort(key=lambda known: known.fix.stamp)
+        while self._sightings[0].fix.stamp < sighting.fix.stamp - self._given.search_time:
+            del self._sightings[0]
+        if len(self._sightings) > MOST_SIGHTINGS:
+            thin(self._sightings)
+        if len(self._sightings) < self._given.alignment_fixes:
+            return Verdict.SEARCHING
+        heading = self._guess.map_to_odom.theta if self._guess else 0.0
+        self._settle(self._align(self._sightings, heading))
+        return Verdict.SEARCHING if self._buffer is None else Verdict.ACCEPTED
+
+    def _is_kidnapped(self, buffer: FixBuffer) -> bool:
+        """Begin the search anew if the rejected fixes agree on another place; return whether."""
+        rejected = buffer.rejected()
+        if len(rejected) < self._given.kidnap_fixes:
+            return False
+        if rejected[-1].fix.stamp - rejected[0].fix.stamp < self._given.kidnap_time:
+            return False
+        belief = self._align(rejected, buffer.belief.map_to_odom.theta)
+        if belief is None:
+            return False
+        self._buffer, self._sightings = None, list(rejected)
+        self._settle(belief)
+        return True
+
+    def _align(self, sightings: Sequence[Sighting], heading: float) -> Belief | None:
+        needed = max(self._given.alignment_fixes, ceil(AGREEING * len(sightings)))
+        return align(sightings, heading, needed)
+
+    def _settle(self, belief: Belief | None) -> None:
+        """Go on with what an alignment found: track once the heading is known."""
+        if belief is None:
+            return
+        self._guess, self._accepted_at = belief, belief.waypoint.stamp
+        if covariance_at(belief, belief.waypoint, self._drift).tt <= self._given.heading_known**2:
+            self._track(belief)
+
+    def _track(self, belief: Belief) -> None:
+        self._buffer = FixBuffer(belief, self._drift, self._given.gate)
+        self._guess, self._sightings = None, []
+
+    def _begin_anew(self, last: Waypoint, now: Waypoint) -> None:
+        """Keep the robot where it is in `map` when odometry jumps to another origin."""
+        belief = self._belief()
+        self._history.clear()
+        self._sightings = []
+        if belief is None:
+            return
+        jump = compose(last.pose, inverse(now.pose))
+        moved = shift(covariance_at(belief, last, self._drift), -last.pose.x, -last.pose.y)
+        covariance = rotate(shift(moved, jump.x, jump.y), -jump.theta)
+        kept = Belief(compose(belief.map_to_odom, jump), covariance, now)
+        if self._buffer is not None:
+            self._track(kept)
+        else:
+            self._guess = kept
+
+    def _count(self, verdict: Verdict) -> Verdict:
+        self._verdicts[verdict] += 1
+        return verdict

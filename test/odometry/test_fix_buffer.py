@@ -1,0 +1,94 @@
+"""The buffer: fixes that come late, in any order, leave the same belief as fixes in time."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agv_motion.odometry.alignment import Sighting
+from agv_motion.odometry.belief import Drift, believe
+from agv_motion.odometry.covariance import Covariance, scale
+from agv_motion.odometry.fix import position_fix
+from agv_motion.odometry.fix_buffer import FixBuffer
+from agv_motion.odometry.history import Waypoint
+from agv_motion.planar import Pose
+
+NOISE = Covariance(1e-3, 0.0, 0.0, 1e-3, 0.0, 1e-4)
+PRIOR = Covariance(0.1, 0.0, 0.0, 0.1, 0.0, 0.1)
+DRIFT = Drift(1e-6, 1e-8)
+
+
+def at(stamp):
+    """Return where odometry sees the robot: straight on at 1 m/s, ever less certain."""
+    return Waypoint(stamp, Pose(stamp, 0.0, 0.0), scale(NOISE, stamp))
+
+
+def sightings(seed, count, outliers=0.2):
+    """Return fixes around the truth, some of them far out."""
+    chance, found = random.Random(seed), []  # noqa: S311
+    for i in range(1, count + 1):
+        far = 5.0 if chance.random() < outliers else 0.0
+        x, y = chance.gauss(i, 0.15) + far, chance.gauss(0.0, 0.15)
+        found.append(Sighting(position_fix(float(i), x, y, 0.15), at(float(i))))
+    return found
+
+
+def started():
+    return FixBuffer(believe(Pose(0.1, -0.1, 0.05), PRIOR, at(0.0)), DRIFT, 0.999)
+
+
+@given(st.integers(0, 10**6), st.integers(1, 15))
+def test_the_order_of_arrival_does_not_matter(seed, count):
+    in_time, shuffled = started(), started()
+    fixes = sightings(seed, count)
+    for sighting in fixes:
+        in_time.take(sighting)
+    random.Random(seed).shuffle(fixes)  # noqa: S311
+    for sighting in fixes:
+        shuffled.take(sighting)
+    assert shuffled.belief == in_time.belief
+    assert shuffled.rejected() == in_time.rejected()
+
+
+def test_an_outlier_changes_nothing():
+    buffer = started()
+    before = buffer.belief
+    assert not buffer.take(Sighting(position_fix(1.0, 9.0, 0.0, 0.15), at(1.0)))
+    assert buffer.belief == before
+    assert buffer.take(Sighting(position_fix(2.0, 2.0, 0.0, 0.15), at(2.0)))
+    assert buffer.belief != before
+
+
+def test_sound_fixes_pass_as_often_as_the_gate_says():
+    passed = total = 0
+    for seed in range(150):
+        buffer = FixBuffer(believe(Pose(0.0, 0.0, 0.0), scale(PRIOR, 0.01), at(0.0)), DRIFT, 0.95)
+        for sighting in sightings(seed, 20, outliers=0.0):
+            passed += buffer.take(sighting)
+            total += 1
+    assert passed / total == pytest.approx(0.95, abs=0.03)
+
+
+def test_what_is_forgotten_stays_believed():
+    buffer, fixes = started(), sightings(1, 10, outliers=0.0)
+    for sighting in fixes:
+        buffer.take(sighting)
+    belief = buffer.belief
+    buffer.forget(before=6.0)
+    assert buffer.belief == belief
+    assert buffer.start == 5.0
+    assert fixes[6] in buffer
+    assert fixes[3] not in buffer
+
+
+def test_rejected_fixes_are_kept_since_the_last_accepted_but_not_without_end():
+    buffer = started()
+    assert buffer.take(Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
+    far = [Sighting(position_fix(2.0 + i, -50.0, 0.0, 0.15), at(2.0 + i)) for i in range(60)]
+    for sighting in far:
+        buffer.take(sighting)
+        buffer.forget(sighting.fix.stamp - 1.0)
+    assert buffer.rejected() == far[-24:]
