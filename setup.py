@@ -45,6 +45,7 @@ setup(
     python_requires='>=3.10',
     install_requires=[
         'mcap>=1.1',
+        'networkx>=3.1',
         'numpy>=1.26',
         'pyserial>=3.5',
         'pyyaml>=6',
@@ -73,6 +74,7 @@ setup(
             'mypy>=1.11',
             'pytest>=8',
             'ruff>=0.12',
+            'types-networkx',
             'types-pyserial',
             'types-pyyaml',
         ],

@@ -10,7 +10,7 @@ import rclpy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import Odometry, Path
 from rclpy.signals import SignalHandlerOptions
 from rich.live import Live
 from sensor_msgs.msg import Illuminance, JointState, Temperature
@@ -28,7 +28,7 @@ from agv_motion.ros.config import find_config
 from agv_motion.ros.run import Stop, overrides, spin, start
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    import pathlib
 
     from numpy.typing import NDArray
     from rich.console import Console
@@ -45,6 +45,7 @@ TOPICS = [
     Topic('cmd_vel', TwistStamped),
     Topic('goal', PoseStamped, latched=True),
     Topic('state', String, latched=True),
+    Topic('way', Path, latched=True),
     Topic('turrets/command', JointState),
     Topic('turrets/state', JointState),
     Topic('turrets/residual', Float64),
@@ -60,7 +61,7 @@ class DemoGraph:
     """Builds the graph, runs it, and reports."""
 
     def __init__(
-        self, probes: dict[str, Any], zone: str, seed: int, time_factor: float, bag: Path
+        self, probes: dict[str, Any], zone: str, seed: int, time_factor: float, bag: pathlib.Path
     ) -> None:
         """Create and start all nodes with the values of ``config/tree.yaml``.
 
@@ -139,7 +140,7 @@ class DemoGraph:
         rclpy.try_shutdown()
         return first, load
 
-    def report(self, console: Console, output: Path) -> None:
+    def report(self, console: Console, output: pathlib.Path) -> None:
         """Print the summary, and draw the figure beside the bag."""
         limit = self._wheels.max_wheel_speed
         run = read_run(self._bag, self._wheels.wheel_radius)

@@ -106,7 +106,13 @@ class MotionGenerator:
         self.parameters = parameters
         self.resting = True
 
-    def decide(self, flow: SapFlow, pose: Pose, goal: tuple[float, float]) -> Motion:
+    def decide(
+        self,
+        flow: SapFlow,
+        pose: Pose,
+        goal: tuple[float, float],
+        waypoint: tuple[float, float] | None = None,
+    ) -> Motion:
         """Return the command that ``flow`` asks for at ``pose``.
 
         At the goal the tree turns on the spot.
@@ -115,6 +121,7 @@ class MotionGenerator:
             flow: Normalised sap flow, checked.
             pose: Of the platform in the map.
             goal: Where to go, in the map [m].
+            waypoint: Where to head for on the way there [m]; None: straight to the goal.
 
         """
         given = self.parameters
@@ -124,4 +131,4 @@ class MotionGenerator:
             return Motion(STILL, Activity.RESTING)
         if hypot(goal[0] - pose.x, goal[1] - pose.y) < given.arrival:
             return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), Activity.TURNING)
-        return Motion(polar_command(flow, pose, goal), Activity.WALKING)
+        return Motion(polar_command(flow, pose, waypoint or goal), Activity.WALKING)

@@ -7,12 +7,14 @@ from typing import Annotated, Any
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
 from geometry_msgs.msg import Twist as TwistMessage
+from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.motion import generator
 from agv_motion.motion.generator import RestParameters, SapFlow, checked_sap_flow
+from agv_motion.motion.paths import Paths, next_waypoint
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
@@ -23,6 +25,9 @@ from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
+
+WAYPOINT_REACHED = 0.3
+"""[m] A corner of the way counts as reached from here: twice the noise of a position fix."""
 
 
 @dataclass(frozen=True)
@@ -78,10 +83,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
         self._zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
+        self._paths = None if self._zone is None else Paths(self._zone)
         self._goal = self._reachable(given.goal[0], given.goal[1])
+        self._waypoint: tuple[float, float] | None = None
+        self._no_way = ''
         self._valid = True
         self._paused = False
         self._told = ''
+        self._told_way: list[tuple[float, float]] = []
         self._lost = 'sap flow'
         self._watchdogs = {
             name: Watchdog(given.report_after, given.stop_after) for name in ('sap flow', 'pose')
@@ -91,6 +100,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if given.stamped:
             self._message.header.frame_id = given.base_frame
         self._command = self.publisher(kind, 'cmd_vel', COMMAND)
+        self._way = self.publisher(Path, 'way', LATCHED)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
         self._state = self.publisher(String, 'state', LATCHED)
         self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR)
@@ -99,6 +109,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
         self.serve(SetBool, '~/pause', self._on_pause)
         self.every(1.0 / given.rate, self._tick)
+        self.every(1.0, self._plan)
 
     def begin(self) -> None:
         """Tell where the tree means to go."""
@@ -136,8 +147,34 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._require_map(message.header.frame_id)
         goal = pose_of(message.pose)
         self._goal = self._reachable(goal.x, goal.y)
+        self._plan()
         self.get_logger().info(f'new goal ({goal.x:.2f}, {goal.y:.2f})')
         self._publish_goal()
+
+    def _plan(self) -> None:
+        """Find the way to the goal from where the tree is now."""
+        self._waypoint, self._no_way = None, ''
+        if self._paths is None or self._pose is None:
+            return
+        try:
+            way = self._paths.way((self._pose.x, self._pose.y), self._goal)
+        except GeometryError as error:
+            self._no_way = str(error)
+            return
+        self._waypoint = next_waypoint(way, WAYPOINT_REACHED)
+        if way[1:] != self._told_way[1:]:
+            self._told_way = way
+            self._publish_way(way)
+
+    def _publish_way(self, way: list[tuple[float, float]]) -> None:
+        message = Path()
+        message.header.frame_id = self.parameters.map_frame
+        self.stamp(message)
+        for x, y in way:
+            corner = PoseStamped(header=message.header)
+            fill_pose(corner.pose, Pose(x, y, 0.0))
+            message.poses.append(corner)
+        self._way.publish(message)
 
     def _reachable(self, x: float, y: float) -> tuple[float, float]:
         if self._zone is not None and not self._zone.walkable(x, y):
@@ -181,7 +218,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             return f'resting: no {self._lost or "input"}'
         if self._zone is not None and not self._zone.contains(self._pose.x, self._pose.y):
             return f'stopped: the tree {self._zone.why_not(self._pose.x, self._pose.y)}'
-        return ''
+        if self._paths is not None and self._waypoint is None:
+            self._plan()
+        return f'stopped: {self._no_way}' if self._no_way else ''
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
@@ -189,7 +228,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if obstacle or self._sap_flow is None or self._pose is None:
             self._publish(REST, obstacle)
             return
-        command, activity = self._generator.decide(self._sap_flow, self._pose, self._goal)
+        command, activity = self._generator.decide(
+            self._sap_flow, self._pose, self._goal, self._waypoint
+        )
         given = self.parameters
         twist = to_twist(command, given.linear_speed, given.platform_radius)
         self._publish(twist, activity.value)

@@ -9,12 +9,14 @@ import pytest
 rclpy = pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.run import StartError
 
 
 class Senses:
@@ -24,7 +26,7 @@ class Senses:
         self.tester = tester
         self.commands = tester.listen(TwistStamped, 'cmd_vel')
         self.states = tester.listen(String, 'state', LATCHED)
-        self.node = tester.start(MotionGenerator, goal=[10.0, 5.0], **parameters)
+        self.node = tester.start(MotionGenerator, **({'goal': [10.0, 5.0]} | parameters))
         self.flow = tester.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
         self.pose = tester.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
         self.valid = tester.publisher(Bool, 'granier/valid', LATCHED)
@@ -175,3 +177,55 @@ def test_the_last_word_is_zero(senses):
 def test_thresholds_that_contradict_each_other_are_refused(tester):
     with pytest.raises(ConfigurationError, match='fall asleep at once'):
         tester.start(MotionGenerator, rest__rest_below=0.5)
+
+
+COLUMN = """
+boundary: [[0, 0], [20, 0], [20, 10], [0, 10]]
+holes: [[[9, 4], [11, 4], [11, 6], [9, 6]]]
+"""
+
+
+@pytest.fixture
+def zone(tmp_path):
+    path = tmp_path / 'zone.yaml'
+    path.write_text(COLUMN)
+    return str(path)
+
+
+def test_it_walks_round_what_stands_in_the_way(tester, zone):
+    """From (5, 5) to (15, 5) past the column: the first heading is off the straight line."""
+    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+    ways = tester.listen(Path, 'way', LATCHED)
+    senses.stand(5.0, 5.0, 0.0)
+    senses.feel(1.0, 0.5, 0.5)
+    twist = senses.moves().twist
+    assert abs(atan2(twist.linear.y, twist.linear.x)) > 0.2
+    assert len(tester.wait(ways).poses) > 2
+
+
+def test_outside_its_zone_it_stops_and_says_so(tester, zone):
+    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+    senses.stand(10.0, 5.0, 0.0)
+    senses.feel(1.0, 1.0, 1.0)
+    tester.wait(senses.states, lambda m: 'lies in hole 1' in m.data)
+    assert not any(moving(command) for command in senses.commands)
+
+
+def test_a_goal_outside_the_zone_is_refused_and_the_old_one_stays(tester, zone):
+    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+    clicked = PoseStamped()
+    clicked.pose.position.x = 30.0
+    clicked.pose.orientation.w = 1.0
+    tester.publisher(PoseStamped, 'goal_pose').publish(clicked)
+    tester.graph.spin_until(lambda: 'lies outside the zone' in senses.node.complaint)
+    senses.stand(14.5, 5.0, 0.0)
+    senses.feel(1.0, 1.0, 0.5)
+    tester.wait(senses.states, lambda m: 'at the goal' in m.data)
+
+
+def test_a_zone_that_is_no_polygon_stops_the_start(tester, tmp_path, capfd):
+    path = tmp_path / 'zone.yaml'
+    path.write_text('boundary: [[0, 0], [4, 4], [4, 0], [0, 4]]')
+    with pytest.raises(StartError):
+        tester.start(MotionGenerator, zone_file=str(path))
+    assert 'boundary is no polygon' in capfd.readouterr().err
