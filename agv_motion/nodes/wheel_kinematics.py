@@ -14,6 +14,7 @@ from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.turret_motion import alignment, nearest_turns
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.nodes.platform_parameters import PlatformParameters
 from agv_motion.parameters import Spec
@@ -57,6 +58,9 @@ class WheelKinematicsParameters(PlatformParameters):
 class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     """`cmd_vel` -> `turrets/command`; `turrets/state` -> `turrets/residual`, `odom`.
 
+    Where `turrets/state` tells how far the turrets have turned, the wheels roll no faster than the
+    cosine of the worst error: from rest the platform steers first.
+
     Silence of `cmd_vel`, turrets that fight, `~/stop` and the end of the node all end in an
     explicit zero speed with the steering angles held.
     """
@@ -70,8 +74,11 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         given = self.parameters
         self._turrets = given.turrets()
         self._watchdog = Watchdog(given.report_after, given.stop_after)
+        self._state_watchdog = Watchdog(given.report_after, given.stop_after)
+        self._blind = False
         self._joints = TurretJoints(len(self._turrets))
         self._angles: list[float] | None = None
+        self._measured: list[float] | None = None
         self._stopped_by = ''
         self._residual = 0.0
         self._pose = Pose(0.0, 0.0, 0.0)
@@ -102,6 +109,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         values = {'residual [m/s]': f'{self._residual:.5f}', 'cmd_vel': silence.value}
         if self._stopped_by:
             return Diagnosis(ERROR, f'stopped: {self._stopped_by}', values)
+        if self._blind:
+            return Diagnosis(ERROR, 'stopped: turrets/state is lost', values)
         if silence is not Silence.FRESH:
             return Diagnosis(WARN, f'cmd_vel is {silence.value}', values)
         if self._residual > self.parameters.residual_warning:
@@ -116,20 +125,21 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _drive(self, twist: Twist, stamp: Any) -> None:
         self._watchdog.feed()
-        self._send(REST if self._stopped_by else twist, stamp)
+        self._send(REST if self._stopped_by or self._blind else twist, stamp)
 
     def _send(self, twist: Twist, stamp: Any) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
         given = self.parameters
         held = self._angles or [0.0] * len(self._turrets)
         command = self._turrets.command(twist, held, given.max_wheel_speed)
-        self._angles = command.angle
-        rates = [speed / given.wheel_radius for speed in command.speed]
+        self._angles = angles = nearest_turns(command.angle, held)
+        share = alignment(angles, self._measured) if self._measured else 1.0
+        rates = [share * speed / given.wheel_radius for speed in command.speed]
         self._message.header.stamp = stamp
-        self._joints.fill(self._message, command.angle, rates)
+        self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)
         if self._arrays_wanted:
-            self._steering.publish(Float64MultiArray(data=array('d', command.angle)))
+            self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
 
     def _watch(self) -> None:
@@ -138,6 +148,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._arrays_wanted = any(
             publisher.get_subscription_count() for publisher in (self._steering, self._wheels)
         )
+        self._watch_state(now)
         silence = self._watchdog.judge(now)
         if silence is Silence.FRESH:
             return
@@ -150,6 +161,17 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         if silence is Silence.LOST:
             self._send(REST, self.get_clock().now().to_msg())
 
+    def _watch_state(self, now: float) -> None:
+        """Stop when the turrets have told their angles and then fall silent."""
+        silence = self._state_watchdog.judge(now)
+        self._blind = silence is Silence.LOST and self._measured is not None
+        if self._blind:
+            self.get_logger().error(
+                f'no turrets/state for {self._state_watchdog.age(now):.1f} s: stopping; '
+                'look at the encoders', throttle_duration_sec=5.0,
+            )  # fmt: skip
+            self._send(REST, self.get_clock().now().to_msg())
+
     def _on_stop(self, request: Any) -> str:
         self._stopped_by = 'by request' if request.data else ''
         if request.data:
@@ -160,8 +182,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _on_state(self, message: JointState) -> None:
         """Fit the twist that the turrets really make, and carry the odometry on."""
         angles, rates = self._joints.read(message)
-        if self._angles is None:
-            self._angles = angles
+        self._state_watchdog.feed()
+        self._angles = self._angles or angles
+        self._measured = angles
         speeds = [rate * self.parameters.wheel_radius for rate in rates]
         fit = self._turrets.twist(angles, speeds)
         self._residual = fit.residual

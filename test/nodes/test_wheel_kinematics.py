@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, nan, pi
+from math import cos, inf, nan, pi, sin
 
 import pytest
 
@@ -233,5 +233,49 @@ def test_cleanup_closes_the_topics_and_the_node_starts_again(tester, drive):
     assert node.trigger_configure() is TransitionCallbackReturn.SUCCESS
     assert node.trigger_activate() is TransitionCallbackReturn.SUCCESS
     tester.graph.spin_until(lambda: cmd_vel.get_subscription_count() == 1)
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: any(m.velocity))
+
+
+def test_from_rest_the_turrets_steer_before_the_wheels_roll(tester, drive):
+    _, commands, cmd_vel = drive(**FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.1))
+    tester.graph.spin_for(0.2)
+    commands.clear()
+    cmd_vel.publish(twist(vy=0.3))
+    command = tester.wait(commands, lambda m: any(m.position))
+    assert angles(command) == pytest.approx([pi / 2] * 2)
+    assert rates(command) == pytest.approx([0.0] * 2, abs=1e-12)
+    joint_states.publish(state([pi / 2 - pi / 3, pi / 2], [0.0, 0.0], 0.2))
+    tester.graph.spin_for(0.2)
+    commands.clear()
+    cmd_vel.publish(twist(vy=0.3))
+    command = tester.wait(commands, lambda m: any(m.velocity))
+    assert rates(command) == pytest.approx([1.5] * 2)
+
+
+def test_a_turret_never_goes_the_long_way_round(tester, drive):
+    _, commands, cmd_vel = drive(**FAST)
+    for heading in (3.0, 3.3):
+        commands.clear()
+        cmd_vel.publish(twist(0.3 * cos(heading), 0.3 * sin(heading)))
+        command = tester.wait(commands, lambda m: any(m.velocity))
+    assert angles(command) == pytest.approx([3.3] * 2)
+
+
+def test_turrets_that_fall_silent_stop_the_platform(tester, drive):
+    _, commands, cmd_vel = drive(report_after=0.2, stop_after=0.5, **FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.1))
+    for _ in range(10):
+        cmd_vel.publish(twist(vx=0.3))
+        tester.graph.spin_for(0.1)
+    assert rates(commands[-1]) == [0.0, 0.0]
+    joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.2))
+    tester.graph.spin_for(0.3)
+    commands.clear()
     cmd_vel.publish(twist(vx=0.3))
     tester.wait(commands, lambda m: any(m.velocity))
