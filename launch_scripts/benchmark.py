@@ -8,11 +8,13 @@ import subprocess
 import sys
 import time
 from math import cos, pi, sin
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
+import benchmark_odometry
 import numpy as np
 import rclpy
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from measure import Row, per_call
 from rclpy.qos import qos_profile_sensor_data
 from rich.console import Console
 from rich.progress import track
@@ -36,27 +38,6 @@ if TYPE_CHECKING:
 
 POSITIONS = [(1.18 * cos(a), 1.18 * sin(a)) for a in (-pi / 4, pi / 4, pi)]
 LIMIT = 2.0 / 60.0
-
-
-class Row(NamedTuple):
-    """One comparison; times in seconds."""
-
-    what: str
-    ours: float
-    peer: str = ''
-    theirs: float = 0.0
-    target: str = ''
-
-
-def per_call(act: Callable[[], Any], calls: int = 2000, rounds: int = 15) -> float:
-    """Return the median time of one call [s]."""
-    times = []
-    for _ in range(rounds):
-        begin = time.perf_counter()
-        for _ in range(calls):
-            act()
-        times.append((time.perf_counter() - begin) / calls)
-    return statistics.median(times)
 
 
 def turret_rows() -> list[Row]:
@@ -201,7 +182,9 @@ def main() -> None:
     table = Table(title='Ours beside the peer; medians', title_justify='left')
     for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
         table.add_column(column)
-    for section in track([turret_rows, chain_rows, process_rows], 'Measuring'):
+    for section in track(
+        [turret_rows, benchmark_odometry.rows, chain_rows, process_rows], 'Measuring'
+    ):
         for row in section():
             load = row.what.startswith('idle')
             ours = f'{row.ours:.3f}' if load else shown(row.ours)

@@ -134,28 +134,36 @@ class Turrets:
             SignalError: The lengths differ from the number of turrets, or a value is not finite.
 
         """
+        vx, vy, wz, residual = self.solve(angles, speeds)
+        return TwistFit(Twist(vx, vy, wz), residual)
+
+    def solve(
+        self, angles: Sequence[float], speeds: Sequence[float]
+    ) -> tuple[float, float, float, float]:
+        """Return what :meth:`twist` does as plain numbers, for the hot path of odometry."""
         n = len(self.positions)
         if len(angles) != n or len(speeds) != n:
             msg = f'{len(angles)} angles and {len(speeds)} speeds for {n} turrets: give one each'
             raise SignalError(msg)
-        require_finite('turret angles', tuple(angles))
-        require_finite('wheel speeds', tuple(speeds))
-        velocities = [(v * cos(a), v * sin(a)) for a, v in zip(angles, speeds, strict=True)]
-        mean_x = sum(x for x, _ in velocities) / n
-        mean_y = sum(y for _, y in velocities) / n
-        wz = (
-            sum(
-                (x - self._centre_x) * v_y - (y - self._centre_y) * v_x
-                for (x, y), (v_x, v_y) in zip(self.positions, velocities, strict=True)
-            )
-            / self._spread
-        )
-        fit = Twist(mean_x + wz * self._centre_y, mean_y - wz * self._centre_x, wz)
-        error = sum(
-            (fit.vx - wz * y - v_x) ** 2 + (fit.vy + wz * x - v_y) ** 2
-            for (x, y), (v_x, v_y) in zip(self.positions, velocities, strict=True)
-        )
-        return TwistFit(fit, sqrt(error / n))
+        velocities = []
+        sum_x = sum_y = moment = 0.0
+        centre_x, centre_y = self._centre_x, self._centre_y
+        if not (isfinite(sum(angles)) and isfinite(sum(speeds))):
+            require_finite('turret angles', tuple(angles))
+            require_finite('wheel speeds', tuple(speeds))
+        for (x, y), angle, speed in zip(self.positions, angles, speeds):  # noqa: B905 - hot
+            v_x, v_y = speed * cos(angle), speed * sin(angle)
+            velocities.append((v_x, v_y))
+            sum_x += v_x
+            sum_y += v_y
+            moment += (x - centre_x) * v_y - (y - centre_y) * v_x
+        wz = moment / self._spread
+        vx, vy = sum_x / n + wz * centre_y, sum_y / n - wz * centre_x
+        error = 0.0
+        for (x, y), (v_x, v_y) in zip(self.positions, velocities):  # noqa: B905
+            left_x, left_y = vx - wz * y - v_x, vy + wz * x - v_y
+            error += left_x * left_x + left_y * left_y
+        return vx, vy, wz, sqrt(error / n)
 
 
 def centre_of_rotation(twist: Twist) -> tuple[float, float] | None:

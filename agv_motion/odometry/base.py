@@ -105,8 +105,7 @@ class TurretBase:
 
     def displacement(self, travel: Sequence[float], steering: Sequence[float]) -> Fit:
         """Return the least-squares displacement."""
-        twist, residual = self._turrets.twist(steering, travel)
-        return (*twist, residual)
+        return self._turrets.solve(steering, travel)
 
 
 class DifferentialBase:

@@ -30,7 +30,7 @@ class DeadReckoning:
     Both are kept as plain numbers: to build tuples of them would cost as much as the step.
     """
 
-    __slots__ = ('_heading', '_tt', '_x', '_xt', '_xx', '_xy', '_y', '_yt', '_yy')
+    __slots__ = ('_tt', '_xt', '_xx', '_xy', '_yt', '_yy', 'heading', 'x', 'y')
 
     def __init__(self) -> None:
         """Start at the origin, with certainty."""
@@ -39,7 +39,7 @@ class DeadReckoning:
     @property
     def pose(self) -> Pose:
         """Pose of the base."""
-        return Pose(self._x, self._y, self._heading)
+        return Pose(self.x, self.y, self.heading)
 
     @property
     def origin_covariance(self) -> Covariance:
@@ -48,7 +48,7 @@ class DeadReckoning:
 
     def covariance(self) -> Covariance:
         """Return the covariance of the pose in the axes of `odom`, as nav_msgs/Odometry has it."""
-        return shift(self.origin_covariance, self._x, self._y)
+        return shift(self.origin_covariance, self.x, self.y)
 
     def set(self, pose: Pose, covariance: Covariance = CERTAIN) -> None:
         """Go on from ``pose``, known as well as ``covariance`` (axes of `odom`) says.
@@ -59,7 +59,7 @@ class DeadReckoning:
         """
         require_finite('pose', pose)
         require_finite('covariance', covariance)
-        self._x, self._y, self._heading = pose.x, pose.y, wrap(pose.theta)
+        self.x, self.y, self.heading = pose.x, pose.y, wrap(pose.theta)
         self._xx, self._xy, self._xt, self._yy, self._yt, self._tt = shift(
             covariance, -pose.x, -pose.y
         )
@@ -77,15 +77,15 @@ class DeadReckoning:
         """
         dx, dy, turn = displacement
         half = 0.5 * turn
-        heading = self._heading + half
+        heading = self.heading + half
         c, s = cos(heading), sin(heading)
         chord = sin(half) / half if half else 1.0
         step_x, step_y = chord * (c * dx - s * dy), chord * (s * dx + c * dy)
-        x, y = self._x + 0.5 * step_x, self._y + 0.5 * step_y
-        self._x += step_x
-        self._y += step_y
+        x, y = self.x + 0.5 * step_x, self.y + 0.5 * step_y
+        self.x += step_x
+        self.y += step_y
         heading += half
-        self._heading = heading if -pi <= heading < pi else wrap(heading)
+        self.heading = heading if -pi <= heading < pi else wrap(heading)
 
         xx, xy, xt, yy, yt, tt = covariance  # rotate() and shift(), written out: the hot path
         mean, half_difference = 0.5 * (xx + yy), 0.5 * (xx - yy)

@@ -2,6 +2,10 @@
 
 A late fix is put where it belongs, and those after it are taken in again: the result, gate and
 all, is the same as if it had come in time.
+
+After a long silence the gate is wide, and an outlier may pass. It then shuts the gate on the sound
+fixes that follow: so when several in a row are rejected that would have passed without the last
+one that was accepted, that one is outvoted.
 """
 
 from __future__ import annotations
@@ -18,6 +22,8 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.alignment import Sighting
 
+VOTERS = range(3, 8)
+"""How many fixes in a row are rejected when it is asked whether the one before was the outlier."""
 LONGEST_STREAK = 24
 """Rejected fixes in a row that are kept; of more, the oldest is dropped."""
 
@@ -26,7 +32,8 @@ LONGEST_STREAK = 24
 class _Entry:
     sighting: Sighting
     after: Belief
-    accepted: bool
+    accepted: bool = False
+    outvoted: bool = False
 
 
 class FixBuffer:
@@ -68,22 +75,41 @@ class FixBuffer:
         """Take in a fix that is not before the start; return whether it passed the gate."""
         entries = self._entries
         place = bisect_right([entry.sighting.fix.stamp for entry in entries], sighting.fix.stamp)
-        before = entries[place - 1].after if place else self._before
-        entry = _Entry(sighting, before, accepted=False)
+        entry = _Entry(sighting, self._before)
         entries.insert(place, entry)
-        belief = before
-        for again in entries[place:]:
-            fix, waypoint = again.sighting
-            taken, distance = take(belief, waypoint, fix, self._drift)
-            again.accepted = distance <= self._gates[fix.heading is not None]
-            belief = again.after = taken if again.accepted else belief
+        self._replay(place)
+        streak = self._streak()
+        if streak and len(entries) - streak in VOTERS:
+            self._vote(streak - 1)
         return entry.accepted
 
+    def _replay(self, place: int) -> int:
+        """Take in the fixes from ``place`` on again; return how many of them pass the gate."""
+        belief = self._entries[place - 1].after if place else self._before
+        passed = 0
+        for entry in self._entries[place:]:
+            fix, waypoint = entry.sighting
+            taken, distance = take(belief, waypoint, fix, self._drift)
+            inside = distance <= self._gates[fix.heading is not None]
+            entry.accepted = inside and not entry.outvoted
+            if entry.accepted:
+                belief = taken
+                passed += 1
+            entry.after = belief
+        return passed
+
+    def _vote(self, place: int) -> None:
+        """Leave out the fix at ``place`` if that lets enough of those after it pass."""
+        self._entries[place].outvoted = True
+        if self._replay(place) < VOTERS.start:
+            self._entries[place].outvoted = False
+            self._replay(place)
+
     def forget(self, before: float) -> None:
-        """Drop the fixes before a stamp [s], but for those rejected since the last accepted."""
+        """Drop the fixes before a stamp [s], but for the last accepted and those rejected since."""
         streak = self._streak()
         done = 0
-        while done < streak and self._entries[done].sighting.fix.stamp < before:
+        while done < streak - 1 and self._entries[done].sighting.fix.stamp < before:
             self._before = self._entries[done].after
             done += 1
         del self._entries[:done]

@@ -6,12 +6,13 @@ fit, what the wheels measure against each other, tells when it is worse than tha
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.dead_reckoning import DeadReckoning
-from agv_motion.odometry.encoders import Encoders, Step
+from agv_motion.odometry.encoders import MOVED, Encoders, Step
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.planar import Pose, Twist, require_finite, wrap
 
@@ -68,7 +69,8 @@ class WheelOdometry:
     @property
     def pose(self) -> Pose:
         """Pose of the base in `odom`."""
-        return self._reckoning.pose
+        reckoning = self._reckoning
+        return Pose(reckoning.x, reckoning.y, reckoning.heading)
 
     @property
     def twist(self) -> Twist:
@@ -124,7 +126,7 @@ class WheelOdometry:
         base, encoders = self._base, self._encoders
         halfway = self._halfway(steering) if base.steers or steering else steering
         step = encoders.read(stamp, angles)
-        if step is not Step.MOVED and (step is Step.DUPLICATE or step is Step.LATE):
+        if step is not MOVED and (step is Step.DUPLICATE or step is Step.LATE):
             return step
         if steering:
             self._steering = list(steering)
@@ -136,7 +138,7 @@ class WheelOdometry:
         displacement, duration = (dx, dy, angle), encoders.duration
         if residual:
             variance = self._with_slip(variance, residual)
-        if step is Step.GAP:
+        if step is not MOVED:  # a gap
             variance += (self._gap_noise * encoders.rolled) ** 2
         if turn is not None:
             covariance, variance = scale(covariance, variance), 1.0
@@ -152,7 +154,8 @@ class WheelOdometry:
 
     def _halfway(self, steering: Sequence[float]) -> Sequence[float]:
         """Return the steering angles halfway between the last reading and this one."""
-        require_finite('steering angles', tuple(steering))
+        if not isfinite(sum(steering)):
+            require_finite('steering angles', tuple(steering))
         expected = len(self._base) if self._base.steers else 0
         if len(steering) != expected:
             msg = f'{len(steering)} steering angles given, this base has {expected}: give one each'

@@ -62,6 +62,27 @@ def test_an_outlier_changes_nothing():
     assert buffer.belief != before
 
 
+def test_an_outlier_that_passed_a_wide_gate_is_outvoted():
+    """After a silence one is 2 m unsure: an outlier of 4 m passes, then four sound fixes do not."""
+    wide = believe(Pose(0.0, 0.0, 0.0), Covariance(4.0, 0.0, 0.0, 4.0, 0.0, 0.01), at(0.0))
+    fooled, spared = FixBuffer(wide, DRIFT, 0.999), FixBuffer(wide, DRIFT, 0.999)
+    assert fooled.take(Sighting(position_fix(1.0, 5.0, 0.0, 0.15), at(1.0)))
+    sound = [Sighting(position_fix(2.0 + i, 2.1 + i, 0.0, 0.15), at(2.0 + i)) for i in range(4)]
+    assert [fooled.take(sighting) for sighting in sound] == [False, False, True, True]
+    assert [spared.take(sighting) for sighting in sound] == [True] * 4
+    assert fooled.belief == spared.belief
+
+
+def test_a_sound_fix_is_not_outvoted_by_outliers():
+    buffer = started()
+    sound = Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0))
+    assert buffer.take(sound)
+    belief = buffer.belief
+    for i in range(6):
+        buffer.take(Sighting(position_fix(2.0 + i, 9.0 + i, 9.0, 0.15), at(2.0 + i)))
+    assert buffer.belief == belief
+
+
 def test_sound_fixes_pass_as_often_as_the_gate_says():
     passed = total = 0
     for seed in range(150):
@@ -82,6 +103,8 @@ def test_what_is_forgotten_stays_believed():
     assert buffer.start == 5.0
     assert fixes[6] in buffer
     assert fixes[3] not in buffer
+    buffer.forget(before=99.0)
+    assert buffer.belief == belief
 
 
 def test_rejected_fixes_are_kept_since_the_last_accepted_but_not_without_end():
