@@ -10,9 +10,8 @@ from typing import Annotated, Any
 import typer
 
 from agv_motion.cli.graph import DISCOVERY, joined, spin, topic_class
+from agv_motion.cli.topic_options import SimTime, SpinTime
 
-SpinTime = Annotated[float, typer.Option(help='Seconds to wait for discovery.', min=0.0)]
-SimTime = Annotated[bool, typer.Option('--use-sim-time', '-s', help='Use simulation time.')]
 Duration = Annotated[float, typer.Option(help='Stop after so many seconds; 0: never.', min=0.0)]
 
 

@@ -1,0 +1,136 @@
+"""`agv topic echo`: the messages of a topic as text."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+import yaml
+
+from agv_motion.cli.graph import DISCOVERY, interface_class, joined, spin, topic_class
+from agv_motion.cli.message_text import MessageText, is_message
+from agv_motion.cli.topic_options import SimTime, SpinTime, Topic, preset_qos
+from agv_motion.errors import ConfigurationError
+
+
+def echo(
+    topic_name: Topic,
+    message_type: Annotated[str, typer.Argument(help='Type, if the topic is not there yet.')] = '',
+    *,
+    qos_profile: Annotated[str, typer.Option(help='Preset to subscribe with.')] = 'sensor_data',
+    qos_depth: Annotated[int, typer.Option(help='Queue size.')] = 0,
+    qos_reliability: Annotated[str, typer.Option(help='reliable or best_effort.')] = '',
+    qos_durability: Annotated[str, typer.Option(help='volatile or transient_local.')] = '',
+    csv: Annotated[bool, typer.Option('--csv', help='Values separated by commas.')] = False,
+    field: Annotated[str, typer.Option(help='Only this field, such as pose.pose.position.')] = '',
+    full_length: Annotated[bool, typer.Option('-f', '--full-length', help='Cut nothing.')] = False,
+    truncate_length: Annotated[
+        int, typer.Option('-l', '--truncate-length', min=0, help='Cut arrays and strings here.')
+    ] = 128,
+    no_arr: Annotated[bool, typer.Option('--no-arr', help='Hide arrays.')] = False,
+    no_str: Annotated[bool, typer.Option('--no-str', help='Hide strings.')] = False,
+    flow_style: Annotated[bool, typer.Option('--flow-style', help='One line.')] = False,
+    no_lost_messages: Annotated[
+        bool, typer.Option('--no-lost-messages', help='Do not report lost messages.')
+    ] = False,
+    raw: Annotated[bool, typer.Option('--raw', help='The bytes as they come.')] = False,
+    filter_expr: Annotated[
+        str, typer.Option('--filter', help='Python expression of m, the message.')
+    ] = '',
+    once: Annotated[bool, typer.Option('--once', help='Stop after the first message.')] = False,
+    timeout: Annotated[float, typer.Option(help='Stop after so many seconds.', min=0.0)] = 0.0,
+    include_message_info: Annotated[
+        bool, typer.Option('-i', '--include-message-info', help='Stamps and numbers as well.')
+    ] = False,
+    spin_time: SpinTime = DISCOVERY,
+    use_sim_time: SimTime = False,
+) -> None:
+    """Print the messages of a topic.
+
+    Examples: agv topic echo /cmd_vel --once
+              agv topic echo /odom --field pose.pose.position --csv
+    """
+    text = MessageText(
+        None if full_length else truncate_length,
+        no_arr=no_arr,
+        no_str=no_str,
+        flow_style=flow_style,
+    )
+    wanted = _predicate(filter_expr)
+    seen: list[None] = []
+
+    def show(message: Any, about: Any) -> None:
+        if once and seen:
+            return
+        part = _part(message, field)
+        if not wanted(part):
+            return
+        seen.append(None)
+        if include_message_info and not csv:
+            typer.echo(f'{yaml.dump(about)}---')
+        if not is_message(part):
+            typer.echo(f'{part}\n---')
+        elif csv:
+            before = ','.join(str(x) for x in about.values()) + ',' if include_message_info else ''
+            typer.echo(before + text.csv(part))
+        else:
+            typer.echo(f'{text.yaml(part)}---')
+
+    with joined(spin_time, use_sim_time=use_sim_time) as node:
+        kind = interface_class(message_type) if message_type else topic_class(node, topic_name)
+        offered = [end.qos_profile for end in node.get_publishers_info_by_topic(topic_name)]
+        qos = _subscriber_qos(qos_profile, qos_depth, qos_reliability, qos_durability, offered)
+        node.create_subscription(
+            kind, topic_name, show, qos, raw=raw, event_callbacks=_lost_events(no_lost_messages)
+        )
+        end = time.monotonic() + timeout if timeout else float('inf')
+        spin(node, lambda: (once and bool(seen)) or time.monotonic() > end)
+
+
+def _predicate(expression: str) -> Callable[[Any], bool]:
+    """Return a test of a message from the user's own Python expression."""
+    if not expression:
+        return lambda _: True
+    code = compile(expression, '--filter', 'eval')
+    return lambda m: bool(eval(code, {'m': m}))  # noqa: S307 - as in ros2: the user's own words
+
+
+def _part(message: Any, field: str) -> Any:
+    for name in filter(None, field.split('.')):
+        if not hasattr(message, name):
+            msg = f"Invalid field '{field}': {type(message).__name__} has no field '{name}'"
+            if is_message(message):
+                msg += f'; it has {", ".join(message.get_fields_and_field_types())}'
+            raise ConfigurationError(msg)
+        message = getattr(message, name)
+    return message
+
+
+def _lost_events(silent: bool) -> Any:  # noqa: FBT001 - one option of the command
+    from rclpy.event_handler import SubscriptionEventCallbacks
+
+    def lost(status: Any) -> None:
+        typer.echo(
+            f'A message was lost!!!\n\ttotal count change:{status.total_count_change}'
+            f'\n\ttotal count: {status.total_count}\n---'
+        )
+
+    return None if silent else SubscriptionEventCallbacks(message_lost=lost)
+
+
+def _subscriber_qos(
+    preset: str, depth: int, reliability: str, durability: str, offered: list[Any]
+) -> Any:
+    """Return the profile asked for, or one that connects to all publishers."""
+    from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+
+    qos = preset_qos(preset, depth, reliability, durability)
+    if offered and not reliability:
+        reliable = all(o.reliability is ReliabilityPolicy.RELIABLE for o in offered)
+        qos.reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
+    if offered and not durability:
+        latched = all(o.durability is DurabilityPolicy.TRANSIENT_LOCAL for o in offered)
+        qos.durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+    return qos

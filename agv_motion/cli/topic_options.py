@@ -1,0 +1,43 @@
+"""Options that the verbs of `agv topic` share."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from agv_motion.errors import ConfigurationError
+
+Topic = Annotated[str, typer.Argument(help="Name of the topic, such as '/cmd_vel'.")]
+SpinTime = Annotated[float, typer.Option(help='Seconds to wait for discovery.', min=0.0)]
+SimTime = Annotated[bool, typer.Option('--use-sim-time', '-s', help='Use simulation time.')]
+Hidden = Annotated[bool, typer.Option('--include-hidden-topics', help='Hidden topics as well.')]
+
+
+def preset_qos(preset: str, depth: int = 0, reliability: str = '', durability: str = '') -> Any:
+    """Return a preset of rclpy by its short name, with what was asked for changed.
+
+    Raises:
+        ConfigurationError: A word is not one of the short names.
+
+    """
+    from copy import copy
+
+    from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, ReliabilityPolicy
+
+    for word, policy in (
+        (preset, QoSPresetProfiles),
+        (reliability, ReliabilityPolicy),
+        (durability, DurabilityPolicy),
+    ):
+        if word and word not in policy.short_keys():
+            msg = f"QoS '{word}': choose one of {', '.join(policy.short_keys())}"
+            raise ConfigurationError(msg)
+    qos = copy(QoSPresetProfiles.get_from_short_key(preset))
+    if reliability:
+        qos.reliability = ReliabilityPolicy.get_from_short_key(reliability)
+    if durability:
+        qos.durability = DurabilityPolicy.get_from_short_key(durability)
+    if depth > 0:
+        qos.depth = depth
+    return qos
