@@ -137,6 +137,9 @@ class Simulator(ManagedNode[SimulatorParameters]):
         self.time = self._start
 
     def _on_command(self, message: JointState) -> None:
+        if self._joints.is_standstill(message):
+            self._wanted = self._wanted[0], [0.0] * len(self._wanted[0])
+            return
         angles, rates = self._joints.read(message)
         self._wanted = angles, [rate * self.parameters.wheel_radius for rate in rates]
 

@@ -101,7 +101,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
-        self._send(REST, self.get_clock().now().to_msg())
+        self._stand_still()
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence and of turrets that fight."""
@@ -125,7 +125,10 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _drive(self, twist: Twist, stamp: Any) -> None:
         self._watchdog.feed()
-        self._send(REST if self._stopped_by or self._blind else twist, stamp)
+        if self._stopped_by or self._blind or not any(twist):
+            self._stand_still()
+        else:
+            self._send(twist, stamp)
 
     def _send(self, twist: Twist, stamp: Any) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
@@ -159,7 +162,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
                 f'no cmd_vel for {age:.1f} s: {told}', throttle_duration_sec=5.0
             )
         if silence is Silence.LOST:
-            self._send(REST, self.get_clock().now().to_msg())
+            self._stand_still()
 
     def _watch_state(self, now: float) -> None:
         """Stop when the turrets have told their angles and then fall silent."""
@@ -170,12 +173,22 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
                 f'no turrets/state for {self._state_watchdog.age(now):.1f} s: stopping; '
                 'look at the encoders', throttle_duration_sec=5.0,
             )  # fmt: skip
+            self._stand_still()
+
+    def _stand_still(self) -> None:
+        """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
+        if self._angles is None:
+            message = self._joints.standstill()
+            message.header.frame_id = self.parameters.base_frame
+            self.stamp(message)
+            self._command.publish(message)
+        else:
             self._send(REST, self.get_clock().now().to_msg())
 
     def _on_stop(self, request: Any) -> str:
         self._stopped_by = 'by request' if request.data else ''
         if request.data:
-            self._send(REST, self.get_clock().now().to_msg())
+            self._stand_still()
             return 'stopped; call again with data: false to drive on'
         return 'free to drive'
 
@@ -195,7 +208,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
                 f'{self._stopped_by}, limit {self.parameters.residual_stop} m/s: stopped; '
                 'look at the turrets, then call ~/stop with data: false'
             )
-            self._send(REST, self.get_clock().now().to_msg())
+            self._stand_still()
         self._carry(fit.twist, message.header.stamp)
 
     def _carry(self, twist: Twist, stamp: Any) -> None:

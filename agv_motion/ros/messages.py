@@ -84,6 +84,14 @@ class TurretJoints:
         """Return a message with the names set, to be filled again and again."""
         return JointState(name=self._steering + self._wheel)
 
+    def standstill(self) -> JointState:
+        """Return a command to the wheels alone, for turrets whose angles are not known."""
+        return JointState(name=self._wheel, velocity=array('d', self._zeros))
+
+    def is_standstill(self, message: JointState) -> bool:
+        """Return whether ``message`` is a :meth:`standstill`, which leaves the turrets alone."""
+        return list(message.name) == self._wheel and not any(message.velocity)
+
     def fill(self, message: JointState, angles: Sequence[float], rates: Sequence[float]) -> None:
         """Write steering angles [rad] and wheel rates [rad/s]; what a joint lacks is 0."""
         message.position = array('d', [*angles, *self._zeros])

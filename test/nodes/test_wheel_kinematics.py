@@ -279,3 +279,15 @@ def test_turrets_that_fall_silent_stop_the_platform(tester, drive):
     commands.clear()
     cmd_vel.publish(twist(vx=0.3))
     tester.wait(commands, lambda m: any(m.velocity))
+
+
+def test_before_anything_is_known_the_turrets_are_left_alone(tester, drive):
+    """No state yet: zero to the wheels, and nothing that would turn a turret."""
+    _, commands, cmd_vel = drive(**FAST)
+    tester.wait(commands)
+    cmd_vel.publish(twist())
+    tester.graph.spin_for(0.2)
+    stop = commands[-1]
+    assert list(stop.name) == ['turret_0_wheel', 'turret_1_wheel']
+    assert list(stop.velocity) == [0.0, 0.0]
+    assert not stop.position
