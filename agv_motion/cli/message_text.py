@@ -58,7 +58,7 @@ class MessageText:
         if isinstance(value, dict):
             return [text for item in value.values() for text in self._flat(item)]
         if isinstance(value, list):
-            return [text for item in value for text in self._flat(item)]
+            return [text for item in value for text in self._flat(item)] or ['']
         return [str(value)]
 
     def _plain(self, value: Any, field_type: str = '') -> Any:
