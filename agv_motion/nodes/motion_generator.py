@@ -92,6 +92,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._told = ''
         self._told_way: list[tuple[float, float]] = []
         self._lost = 'sap flow'
+        self._obstacle = 'resting: no input'
         self._watchdogs = {
             name: Watchdog(given.report_after, given.stop_after) for name in ('sap flow', 'pose')
         }
@@ -131,17 +132,21 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         vector = message.vector
         self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
         self._watchdogs['sap flow'].feed()
+        if self._obstacle:
+            self._judge()
         self._move()
 
     def _on_valid(self, message: Bool) -> None:
         self._valid = message.data
         if not self._valid:
+            self._judge()
             self._move()
 
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         self._require_map(message.header.frame_id)
         self._pose = pose_of(message.pose.pose)
         self._watchdogs['pose'].feed()
+        self._judge()
 
     def _on_goal(self, message: PoseStamped) -> None:
         self._require_map(message.header.frame_id)
@@ -189,6 +194,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
+        self._judge()
         self._move()
         return 'paused' if self._paused else 'going on'
 
@@ -206,9 +212,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
                 )
             if silence is Silence.LOST:
                 self._lost = self._lost or name
+        self._judge()
         self._move()
 
-    def _obstacle(self) -> str:
+    def _judge(self) -> None:
+        """Find out whether the tree may move; again whenever what it knows has changed."""
+        self._obstacle = self._find_obstacle()
+
+    def _find_obstacle(self) -> str:
         """Return why the tree must not move now, in words; empty if it may."""
         if self._paused:
             return 'paused'
@@ -224,9 +235,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
-        obstacle = self._obstacle()
-        if obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(REST, obstacle)
+        if self._obstacle or self._sap_flow is None or self._pose is None:
+            self._publish(REST, self._obstacle)
             return
         command, activity = self._generator.decide(
             self._sap_flow, self._pose, self._goal, self._waypoint
