@@ -1,12 +1,17 @@
-"""Dead reckoning over columns: the poses of a whole recording at once, exactly."""
+"""Dead reckoning over columns: poses and noise of a whole recording at once."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import Pose
+
+if TYPE_CHECKING:
+    from agv_motion.odometry.covariance import Covariance
 
 Column = NDArray[np.float64]
 
@@ -48,3 +53,41 @@ def pose_columns(displacement: Column, start: Pose = ORIGIN) -> Column:
     poses[0, 1:] = start.x + np.cumsum(c * dx - s * dy)
     poses[1, 1:] = start.y + np.cumsum(s * dx + c * dy)
     return poses
+
+
+def matrix(covariance: Covariance) -> Column:
+    """Return (3, 3) the six numbers of a covariance as a symmetric matrix."""
+    xx, xy, xt, yy, yt, tt = covariance
+    return np.array([[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]])
+
+
+def adjoint_columns(poses: Column) -> Column:
+    """Return what a small motion of the base halfway through each step is to the world.
+
+    Args:
+        poses: (3, n + 1) before the first and after each step, as `pose_columns` gives them.
+
+    Returns:
+        (n, 3, 3) from a displacement in the frame of the base to one about the origin.
+
+    """
+    x, y, heading = 0.5 * (poses[:, 1:] + poses[:, :-1])
+    c, s = np.cos(heading), np.sin(heading)
+    zero, one = np.zeros_like(x), np.ones_like(x)
+    return np.array([[c, -s, y], [s, c, -x], [zero, zero, one]]).transpose(2, 0, 1)
+
+
+def noise_columns(adjoint: Column, unit: Column, variance: Column) -> Column:
+    """Return how the covariance of the error about the origin grows along a way.
+
+    Args:
+        adjoint: (n, 3, 3) of :func:`adjoint_columns`.
+        unit: (3, 3) covariance of a displacement in the frame of the base, for unit variance.
+        variance: (n,) factor on it in each step.
+
+    Returns:
+        (n + 1, 3, 3) covariances, the first one zero.
+
+    """
+    added = variance[:, None, None] * (adjoint @ unit @ adjoint.transpose(0, 2, 1))
+    return np.concatenate([np.zeros((1, 3, 3)), np.cumsum(added, axis=0)])

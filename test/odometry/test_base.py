@@ -20,7 +20,7 @@ MECANUM = OmniWheels(mecanum_wheels(0.3, 0.2))
 UNEVEN = OmniWheels(
     [OmniWheel(0.5, 0.1, 1.0), OmniWheel(-0.2, 0.3, 2.5), OmniWheel(0.0, -0.4, 0.2)]
 )
-TURRETS = Turrets([(0.9, 0.1), (-0.3, 0.7), (-0.4, -0.6)])
+TURRETS = Turrets([(1.9, 0.6), (0.7, 1.2), (0.6, -0.1)])
 LENGTH = st.floats(-1.0, 1.0)
 
 

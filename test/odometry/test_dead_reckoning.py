@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.columns import pose_columns
+from agv_motion.odometry.columns import adjoint_columns, matrix, noise_columns, pose_columns
 from agv_motion.odometry.covariance import Covariance, rotate, shift
 from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.planar import Pose, Twist, integrate
@@ -104,6 +104,18 @@ def test_columns_equal_steps(way, heading):
     for step, pose in zip(way, columns.T[1:], strict=True):
         reckoning.carry(step, NOISE)
         close(pose, reckoning.pose, 1e-11)
+
+
+@given(WAYS)
+def test_noise_by_columns_equals_that_of_steps(way):
+    reckoning = DeadReckoning()
+    adjoint = adjoint_columns(pose_columns(np.array(way).T))
+    columns = noise_columns(adjoint, matrix(NOISE), 0.1 * np.arange(len(way)))
+    assert not columns[0].any()
+    for i, step in enumerate(way):
+        reckoning.carry(step, NOISE, 0.1 * i)
+        found = columns[i + 1][np.triu_indices(3)]
+        np.testing.assert_allclose(found, reckoning.origin_covariance, rtol=1e-9, atol=1e-9)
 
 
 def test_what_is_not_finite_is_refused():

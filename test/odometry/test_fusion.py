@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.covariance import CERTAIN, Covariance
+from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.fix import Fix, position_fix
 from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_parameters import FusionParameters
@@ -239,6 +239,20 @@ def test_odometry_that_begins_anew_moves_nobody(new):
     assert after.covariance == pytest.approx(before.covariance, rel=0.1, abs=1e-4)
     _, squares = run(trial, 20.0)
     assert np.mean(squares) < 10.0
+
+
+@pytest.mark.parametrize(
+    ('pose', 'noise'),
+    [(Pose(30.0, 5.0, -2.0), 2.0), (Pose(1.1, 0.0, 0.0), 0.0)],
+    ids=['the pose jumps', 'the covariance begins anew'],
+)
+def test_either_sign_of_odometry_that_begins_anew_is_seen(pose, noise):
+    fusion, walked = resting(), Covariance(0.01, 0.0, 0.0, 0.01, 0.0, 0.01)
+    fusion.add_odometry(0.1, Pose(1.0, 0.0, 0.0), walked)
+    before = fusion.estimate()
+    fusion.add_odometry(0.2, pose, scale(walked, noise))
+    assert fusion.estimate().pose == pytest.approx(before.pose, abs=1e-9)
+    assert fusion.estimate().covariance == pytest.approx(before.covariance, abs=1e-5)
 
 
 def test_a_clock_set_back_starts_the_search_again():

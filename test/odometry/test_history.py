@@ -40,11 +40,13 @@ def test_a_waypoint_is_found_as_it_is():
 
 
 def test_what_is_older_than_the_horizon_is_forgotten_and_no_more():
-    history = OdometryHistory(10.0)
+    history = OdometryHistory(10.05)
     for i in range(5000):
         history.append(Waypoint(0.1 * i, Pose(0.1 * i, 0.0, 0.0), CERTAIN))
-        assert history.oldest.stamp <= max(0.1 * i - 10.0, 0.0)
+        assert history.oldest.stamp <= max(0.1 * i - 10.05, 0.0)
         assert history.oldest.stamp >= 0.1 * i - 10.0 - 26.0
+        asked = max(0.1 * i - 10.05, 0.0)
+        assert history.at(asked).pose.x == pytest.approx(asked, abs=1e-9)
     assert history.at(history.newest.stamp - 10.0).pose.x == pytest.approx(489.9, abs=1e-9)
 
 
