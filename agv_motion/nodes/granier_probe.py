@@ -109,6 +109,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         self._readings: list[ProbeReading | None] = [None] * len(self._probes)
         self._read_at = 0.0
         self._max_age = given.max_age or max(3.0 * self._source.period, 5.0 / given.rate)
+        self._doubt = _doubt(self._chosen[0], None)
         self._why_invalid: str | None = None
         self._message = Vector3Stamped()
         self._message.header.frame_id = 'base_link'
@@ -160,13 +161,12 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         complaint = self._source.complaint()
         if complaint:
             self.refuse(complaint)
-        why = self._doubt(seconds)
+        why = self._doubt
+        if abs(seconds - self._read_at) > self._max_age and not why:
+            why = f'no reading for {seconds - self._read_at:.0f} s (limit {self._max_age:.0f} s)'
         if why != self._why_invalid:
             self._tell_validity(why)
         if not why:
-            s1, s2, s3 = (self._readings[i].sap_flow for i in self._chosen)  # type: ignore[union-attr]
-            vector = self._message.vector
-            vector.x, vector.y, vector.z = s1, s2, s3
             self._sap_flow.publish(self._message)
 
     def _learn(self, now: float) -> None:
@@ -187,19 +187,13 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
                 message.header.stamp = self._message.header.stamp
                 message.header.frame_id = f'probe_{i + 1}'
                 self._raw[i].publish(message)
-
-    def _doubt(self, now: float) -> str:
-        """Return why the sap flow is not to be trusted; empty if it is."""
-        for i in self._chosen:
+        self._doubt = ''
+        for i, axis in zip(self._chosen, ('x', 'y', 'z'), strict=True):
             reading = self._readings[i]
-            if reading is None:
-                return f'probe_{i + 1} has given no reading yet'
-            if reading.sap_flow is None:
-                learning = 'learning its zero flow and range' if reading.quality.usable else ''
-                return f'probe_{i + 1} is {learning or reading.quality.value}'
-        if abs(now - self._read_at) > self._max_age:
-            return f'no reading for {now - self._read_at:.0f} s (limit {self._max_age:.0f} s)'
-        return ''
+            if reading is not None and reading.sap_flow is not None:
+                setattr(self._message.vector, axis, reading.sap_flow)
+            else:
+                self._doubt = self._doubt or _doubt(i, reading)
 
     def _tell_validity(self, why: str) -> None:
         self._why_invalid = why
@@ -223,6 +217,15 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
             state_file.save(self.parameters.state_file, self._probes)
         except OSError as error:
             self.refuse(f'cannot keep what was learnt: {error}')
+
+
+def _doubt(index: int, reading: ProbeReading | None) -> str:
+    """Return why there is no sap flow from a probe."""
+    if reading is None:
+        return f'probe_{index + 1} has given no reading yet'
+    if reading.quality.usable:
+        return f'probe_{index + 1} is learning its zero flow and range'
+    return f'probe_{index + 1} is {reading.quality.value}'
 
 
 def _shown(value: float | None, form: str) -> str:

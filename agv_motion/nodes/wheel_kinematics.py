@@ -137,7 +137,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         command = self._turrets.command(twist, held, given.max_wheel_speed)
         self._angles = angles = nearest_turns(command.angle, held)
         share = alignment(angles, self._measured) if self._measured else 1.0
-        rates = [share * speed / given.wheel_radius for speed in command.speed]
+        factor = share / given.wheel_radius
+        rates = [factor * speed for speed in command.speed]
         self._message.header.stamp = stamp
         self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from array import array
 from math import atan2, cos, isfinite, sin
 from typing import TYPE_CHECKING, Any
 
@@ -86,7 +85,7 @@ class TurretJoints:
 
     def standstill(self) -> JointState:
         """Return a command to the wheels alone, for turrets whose angles are not known."""
-        return JointState(name=self._wheel, velocity=array('d', self._zeros))
+        return JointState(name=self._wheel, velocity=self._zeros)
 
     def is_standstill(self, message: JointState) -> bool:
         """Return whether ``message`` is a :meth:`standstill`, which leaves the turrets alone."""
@@ -94,8 +93,8 @@ class TurretJoints:
 
     def fill(self, message: JointState, angles: Sequence[float], rates: Sequence[float]) -> None:
         """Write steering angles [rad] and wheel rates [rad/s]; what a joint lacks is 0."""
-        message.position = array('d', [*angles, *self._zeros])
-        message.velocity = array('d', [*self._zeros, *rates])
+        message.position = [*angles, *self._zeros]
+        message.velocity = [*self._zeros, *rates]
 
     def read(self, message: JointState) -> tuple[list[float], list[float]]:
         """Return steering angles [rad] and wheel rates [rad/s], whatever the order of the joints.
