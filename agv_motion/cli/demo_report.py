@@ -131,7 +131,7 @@ def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
     for i, name in enumerate(('s1: speed', 's2: rotation', 's3: places')):
         axes['flow'].plot(minutes, run.flow[:, 1 + i], label=name)
     axes['flow'].set(ylabel='sap flow', ylim=(-0.02, 1.02))
-    axes['flow'].legend(loc='best', fontsize='small')
+    axes['flow'].legend(loc='upper right', fontsize='small', ncols=3)
     for i in range(run.speeds.shape[1] - 1):
         axes['speed'].plot(
             run.speeds[:, 0] / 60.0, 60 * run.speeds[:, 1 + i], lw=0.8, label=f'turret {i}'
@@ -139,7 +139,7 @@ def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
     for sign in (-1, 1):
         axes['speed'].axhline(sign * 60 * max_wheel_speed, color='grey', ls=':')
     axes['speed'].set(ylabel='wheel speed [m/min]')
-    axes['speed'].legend(loc='best', fontsize='small')
+    axes['speed'].legend(loc='upper right', fontsize='small', ncols=3)
     axes['residual'].plot(run.residual[:, 0] / 60.0, 1e3 * run.residual[:, 1], lw=0.8)
     axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
     figure.savefig(path, dpi=110)

@@ -98,13 +98,19 @@ def polar_command(flow: SapFlow, pose: Pose, target: tuple[float, float]) -> Pol
     return PolarCommand(flow.s1, wrap(bearing - pose.theta), 2.0 * flow.s2 - 1.0)
 
 
+LEAVE = 2.0
+"""[-] A tree that has arrived sets out again only from so many times the distance of arrival, so
+that the noise of position fixes does not send it to and fro."""
+
+
 class MotionGenerator:
-    """Remembers whether the tree rests; all else comes in."""
+    """Remembers whether the tree rests, and where it has arrived; all else comes in."""
 
     def __init__(self, parameters: RestParameters) -> None:
         """Start at rest."""
         self.parameters = parameters
         self.resting = True
+        self._arrived_at: tuple[float, float] | None = None
 
     def decide(
         self,
@@ -129,6 +135,9 @@ class MotionGenerator:
         self.resting = mean < (given.wake_above if self.resting else given.rest_below)
         if self.resting:
             return Motion(STILL, Activity.RESTING)
-        if hypot(goal[0] - pose.x, goal[1] - pose.y) < given.arrival:
+        distance = hypot(goal[0] - pose.x, goal[1] - pose.y)
+        arrived = distance < given.arrival * (LEAVE if self._arrived_at == goal else 1.0)
+        self._arrived_at = goal if arrived else None
+        if arrived:
             return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), Activity.TURNING)
         return Motion(polar_command(flow, pose, waypoint or goal), Activity.WALKING)

@@ -54,6 +54,19 @@ def test_at_the_goal_it_turns_on_the_spot():
     assert command == pytest.approx((0.0, 0.0, 0.8))
 
 
+def test_noise_at_the_goal_does_not_send_it_to_and_fro():
+    generator = MotionGenerator(RestParameters(arrival=1.0))
+    flow, goal = SapFlow(1.0, 0.9, 0.9), (0.0, 0.0)
+    seen = [
+        generator.decide(flow, Pose(x, 0.0, 0.0), goal).activity
+        for x in (1.1, 0.9, 1.1, 1.9, 2.1, 1.9)
+    ]
+    walking, turning = Activity.WALKING, Activity.TURNING
+    assert seen == [walking, turning, turning, turning, walking, walking]
+    assert generator.decide(flow, Pose(0.5, 0.0, 0.0), goal).activity is turning
+    assert generator.decide(flow, Pose(0.5, 0.0, 0.0), (2.0, 0.0)).activity is walking
+
+
 @pytest.mark.parametrize('flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01)])
 def test_a_sap_flow_out_of_range_is_refused(flow):
     with pytest.raises(SignalError, match='sap flow'):
