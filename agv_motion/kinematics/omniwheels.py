@@ -198,5 +198,7 @@ def _motion(twist: Matrix) -> str:
     vx, vy, wz = map(float, twist)
     speed = sqrt(vx * vx + vy * vy)
     if abs(wz) < SINGULAR * speed:
+        if vx < -SINGULAR * speed or (vx < SINGULAR * speed and vy < 0.0):
+            vx, vy = -vx, -vy  # the sign that the decomposition gives depends on the processor
         return f'moves along ({vx / speed + 0.0:.4g}, {vy / speed + 0.0:.4g})'
     return f'rotates about ({-vy / wz + 0.0:.4g}, {vx / wz + 0.0:.4g}) m'
