@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import ConfigurationError, GeometryError, SignalError
 from agv_motion.planar import Pose, require_finite, wrap
+from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.braking import Braking
 from agv_motion.trajectory.feasibility import Feasibility, examine
 from agv_motion.trajectory.motions import STILL, Speeds
@@ -160,6 +161,24 @@ class Ghost:
         return self._depart(
             lambda start, present: self._planner.drive(start, poses, request, present)
         )
+
+    def compute_arc(
+        self, angle: float, diameter: float, speed_ramps: float, cruising_speed: float
+    ) -> Trajectory:
+        """Leave along an arc, see :class:`agv_motion.trajectory.arc.Arc`, for its end.
+
+        Args:
+            angle: [rad] the centre on the left where positive, on the right where negative.
+            diameter: Of the inner wheel's circle [m].
+            speed_ramps: Acceleration and braking of the outer wheel [m/s2].
+            cruising_speed: Of the outer wheel [m/s]; negative: backwards.
+
+        Raises:
+            ConfigurationError: A number is not finite or out of its range.
+
+        """
+        arc = Arc(angle, diameter, self._planner.parameters.track, cruising_speed, speed_ramps)
+        return self._depart(lambda start, present: self._planner.arc(start, arc, present))
 
     def report(self) -> Feasibility:
         """Return what the trajectory asks of the robot, before it moves."""

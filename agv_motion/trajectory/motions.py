@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 from agv_motion.planar import Pose, wrap
 
 if TYPE_CHECKING:
-    from agv_motion.trajectory.arc_length import ArcLength
+    from agv_motion.trajectory.bezier import Column
     from agv_motion.trajectory.profile import Profile
 
 
@@ -26,6 +26,37 @@ class Speeds(NamedTuple):
 
 
 STILL = Speeds(0.0, 0.0)
+
+
+class Curve(Protocol):
+    """Points of the plane, as complex numbers, over a parameter."""
+
+    def point(self, u: float, /) -> complex:
+        """Return the point [m]."""
+
+    def velocity(self, u: float, /) -> complex:
+        """Return its derivative by the parameter; never zero."""
+
+    def acceleration(self, u: float, /) -> complex:
+        """Return its second derivative."""
+
+
+class Course(Protocol):
+    """A way to drive along, by its length."""
+
+    length: float
+    """[m]"""
+    way: Column
+    """(n,) nodes [m], not decreasing; at a joint of two curves it stands twice"""
+    curvature: Column
+    """(n,) at each node, left positive [1/m]"""
+    middle_way: Column
+    """(n - 1,) a place within each cell [m]"""
+    middle_curvature: Column
+    """(n - 1,) there [1/m]"""
+
+    def locate(self, way: float) -> tuple[Curve, float]:
+        """Return the curve and its parameter at ``way`` [m] from the start."""
 
 
 class Motion(Protocol):
@@ -112,7 +143,7 @@ class Drive:
 
     def __init__(
         self,
-        course: ArcLength,
+        course: Course,
         ends: tuple[Pose, Pose],
         profile: Profile,
         ramp: float,

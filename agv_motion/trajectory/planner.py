@@ -13,9 +13,10 @@ from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.planar import Pose, require_finite, wrap
 from agv_motion.trajectory.arc_length import ArcLength
 from agv_motion.trajectory.bezier import connect
+from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.limits import lowest_ceiling
-from agv_motion.trajectory.motions import STILL, Drive, Motion, Speeds, Turn
+from agv_motion.trajectory.motions import STILL, Course, Drive, Motion, Speeds, Turn
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
 from agv_motion.trajectory.trajectory import Trajectory
@@ -23,6 +24,7 @@ from agv_motion.trajectory.trajectory import Trajectory
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from agv_motion.trajectory.arc import Arc
     from agv_motion.trajectory.bezier import Column
     from agv_motion.trajectory.limits import Limit
 
@@ -52,6 +54,22 @@ class Planner:
         end = start._replace(theta=wrap(heading))
         turns = self._turn(start, end, request, present)
         return self._trajectory(start, end, turns, request, present)
+
+    def arc(self, start: Pose, arc: Arc, present: Speeds = STILL) -> Trajectory:
+        """Return the drive along ``arc`` from ``start``, within the limits of the robot.
+
+        Raises:
+            SignalError: ``start`` is not finite.
+            GeometryError: The present motion cannot go over into this arc.
+
+        """
+        end = arc.end(start)
+        speed, ramp = arc.share * abs(arc.speed), arc.share * arc.ramp
+        request = Request(ramp, speed, backward=arc.backward)
+        motions: list[Motion] = []
+        if arc.length > NOTHING:
+            motions.append(self._along(Circle(arc, start), (start, end), request, present))
+        return self._trajectory(start, end, motions, request, present)
 
     def drive(
         self, start: Pose, goals: Sequence[Pose], request: Request, present: Speeds = STILL
@@ -119,7 +137,7 @@ class Planner:
         return motions + self._turn(ends[1], there, corner, STILL)
 
     def _along(
-        self, course: ArcLength, ends: tuple[Pose, Pose], request: Request, present: Speeds
+        self, course: Course, ends: tuple[Pose, Pose], request: Request, present: Speeds
     ) -> Drive:
         """Return the fastest drive along ``course``.
 
@@ -163,7 +181,7 @@ class Planner:
         return [Turn(start, end, sign, profile, request.speed_ramps)]
 
 
-def _ceiling(course: ArcLength, limits: Sequence[Limit], cruising_speed: float) -> Column:
+def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> Column:
     """Return the highest speed at the nodes such that the limits hold between them too.
 
     The plan runs straight between nodes in the squared speed. Where the true ceiling hangs below

@@ -1,0 +1,151 @@
+r"""Two fixed wheels side by side, left and right: both maps between twist and wheels.
+
+With the track :math:`b` between the wheels,
+
+.. math:: v_l = v - \tfrac{b}{2}\,\omega, \quad v_r = v + \tfrac{b}{2}\,\omega; \qquad
+    v = \tfrac12 (v_l + v_r), \quad \omega = (v_r - v_l) / b   \tag{1}
+
+Wide tyres turn as if they stood elsewhere: the track multiplier makes the effective track of the
+measured one. Wheels are never quite equal, so each has its own radius.
+
+Source: G. Dudek, M. Jenkin, "Computational Principles of Mobile Robotics", 2nd ed., 2010, 3.1.6.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+from sys import float_info
+from typing import TYPE_CHECKING, NamedTuple
+
+from agv_motion.errors import GeometryError, SignalError
+from agv_motion.planar import Twist, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+SIDEWAYS = 1e-9
+"""[m/s] A sideways speed below this is rounding."""
+
+
+class WheelSpeeds(NamedTuple):
+    """What the two wheels do: rim speeds [m/s], travels [m] or rates [rad/s]."""
+
+    left: float
+    right: float
+
+
+class DifferentialCommand(NamedTuple):
+    """What to tell the two motors."""
+
+    speed: WheelSpeeds
+    """[m/s] at the rims"""
+    scale: float
+    """[-] in (0, 1]: the factor by which the twist was reduced to hold the wheel speed limit"""
+
+
+class DifferentialDrive:
+    """One base: the track and the radii of its two wheels."""
+
+    def __init__(
+        self, track: float, wheel_radii: Sequence[float], track_multiplier: float = 1.0
+    ) -> None:
+        """Keep the geometry.
+
+        Args:
+            track: Distance between the middles of the wheels [m].
+            wheel_radii: (2,) rolling radii, left and right [m].
+            track_multiplier: Effective track over measured track [-]; from a calibration.
+
+        Raises:
+            GeometryError: One of them is not finite and above 0, or there are not two radii.
+
+        """
+        if len(wheel_radii) != 2:
+            msg = f'{len(wheel_radii)} wheel_radii for 2 wheels: give left and right [m]'
+            raise GeometryError(msg)
+        self.radii = WheelSpeeds(*map(float, wheel_radii))
+        named = (
+            ('track', track, ' m'),
+            ('left wheel radius', self.radii.left, ' m'),
+            ('right wheel radius', self.radii.right, ' m'),
+            ('track_multiplier', track_multiplier, ''),
+        )
+        for name, value, unit in named:
+            if not (isfinite(value) and value > 0.0):
+                msg = f'{name} = {value}{unit}: must be finite and above 0'
+                raise GeometryError(msg)
+        self.track = track * track_multiplier
+        """[m] effective"""
+
+    def __len__(self) -> int:
+        """Return two."""
+        return 2
+
+    def command(self, twist: Twist, max_wheel_speed: float = float_info.max) -> DifferentialCommand:
+        """Return the rim speeds for ``twist`` by equation (1).
+
+        When a wheel would exceed its limit both are scaled by one factor, so the base stays on
+        its arc and only takes longer.
+
+        Args:
+            twist: Wanted velocity of the middle between the wheels.
+            max_wheel_speed: Limit of each wheel [m/s].
+
+        Raises:
+            SignalError: ``twist`` is not finite, or goes sideways, which these wheels cannot.
+
+        """
+        vx, vy, wz = twist
+        across = 0.5 * self.track * wz
+        left, right = vx - across, vx + across
+        if not isfinite(left + right + vy):
+            require_finite('twist', twist)
+            require_finite('wheel speeds', (left, right))
+        if abs(vy) > SIDEWAYS:
+            msg = f'vy = {vy} m/s: a differential drive cannot go sideways, give vx and wz only'
+            raise SignalError(msg)
+        fastest = max(abs(left), abs(right))
+        if fastest > max_wheel_speed:
+            scale = max_wheel_speed / fastest
+            return DifferentialCommand(WheelSpeeds(scale * left, scale * right), scale)
+        return DifferentialCommand(WheelSpeeds(left, right), 1.0)
+
+    def twist(self, speeds: Sequence[float]) -> Twist:
+        """Return the twist of rim speeds left and right [m/s]; of travels [m], the displacement.
+
+        Raises:
+            SignalError: There are not two, or one is not finite.
+
+        """
+        left, right = self._two('wheel speeds', speeds)
+        return Twist(0.5 * (left + right), 0.0, (right - left) / self.track)
+
+    def rates(self, speeds: Sequence[float]) -> WheelSpeeds:
+        """Return the rates [rad/s] of wheels whose rims go at ``speeds`` [m/s].
+
+        Raises:
+            SignalError: There are not two, or one is not finite.
+
+        """
+        left, right = self._two('wheel speeds', speeds)
+        return WheelSpeeds(left / self.radii.left, right / self.radii.right)
+
+    def speeds(self, rates: Sequence[float]) -> WheelSpeeds:
+        """Return the rim speeds [m/s] of wheels that turn at ``rates`` [rad/s].
+
+        Raises:
+            SignalError: There are not two, or one is not finite.
+
+        """
+        left, right = self._two('wheel rates', rates)
+        return WheelSpeeds(left * self.radii.left, right * self.radii.right)
+
+    @staticmethod
+    def _two(name: str, values: Sequence[float]) -> tuple[float, float]:
+        if len(values) != 2:
+            msg = f'{len(values)} {name} for 2 wheels: give left and right'
+            raise SignalError(msg)
+        left, right = values
+        if not isfinite(left + right):
+            require_finite(name, (left, right))
+        return left, right

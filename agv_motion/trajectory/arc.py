@@ -1,0 +1,107 @@
+r"""An arc as a differential drive is told it: angle and *inner* diameter.
+
+The inner wheel rolls on a circle of diameter :math:`d`, the outer one a track :math:`b` further
+out, and the middle between them half way:
+
+.. math:: r_{in} = d/2, \quad r_{out} = d/2 + b, \quad r = d/2 + b/2, \qquad
+    \rho = r_{in} / r_{out}   \tag{1}
+
+Every wheel goes :math:`|\alpha|` times its radius. The outer one follows ramp, cruise and ramp;
+the inner one goes at :math:`\rho` times its speed at every moment, so the ramps stay on the circle.
+
+The sign of the angle is the side of the centre (left positive), the sign of the speed the sense:
+an arc to the left driven backwards turns the heading to the right, like a car in reverse.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import copysign, isfinite
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.differential import WheelSpeeds
+from agv_motion.planar import Pose, Twist, integrate, require_finite
+from agv_motion.trajectory.limits import require_positive
+
+
+@dataclass(frozen=True)
+class Arc:
+    """One arc of one robot.
+
+    Raises:
+        ConfigurationError: A number is not finite or out of its range.
+
+    """
+
+    angle: float
+    """[rad] any number of turns; positive: the centre lies on the left"""
+    diameter: float
+    """[m] of the inner wheel's circle; 0: pivot on the inner wheel"""
+    track: float
+    """[m] between the wheels"""
+    speed: float
+    """[m/s] of the outer wheel; negative: backwards"""
+    ramp: float
+    """[m/s2] of the outer wheel, speeding up and braking"""
+
+    def __post_init__(self) -> None:
+        """Check every number."""
+        if not isfinite(self.angle):
+            msg = f'angle = {self.angle} rad: must be finite'
+            raise ConfigurationError(msg)
+        if not 0.0 <= self.diameter < float('inf'):
+            msg = f'diameter = {self.diameter} m: must be finite and not negative; 0 is a pivot'
+            raise ConfigurationError(msg)
+        require_positive('track', self.track, 'm')
+        require_positive('speed (without its sign)', abs(self.speed), 'm/s')
+        require_positive('ramp', self.ramp, 'm/s2')
+
+    @property
+    def backward(self) -> bool:
+        """Whether it is driven backwards."""
+        return self.speed < 0.0
+
+    @property
+    def ratio(self) -> float:
+        """Inner over outer wheel, of speeds and of distances; below 1."""
+        return 0.5 * self.diameter / (0.5 * self.diameter + self.track)
+
+    @property
+    def radius(self) -> float:
+        """Of the circle of the middle between the wheels [m]."""
+        return 0.5 * (self.diameter + self.track)
+
+    @property
+    def outer_distance(self) -> float:
+        """What the outer wheel rolls, without sign [m]."""
+        return abs(self.angle) * (0.5 * self.diameter + self.track)
+
+    @property
+    def length(self) -> float:
+        """What the middle between the wheels goes, without sign [m]."""
+        return abs(self.angle) * self.radius
+
+    @property
+    def share(self) -> float:
+        """Speed of the middle over that of the outer wheel."""
+        return self.radius / (0.5 * self.diameter + self.track)
+
+    def wheels(self, outer: float) -> WheelSpeeds:
+        """Return what both wheels do while the outer one does ``outer`` (speed or distance).
+
+        ``outer`` has no sign; forward wheels are positive, backward ones negative.
+        """
+        outer = copysign(outer, self.speed)
+        inner = self.ratio * outer
+        return WheelSpeeds(inner, outer) if self.angle >= 0.0 else WheelSpeeds(outer, inner)
+
+    def end(self, start: Pose) -> Pose:
+        """Return where the arc leads from ``start``.
+
+        Raises:
+            SignalError: ``start`` is not finite.
+
+        """
+        require_finite('start', start)
+        turn = copysign(self.angle, self.angle * self.speed)
+        return integrate(start, Twist(copysign(self.length, self.speed), 0.0, turn), 1.0)

@@ -1,0 +1,198 @@
+"""A robot behind its Ghost: arriving, waiting, losing it, holding, aborting, going elsewhere."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import hypot, inf, nan, pi
+
+import pytest
+
+from agv_motion.errors import SignalError
+from agv_motion.planar import REST, Pose, Twist, integrate
+from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.leash import LeashParameters
+
+ORIGIN = Pose(0.0, 0.0, 0.0)
+GOAL = Pose(2.0, 1.0, 0.5)
+DT = 0.02
+
+
+class Ideal:
+    """A robot that does what it is told, by ``share`` of it, behind its Follower."""
+
+    def __init__(self, pose=ORIGIN, **parameters):
+        """Stand at ``pose``."""
+        self.follower = Follower(FollowerParameters(**parameters))
+        self.pose, self.share = pose, 1.0
+        self.twists = [REST]
+
+    def go(self, goal=GOAL, delta=0.4, ramps=0.5, cruise=0.5, **kind):
+        return self.follower.depart(
+            self.pose, lambda ghost: ghost.compute_trajectory(goal, delta, ramps, cruise, **kind)
+        )
+
+    def run(self, seconds=60.0, until=lambda robot: robot.follower.at_rest):
+        for _ in range(round(seconds / DT)):
+            if until(self):
+                break
+            twist = self.follower.step(DT, self.pose)
+            self.twists.append(twist)
+            done = Twist(*(self.share * part for part in twist))
+            self.pose = integrate(self.pose, done, DT)
+        return self.follower.state
+
+
+@pytest.mark.parametrize('law', ['kanayama', 'ramsete', 'holonomic'])
+@pytest.mark.parametrize('kind', [{}, {'backward': True}, {'delta': 0.0}, {'pure_rotation': True}])
+def test_it_arrives_where_it_was_sent(law, kind):
+    robot = Ideal(Pose(0.0, 0.0, 0.2), law=law)
+    robot.go(**kind)
+    assert robot.run() is Following.ARRIVED
+    goal = Pose(0.0, 0.0, 0.5) if 'pure_rotation' in kind else GOAL
+    assert hypot(robot.pose.x - goal.x, robot.pose.y - goal.y) < 0.015
+    assert abs(robot.pose.theta - goal.theta) < 0.03
+    assert robot.twists[-1] == REST
+
+
+def test_a_zero_move_arrives_at_once():
+    robot = Ideal(GOAL)
+    robot.go()
+    robot.run(seconds=DT)
+    assert robot.follower.state is Following.ARRIVED
+
+
+def test_before_and_after_it_stands():
+    robot = Ideal()
+    assert robot.follower.step(DT, ORIGIN) == REST
+    assert robot.follower.state is Following.IDLE
+    robot.go()
+    robot.run()
+    assert robot.follower.step(DT, robot.pose) == REST
+
+
+def test_the_ghost_waits_for_a_robot_that_is_held_and_goes_on_with_it():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=2.0)
+    robot.share = 0.0  # somebody stands in the way
+    robot.run(seconds=5.0)
+    assert robot.follower.state is Following.WAITING
+    assert robot.follower.ghost.locked
+    assert 0.2 < robot.follower.separation < 0.6
+    where = robot.follower.ghost.pose
+    robot.run(seconds=1.0)
+    assert robot.follower.ghost.pose == where
+    robot.share = 1.0
+    assert robot.run() is Following.ARRIVED
+
+
+def test_a_robot_carried_away_is_lost_and_stops_until_there_is_a_new_goal():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=2.0)
+    robot.pose = Pose(robot.pose.x, robot.pose.y + 0.7, robot.pose.theta)
+    robot.run(seconds=DT)
+    assert robot.follower.state is Following.LOST
+    assert robot.twists[-1] == REST
+    assert robot.follower.separation >= 0.6
+    robot.go()
+    assert robot.follower.ghost.pose == robot.pose
+    assert robot.run() is Following.ARRIVED
+
+
+def test_a_robot_turned_away_is_lost_too():
+    robot = Ideal(leash=LeashParameters(heading_arm=0.3))
+    robot.go()
+    robot.run(seconds=1.0)
+    robot.pose = robot.pose._replace(theta=-pi)
+    robot.run(seconds=DT)
+    assert robot.follower.state is Following.LOST
+
+
+def greatest_change(twists):
+    return max(abs(b.vx - a.vx) / DT for a, b in pairwise(twists))
+
+
+def test_held_it_eases_to_a_halt_and_goes_on_again():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=3.0)
+    robot.follower.hold(True)  # noqa: FBT003
+    robot.run(seconds=2.0)
+    assert robot.follower.state is Following.LOCKED
+    assert robot.follower.ghost.locked
+    assert robot.follower.ghost.speeds == (0.0, 0.0)
+    assert abs(robot.twists[-1].vx) < 0.01
+    robot.follower.hold(False)  # noqa: FBT003
+    assert robot.run() is Following.ARRIVED
+    assert greatest_change(robot.twists) < 1.6
+
+
+def test_held_beforehand_it_waits_for_the_word():
+    robot = Ideal()
+    robot.follower.hold(True)  # noqa: FBT003
+    robot.go()
+    assert robot.follower.state is Following.LOCKED
+    robot.run(seconds=1.0)
+    assert robot.pose == ORIGIN
+    robot.follower.hold(False)  # noqa: FBT003
+    assert robot.run() is Following.ARRIVED
+
+
+@pytest.mark.parametrize('held', [False, True])
+def test_aborted_it_brakes_and_stays(held):
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=3.0)
+    robot.follower.hold(held)
+    robot.run(seconds=0.1)
+    robot.follower.abort()
+    assert not robot.follower.at_rest
+    assert robot.run(seconds=3.0) is Following.ABORTED
+    assert greatest_change(robot.twists) < 1.6
+    assert robot.twists[-1] == REST
+    assert robot.pose.x < 1.9
+
+
+def test_stopped_it_stands_at_once():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=2.0)
+    robot.follower.stop()
+    assert robot.follower.step(DT, robot.pose) == REST
+    assert robot.follower.state is Following.ABORTED
+
+
+def test_a_new_goal_in_motion_is_taken_up_without_a_jump():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=3.0)
+    del robot.twists[:-1]
+    robot.go(Pose(3.0, 0.0, -0.5))
+    assert robot.run() is Following.ARRIVED
+    assert hypot(robot.pose.x - 3.0, robot.pose.y) < 0.015
+    assert greatest_change(robot.twists) < 0.8
+
+
+def test_a_refused_goal_changes_nothing():
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=2.0)
+    with pytest.raises(SignalError, match='finite'):
+        robot.go(Pose(nan, 0.0, 0.0))
+    assert robot.run() is Following.ARRIVED
+    assert hypot(robot.pose.x - GOAL.x, robot.pose.y - GOAL.y) < 0.015
+
+
+@pytest.mark.parametrize('bad', [nan, inf])
+def test_a_pose_that_is_none_is_refused_and_changes_nothing(bad):
+    robot = Ideal()
+    with pytest.raises(SignalError, match='pose'):
+        robot.follower.depart(Pose(bad, 0.0, 0.0), lambda ghost: ghost.trajectory)
+    robot.go()
+    robot.run(seconds=1.0)
+    before = robot.follower.ghost.time
+    with pytest.raises(SignalError, match='pose'):
+        robot.follower.step(DT, Pose(0.0, bad, 0.0))
+    assert robot.follower.ghost.time == before
