@@ -1,0 +1,75 @@
+"""An ideal robot reaches the goal of seeded random routes, at every rate and of every base."""
+
+from __future__ import annotations
+
+import random
+from itertools import pairwise
+from math import hypot, pi
+
+import pytest
+
+from agv_motion.planar import Pose
+from agv_motion.route.parameters import FollowParameters
+from agv_motion.route.prediction import predict
+from agv_motion.route.route import Route
+
+PARAMETERS = FollowParameters()
+
+
+def random_run(seed, **options):
+    """Return route and prediction; the robot starts within 2 m of the route's start."""
+    dice = random.Random(seed)  # noqa: S311 - a simulation, no secret
+    route = Route([(dice.uniform(-5, 5), dice.uniform(-5, 5)) for _ in range(dice.randint(2, 7))])
+    x, y = route.waypoints[0]
+    start = Pose(x + dice.uniform(-2, 2), y + dice.uniform(-2, 2), dice.uniform(-pi, pi))
+    return route, predict(route, **({'parameters': PARAMETERS, 'start': start} | options))
+
+
+@pytest.mark.parametrize('holonomic', [False, True])
+@pytest.mark.parametrize('seed', range(25))
+def test_it_reaches_the_goal(seed, holonomic):
+    route, run = random_run(seed, parameters=FollowParameters(holonomic=holonomic))
+    end = run.poses[-1]
+    assert run.arrived
+    assert hypot(end.x - route.waypoints[-1].x, end.y - route.waypoints[-1].y) < 0.02
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_the_rate_hardly_matters(seed):
+    """At 10 Hz and at 100 Hz: the same duration within 3 %."""
+    _, slow = random_run(seed, dt=0.1)
+    _, fast = random_run(seed, dt=0.01)
+    assert slow.duration == pytest.approx(fast.duration, rel=0.03)
+
+
+def test_laps_are_all_gone():
+    square = Route([(0, 0), (4, 0), (4, 4), (0, 4)], laps=3)
+    run = predict(square, PARAMETERS, Pose(0.0, 0.0, 0.0))
+    crossings = sum(a.y < 2.0 <= b.y and a.x > 2.0 for a, b in pairwise(run.poses))
+    assert run.arrived
+    assert crossings == 3
+
+
+def test_a_larger_distance_cuts_corners_more():
+    corner = Route([(0, 0), (4, 0), (4, 4)])
+    near, far = (
+        predict(corner, FollowParameters(virtual_point_distance=d), Pose(0.0, 0.0, 0.0))
+        for d in (0.3, 1.0)
+    )
+    assert near.cross_track(corner)[1] < far.cross_track(corner)[1] < 1.0
+
+
+def test_on_a_straight_route_it_is_never_beside_it():
+    """And most of the time at full speed: 20 m at 0.5 m/s take 40 s, and a little to brake."""
+    straight = Route([(0, 0), (20, 0)])
+    run = predict(straight, PARAMETERS, Pose(0.0, 0.0, 0.0))
+    assert run.cross_track(straight) == (0.0, 0.0)
+    assert 40.0 < run.duration < 44.0
+    assert next(iter(run.limiter_shares())) == 'v(d)'
+
+
+def test_what_does_not_arrive_is_given_up():
+    endless = Route([(0, 0), (4, 0), (4, 4)], laps=0)
+    run = predict(endless, PARAMETERS, Pose(0.0, 0.0, 0.0), longest=60.0)
+    assert not run.arrived
+    assert run.duration == pytest.approx(60.0)
