@@ -27,7 +27,7 @@ ROUNDING = 1e-9
 class Coupling:
     """One coupled speed."""
 
-    def __init__(self, ramp: float, form: str = FORMS[0], output: float = 0.0) -> None:
+    def __init__(self, ramp: float = 0.0, form: str = FORMS[0], output: float = 0.0) -> None:
         """Start coupling.
 
         Args:
@@ -36,10 +36,13 @@ class Coupling:
             output: Speed at the start.
 
         """
-        self._ramp = ramp
-        self._form = form
+        self.set(ramp, form)
         self._target = self.output = output
         self.reset()
+
+    def set(self, ramp: float, form: str) -> None:
+        """Go on with another time [s] and form."""
+        self._ramp, self._form = ramp, form
 
     def reset(self) -> None:
         """Set c to 0."""

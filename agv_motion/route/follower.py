@@ -92,13 +92,9 @@ class RouteFollower:
 
         """
         self.route = route
-        self._holonomic = parameters.holonomic
-        self._profiles = parameters.profiles()
-        self._arrival_speed = parameters.arrival_speed
         self._virtual = VirtualPoint(route, parameters.virtual_point_distance)
-        form = parameters.coupling_form
-        self._speed = Coupling(parameters.speed_coupling_ms / 1000.0, form, speed)
-        self._turn = Coupling(parameters.turn_coupling_ms / 1000.0, form, turn_rate)
+        self._speed, self._turn = Coupling(output=speed), Coupling(output=turn_rate)
+        self.retune(parameters)
         self.arrived = False
 
     @property
@@ -115,6 +111,22 @@ class RouteFollower:
     def turn_rate(self) -> float:
         """Turn rate commanded last [rad/s]."""
         return self._turn.output
+
+    def retune(self, parameters: FollowParameters) -> None:
+        """Go on with other parameters.
+
+        Raises:
+            ConfigurationError: The distance of the virtual point is too large for the route;
+                nothing has changed.
+
+        """
+        self._virtual.set_radius(parameters.virtual_point_distance)
+        self._profiles = parameters.profiles()
+        self._holonomic = parameters.holonomic
+        self._arrival_speed = parameters.arrival_speed
+        form = parameters.coupling_form
+        self._speed.set(parameters.speed_coupling_ms / 1000.0, form)
+        self._turn.set(parameters.turn_coupling_ms / 1000.0, form)
 
     def rest(self) -> None:
         """Take note that the robot has been stopped: the couplings start anew from rest."""
@@ -139,7 +151,6 @@ class RouteFollower:
         if self.segment != before:
             self._speed.reset()
             self._turn.reset()
-            dt = 0.0
         limits = self._limits(pose)
         last = self.route.is_last(self.segment)
         self.arrived = self.arrived or (last and limits.v_d <= self._arrival_speed)

@@ -13,7 +13,7 @@ from agv_motion.route.route import Route
 KEYS = ('waypoints', 'laps')
 
 
-def load_route(path: str | Path, laps: int | None = None) -> Route:
+def load_route(path: str | Path, laps: int = 1) -> Route:
     """Return the route of a file.
 
     YAML holds ``waypoints`` (a list of [x, y] in metres) and, if wanted, ``laps``; any other name
@@ -23,7 +23,7 @@ def load_route(path: str | Path, laps: int | None = None) -> Route:
 
     Args:
         path: The file.
-        laps: How often to go round, whatever the file says.
+        laps: How often to go round where the file does not say.
 
     Raises:
         ConfigurationError: The file cannot be read or holds no route; the message names file and,
@@ -37,17 +37,17 @@ def load_route(path: str | Path, laps: int | None = None) -> Route:
         msg = f"cannot read the route '{path}': {error}"
         raise ConfigurationError(msg) from error
     if path.suffix.lower() in {'.yaml', '.yml'}:
-        points, own_laps = _from_yaml(path, text)
+        points, laps = _from_yaml(path, text, laps)
     else:
-        points, own_laps = _from_csv(path, text), 1
+        points = _from_csv(path, text)
     try:
-        return Route(points, own_laps if laps is None else laps)
+        return Route(points, laps)
     except GeometryError as error:
         msg = f'{path}: {error}'
         raise ConfigurationError(msg) from error
 
 
-def _from_yaml(path: Path, text: str) -> tuple[list[Any], int]:
+def _from_yaml(path: Path, text: str, laps: int) -> tuple[list[Any], int]:
     try:
         content = yaml.safe_load(text)
     except yaml.YAMLError as error:
@@ -57,7 +57,7 @@ def _from_yaml(path: Path, text: str) -> tuple[list[Any], int]:
         given = ', '.join(map(str, content)) if isinstance(content, dict) else repr(content)[:80]
         msg = f'{path}: expected waypoints and, if wanted, laps; got {given}'
         raise ConfigurationError(msg)
-    points, laps = content['waypoints'], content.get('laps', 1)
+    points, laps = content['waypoints'], content.get('laps', laps)
     if not isinstance(points, list) or isinstance(laps, bool) or not isinstance(laps, int):
         msg = f'{path}: waypoints must be a list of [x, y], and laps a whole number'
         raise ConfigurationError(msg)

@@ -35,20 +35,30 @@ class VirtualPoint:
             radius: dp, its distance from the robot [m], positive.
 
         Raises:
+            ConfigurationError: As :meth:`set_radius`.
+
+        """
+        self._route = route
+        self.place = Place(0, 0.0)
+        self.set_radius(radius)
+
+    def set_radius(self, radius: float) -> None:
+        """Change dp [m].
+
+        Raises:
             ConfigurationError: A route of several laps fits into the circle: the point could not
                 tell one lap from the next.
 
         """
-        width, height = _extent(route)
-        if route.laps != 1 and hypot(width, height) <= 2.0 * radius:
+        xs, ys = zip(*self._route.waypoints, strict=True)
+        width, height = max(xs) - min(xs), max(ys) - min(ys)
+        if self._route.laps != 1 and hypot(width, height) <= 2.0 * radius:
             msg = (
                 f'a lap of {width:.4g} m by {height:.4g} m fits into the circle of the virtual '
                 f'point, of radius {radius:g} m: give a smaller distance or a larger route'
             )
             raise ConfigurationError(msg)
-        self._route = route
         self._radius = radius
-        self.place = Place(0, 0.0)
 
     @property
     def point(self) -> Point:
@@ -123,8 +133,3 @@ class VirtualPoint:
         segment = self._route.segment(number)
         end = segment.at(segment.length)
         return hypot(x - end.x, y - end.y) <= self._radius
-
-
-def _extent(route: Route) -> tuple[float, float]:
-    xs, ys = zip(*route.waypoints, strict=True)
-    return max(xs) - min(xs), max(ys) - min(ys)

@@ -12,6 +12,7 @@ from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose
 from agv_motion.route.follower import Limiter, RouteFollower
 from agv_motion.route.parameters import FollowParameters
+from agv_motion.route.prediction import predict
 from agv_motion.route.route import Route
 
 CORNER = Route([(0, 0), (4, 0), (4, 4)])
@@ -125,16 +126,31 @@ def test_at_the_place_of_the_end_it_has_not_arrived_before_its_last_lap():
 
 
 def test_the_coupling_starts_anew_on_each_segment():
-    """0.4 s: 0.25, 0.5 ... of V = 0.9 and 1; the tick that enters the second leg holds."""
+    """0.4 s: 0.25, 0.5 ... of V; then from 1 towards 0.6, which the heading asks for."""
     coupled = FollowParameters(**(vars(TABLES) | {'speed_coupling_ms': 400.0}))
     follower = RouteFollower(Route([(0, 0), (4, 0), (20, 0)]), coupled)
     speeds = [follower.update(Pose(x, 0.0, 0.0), 0.1) for x in (0.5, 1.0, 1.5, 2.0, 2.5)]
     assert [found.twist.vx for found in speeds] == pytest.approx([0.25, 0.5, 0.75, 1.0, 1.0])
     assert [found.limits.limiter for found in speeds[:3]] == [Limiter.COUPLING] * 3
-    turned = follower.update(Pose(3.5, 0.0, 1.0), 0.1)
-    assert turned.limits.speed == pytest.approx(0.6)
-    assert turned.twist.vx == pytest.approx(1.0)
-    assert follower.update(Pose(3.6, 0.0, 1.0), 0.1).twist.vx == pytest.approx(0.9)
+    turned = [follower.update(Pose(x, 0.0, 1.0), 0.1) for x in (3.5, 3.6, 3.7, 3.8)]
+    assert [found.limits.speed for found in turned] == pytest.approx([0.6] * 4)
+    assert [found.twist.vx for found in turned] == pytest.approx([0.9, 0.8, 0.7, 0.6])
+
+
+def test_on_a_path_of_many_points_the_coupling_still_lets_it_brake():
+    """A planner's path, a point every centimetre: each tick enters a new segment."""
+    dense = Route([(0.01 * i, 0.0) for i in range(501)])
+    run = predict(dense, FollowParameters(), Pose(0.0, 0.0, 0.0))
+    assert run.arrived
+    assert max(pose.x for pose in run.poses) < 5.02
+    assert max(found.twist.vx for found in run.steps) > 0.45
+
+
+def test_other_tables_may_be_given_on_the_way():
+    follower = RouteFollower(CORNER, TABLES)
+    slow = FollowParameters(**(vars(TABLES) | {'v_dphi': (0.0, 0.2)}))
+    follower.retune(slow)
+    assert follower.update(Pose(2.0, 0.0, 0.0), 0.1).twist.vx == pytest.approx(0.2)
 
 
 def test_a_new_route_goes_on_from_the_present_speed():

@@ -32,7 +32,8 @@ def test_forms_of_one_route(tmp_path, name, text):
 
 def test_laps_of_the_file_and_of_the_caller(tmp_path):
     path = written(tmp_path, 'r.yml', 'waypoints: [[0, 0], [4, 0], [4, 3]]\nlaps: 3')
-    assert load_route(path).laps == 3
+    assert load_route(path, laps=2).laps == 3
+    path = written(tmp_path, 'r.csv', '0,0\n4,0\n4,3')
     assert load_route(path, laps=2).laps == 2
 
 
