@@ -6,6 +6,7 @@ from math import atan2, cos, isfinite, sin
 from typing import TYPE_CHECKING, Any
 
 from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
@@ -68,6 +69,18 @@ def fill_pose(message: Any, pose: Pose) -> None:
     """Write ``pose`` into a geometry_msgs/Pose."""
     message.position.x, message.position.y = pose.x, pose.y
     message.orientation.z, message.orientation.w = sin(pose.theta / 2.0), cos(pose.theta / 2.0)
+
+
+def points_of(path: Any) -> list[tuple[float, float]]:
+    """Return the places of a nav_msgs/Path [m]; what is not finite is left to the core."""
+    return [(p.pose.position.x, p.pose.position.y) for p in path.poses]
+
+
+def fill_path(path: Any, points: Sequence[tuple[float, float]]) -> None:
+    """Write ``points`` [m] into a nav_msgs/Path, all with its own header."""
+    path.poses = [PoseStamped(header=path.header) for _ in points]
+    for stamped, (x, y) in zip(path.poses, points, strict=True):
+        fill_pose(stamped.pose, Pose(x, y, 0.0))
 
 
 class TurretJoints:

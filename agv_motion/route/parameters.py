@@ -34,41 +34,79 @@ class FollowParameters:
     """Every table holds x0, y0, x1, y1 ...: straight lines between, constant outside."""
 
     virtual_point_distance: Annotated[
-        float, Spec('dp, from the robot to the virtual point: larger is smoother', 'm', (1e-3, 100))
+        float,
+        Spec(
+            'dp, from the robot to the virtual point: larger is smoother',
+            'm',
+            (1e-3, 100),
+            dynamic=True,
+        ),
     ] = 0.4
     omega_dphi: Annotated[
         tuple[float, ...],
-        Spec('turn rate over |dphi|, the angle from heading to virtual point', 'rad, rad/s'),
+        Spec(
+            'turn rate over |dphi|, the angle from heading to virtual point',
+            'rad, rad/s',
+            dynamic=True,
+        ),
     ] = (0.0, 0.0, 0.5, 0.8, 1.6, 1.2)
     v_dphi: Annotated[
-        tuple[float, ...], Spec('speed over |dphi|: slow when looking elsewhere', 'rad, m/s')
+        tuple[float, ...],
+        Spec('speed over |dphi|: slow when looking elsewhere', 'rad, m/s', dynamic=True),
     ] = (0.1, 0.5, 0.6, 0.2, 1.6, 0.02)
     v_dn: Annotated[
         tuple[float, ...],
-        Spec('speed over dn, from virtual point to next waypoint: slow at it', 'm, m/s'),
+        Spec(
+            'speed over dn, from virtual point to next waypoint: slow at it', 'm, m/s', dynamic=True
+        ),
     ] = (0.0, 0.1, 0.6, 0.5)
     v_alpha: Annotated[
         tuple[float, ...],
-        Spec('speed over alpha, from this segment to the next: pi straight, 0 hairpin', 'rad, m/s'),
+        Spec(
+            'speed over alpha, from this segment to the next: pi straight, 0 hairpin',
+            'rad, m/s',
+            dynamic=True,
+        ),
     ] = (1.5, 0.1, 3.0, 0.5)
     v_d: Annotated[
-        tuple[float, ...], Spec('speed over d, the route still to go; 0 at 0', 'm, m/s')
+        tuple[float, ...],
+        Spec('speed over d, the route still to go; 0 at 0', 'm, m/s', dynamic=True),
     ] = (0.0, 0.0, 0.05, 0.06, 0.15, 0.2, 0.5, 0.5)
     arrival_speed: Annotated[
-        float, Spec('arrived where v_d is not above; 0: only where v_d is 0', 'm/s', (0.0, 1.0))
+        float,
+        Spec(
+            'arrived where v_d is not above; 0: only where v_d is 0',
+            'm/s',
+            (0.0, 1.0),
+            dynamic=True,
+        ),
     ] = 0.01
     speed_coupling_ms: Annotated[
-        float, Spec('time in which the speed joins its target, after each waypoint', 'ms', (0, 6e4))
+        float,
+        Spec(
+            'time in which the speed joins its target, after each waypoint',
+            'ms',
+            (0, 6e4),
+            dynamic=True,
+        ),
     ] = 300.0
-    turn_coupling_ms: Annotated[float, Spec('the same for the turn rate', 'ms', (0.0, 60000.0))] = (
-        100.0
-    )
+    turn_coupling_ms: Annotated[
+        float, Spec('the same for the turn rate', 'ms', (0.0, 60000.0), dynamic=True)
+    ] = 100.0
     coupling_form: Annotated[
         str,
-        Spec('the same at any rate, or by the tick, or as the original has it', choices=FORMS),
+        Spec(
+            'the same at any rate, or by the tick, or as the original has it',
+            choices=FORMS,
+            dynamic=True,
+        ),
     ] = FORMS[0]
     holonomic: Annotated[
-        bool, Spec('drive straight at the virtual point, whatever the heading (omni, turrets)')
+        bool,
+        Spec(
+            'drive straight at the virtual point, whatever the heading (omni, turrets)',
+            dynamic=True,
+        ),
     ] = False
 
     def __post_init__(self) -> None:

@@ -1,0 +1,145 @@
+"""What nodes share that drive a robot by its pose: `odom` in, `cmd_vel` out, never a silent end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, TypeVar
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
+from geometry_msgs.msg import Twist as TwistMessage
+from nav_msgs.msg import Odometry
+from std_msgs.msg import String
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import REST, Pose, Twist
+from agv_motion.ros.messages import fill_twist, pose_of
+from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+
+FAREWELL = 1.0
+"""[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
+
+
+@dataclass(frozen=True)
+class DrivingParameters:
+    """How often to command, and whom to believe where the robot is."""
+
+    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 20.0
+    position: Annotated[
+        str, Spec('where the pose comes from: topic odom, or topic pose', choices=('odom', 'pose'))
+    ] = 'odom'
+    frame: Annotated[str, Spec('frame of the pose, and of all that is to be driven')] = 'odom'
+    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
+    report_after: Annotated[float, Spec('silence of the pose to report', 's', (0.01, 3600.0))] = 0.5
+    stop_after: Annotated[float, Spec('silence of the pose to stop', 's', (0.01, 3600.0))] = 1.0
+    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+P = TypeVar('P', bound=DrivingParameters)
+
+
+class DrivingNode(ManagedNode[P]):
+    """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`."""
+
+    def open(self) -> None:
+        """Open the topics."""
+        given = self.parameters
+        self.pose: Pose | None = None
+        self.lost = f'no {given.position} yet'
+        """Why the pose cannot be used; empty if it can"""
+        self.told = ''
+        """The state told last"""
+        self._watchdog = Watchdog(given.report_after, given.stop_after)
+        self._last_cycle: float | None = None
+        self._farewell = 0.0
+        self._message = TwistStamped() if given.stamped else TwistMessage()
+        if given.stamped:
+            self._message.header.frame_id = given.base_frame
+        self._command = self.publisher(type(self._message), 'cmd_vel', COMMAND)
+        self._state = self.publisher(String, 'state', LATCHED)
+        if given.position == 'odom':
+            self.listen(Odometry, 'odom', self._on_pose, SENSOR)
+        else:
+            self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
+        self.every(1.0 / given.rate, self._on_cycle)
+
+    def halt(self) -> None:
+        """Send the last word: no motion."""
+        self._send(REST)
+
+    def cycle(self, dt: float) -> None:
+        """Command the robot, ``dt`` [s] after the last time."""
+        raise NotImplementedError
+
+    def tell(self, state: str) -> None:
+        """Say what the robot does, where that has changed."""
+        if state != self.told:
+            self.told = state
+            self._state.publish(String(data=state))
+
+    def drive(self, twist: Twist) -> None:
+        """Move."""
+        self._farewell = FAREWELL
+        self._send(twist)
+
+    def stand(self) -> None:
+        """Keep the robot where it is: zero, cycle after cycle."""
+        self.drive(REST)
+
+    def leave(self, dt: float) -> None:
+        """Be done with the robot: zeros for a while, then silence, so that others may drive it."""
+        if self._farewell > 0.0:
+            self._farewell -= dt
+            self._send(REST)
+
+    def require_frame(self, frame: str) -> None:
+        """Raise unless ``frame`` is the one in which this node drives.
+
+        Raises:
+            ConfigurationError: It is another.
+
+        """
+        if frame not in {'', self.parameters.frame}:
+            msg = (
+                f"frame '{frame}': this node drives in '{self.parameters.frame}'; transform it "
+                'first, or set the parameter frame'
+            )
+            raise ConfigurationError(msg)
+
+    def _on_pose(self, message: Any) -> None:
+        self.require_frame(message.header.frame_id)
+        self.pose = pose_of(message.pose.pose)
+        self._watchdog.feed()
+
+    def _on_cycle(self) -> None:
+        now = self.seconds()
+        dt = 0.0 if self._last_cycle is None else max(now - self._last_cycle, 0.0)
+        self._last_cycle = now
+        self._watch(now)
+        self.cycle(dt)
+
+    def _watch(self, now: float) -> None:
+        silence, age = self._watchdog.judge(now), self._watchdog.age(now)
+        name = self.parameters.position
+        if age is None:
+            return
+        self.lost = f'no {name} for {self.parameters.stop_after:g} s' * (silence is Silence.LOST)
+        if silence is not Silence.FRESH:
+            told = 'stopping' if self.lost else 'still driving'
+            self.get_logger().warning(
+                f'no {name} for {age:.1f} s: {told}', throttle_duration_sec=5.0
+            )
+
+    def _send(self, twist: Twist) -> None:
+        if self.parameters.stamped:
+            self.stamp(self._message)
+            fill_twist(self._message.twist, twist)
+        else:
+            fill_twist(self._message, twist)
+        self._command.publish(self._message)

@@ -1,0 +1,209 @@
+"""Node `route_follower`: a route and the pose in, the twist that follows it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isinf
+from typing import TYPE_CHECKING, Annotated, Any
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import Path
+from std_srvs.srv import SetBool, Trigger
+
+from agv_motion.errors import SignalError
+from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.parameters import Spec
+from agv_motion.ros.config import find_config
+from agv_motion.ros.messages import fill_path, points_of
+from agv_motion.ros.node import OK, WARN, Diagnosis
+from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+from agv_motion.ros.run import run
+from agv_motion.route.follower import Limits, RouteFollower
+from agv_motion.route.parameters import FollowParameters
+from agv_motion.route.route import Point, Route
+from agv_motion.route.route_file import load_route
+
+if TYPE_CHECKING:
+    from agv_motion.planar import Pose
+
+IDLE = 'waiting for a route'
+
+
+@dataclass(frozen=True)
+class RouteFollowerParameters(DrivingParameters):
+    """Where the route comes from, and how it is followed."""
+
+    route_file: Annotated[
+        str,
+        Spec('CSV or YAML to follow from the start on; empty: wait for the topic', dynamic=True),
+    ] = ''
+    laps: Annotated[
+        int,
+        Spec('rounds where the route does not say; 0: without end', '1', (0, 1e6), dynamic=True),
+    ] = 1
+    follow: FollowParameters = field(default_factory=FollowParameters)
+
+
+class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
+    """`route` and `odom` -> `cmd_vel`, `route/virtual_point`, `route/limits`, `state`.
+
+    Silence of `odom`, `~/pause`, `~/abort`, arrival and the end of the node are explicit zeros.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('route_follower', RouteFollowerParameters, **kwargs)
+
+    def open(self) -> None:
+        """Open the topics; load the route if there is a file."""
+        super().open()
+        self._follower: RouteFollower | None = None
+        self._route: Route | None = None
+        self._ended = IDLE
+        self._paused = False
+        self._point = self.publisher(PointStamped, 'route/virtual_point', SENSOR)
+        self._limits = self.publisher(DiagnosticStatus, 'route/limits', SENSOR)
+        self._path = self.publisher(Path, 'route/path', LATCHED)
+        self.listen(Path, 'route', self._on_route, COMMAND)
+        self.serve(SetBool, '~/pause', self._on_pause)
+        self.serve(Trigger, '~/abort', self._on_abort)
+        self.serve(Trigger, '~/restart', self._on_restart)
+        warning = self.parameters.follow.orbit()
+        if warning:
+            self.get_logger().warning(warning)
+        if self.parameters.route_file:
+            self._route = _loaded(self.parameters)
+            self._follower = RouteFollower(self._route, self.parameters.follow)
+
+    def begin(self) -> None:
+        """Show the route, if there is one already."""
+        if self._route is not None:
+            self._show(self._route)
+
+    def accept(self, parameters: RouteFollowerParameters) -> None:
+        """Take over new tables, or the route of another file."""
+        before = self.parameters
+        if parameters.route_file and parameters.route_file != before.route_file:
+            self._follow(_loaded(parameters), parameters.follow)
+        elif self._follower is not None:
+            self._follower.retune(parameters.follow)
+
+    def diagnose(self) -> Diagnosis:
+        """Tell what the robot does, and what is missing."""
+        waiting = self._follower is not None and bool(self.lost)
+        return Diagnosis(WARN if waiting else OK, self.told or IDLE, {})
+
+    def cycle(self, dt: float) -> None:
+        """Command one step along the route, or none."""
+        follower = self._follower
+        if follower is None:
+            self.leave(dt)
+            self.tell(self._ended)
+        elif self._paused or self.lost or self.pose is None:
+            follower.rest()
+            self.stand()
+            self.tell('paused' if self._paused else f'stopped: {self.lost}')
+        else:
+            self._step(follower, self.pose, dt)
+
+    def _step(self, follower: RouteFollower, pose: Pose, dt: float) -> None:
+        twist, point, limits, arrived = follower.update(pose, dt)
+        self.drive(twist)
+        self._publish(point, limits)
+        if arrived:
+            self._end('arrived')
+        else:
+            self.tell(_progress(follower))
+
+    def _publish(self, point: Point, limits: Limits) -> None:
+        message = PointStamped()
+        self.stamp(message)
+        message.header.frame_id = self.parameters.frame
+        message.point.x, message.point.y = point
+        self._point.publish(message)
+        if self._limits.get_subscription_count():
+            pairs = {'limiter': limits.limiter.value} | {
+                name: f'{value:.4f}'
+                for name, value in limits._asdict().items()
+                if name != 'limiter'
+            }
+            self._limits.publish(
+                DiagnosticStatus(
+                    name=f'{self.get_name()}: what holds the speed down',
+                    message=limits.limiter.value,
+                    values=[KeyValue(key=key, value=value) for key, value in pairs.items()],
+                )
+            )
+
+    def _end(self, how: str) -> None:
+        self._follower = None
+        self._ended = how
+        self.get_logger().info(how)
+        self.tell(how)
+
+    def _follow(self, route: Route, parameters: FollowParameters) -> None:
+        """Start on ``route``; in motion, without a jump of speed."""
+        old = self._follower
+        speed, turn_rate = (old.speed, old.turn_rate) if old else (0.0, 0.0)
+        self._follower = RouteFollower(route, parameters, speed, turn_rate)
+        self._route = route
+        self._show(route)
+
+    def _show(self, route: Route) -> None:
+        message = Path()
+        self.stamp(message)
+        message.header.frame_id = self.parameters.frame
+        fill_path(message, route.waypoints)
+        self._path.publish(message)
+        laps = 'without end' if isinf(route.length) else f'{route.length:.1f} m'
+        self.get_logger().info(f'route of {len(route.waypoints)} waypoints, {laps}')
+
+    def _on_route(self, message: Path) -> None:
+        self.require_frame(message.header.frame_id)
+        given = self.parameters
+        self._follow(Route(points_of(message), given.laps), given.follow)
+
+    def _on_pause(self, request: Any) -> str:
+        self._paused = request.data
+        if self._paused and self._follower is not None:
+            self.stand()
+        return 'paused' if self._paused else 'going on'
+
+    def _on_abort(self, _: Any) -> str:
+        if self._follower is None:
+            msg = 'no route is being followed'
+            raise SignalError(msg)
+        self.stand()
+        self._end('aborted')
+        return 'stopped; ~/restart follows the same route from its start'
+
+    def _on_restart(self, _: Any) -> str:
+        if self._route is None:
+            msg = f'there has been no route: publish one on {self.resolve_topic_name("route")}'
+            raise SignalError(msg)
+        self._follow(self._route, self.parameters.follow)
+        return 'from the start of the route'
+
+
+def _loaded(parameters: RouteFollowerParameters) -> Route:
+    return load_route(find_config(parameters.route_file), parameters.laps)
+
+
+def _progress(follower: RouteFollower) -> str:
+    """Return where on the route the virtual point is, in words."""
+    route, each = follower.route, len(follower.route.segments)
+    lap, segment = divmod(follower.segment, each)
+    where = f'following: segment {segment + 1} of {each}'
+    if route.laps == 1:
+        return where
+    return f'{where}, lap {lap + 1}' + (f' of {route.laps}' if route.laps else '')
+
+
+def main() -> None:
+    """Run the node."""
+    run(RouteFollowerNode)
+
+
+if __name__ == '__main__':
+    main()
