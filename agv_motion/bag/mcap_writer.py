@@ -1,7 +1,8 @@
 """One MCAP file in the making: chunks with their index and CRC, and the summary at the end.
 
 A chunk goes to the operating system in one piece as soon as it is complete, so a process that is
-killed loses only the chunk it was filling.
+killed loses only the chunk it was filling. A disk that is full leaves the file as it was before,
+and :meth:`McapWriter.drop_chunk` makes room for the summary.
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ class McapWriter:
         self._schemas: dict[str, records.Schema] = {}
         self._channels: list[records.Channel] = []
         self._chunks: list[records.ChunkIndex] = []
+        self._chunk_counts: list[dict[int, int]] = []
         self._parts: list[bytes] = []
         self._indexes: list[array[int]] = []
         self.size = 0
@@ -122,33 +124,63 @@ class McapWriter:
         self._put(b''.join(pieces))
         self._chunks.append(records.ChunkIndex(start, end, *where, self._compression, *sizes))
         self.start, self.end = min(self.start, start), max(self.end, end)
-        for channel, index in filled:
-            self.counts[channel - 1] += len(index) // 2
-            self._indexes[channel - 1] = array('Q')
+        counts = {channel: len(index) // 2 for channel, index in filled}
+        self._chunk_counts.append(counts)
+        for channel, count in counts.items():
+            self.counts[channel - 1] += count
+        self.discard()
+
+    def discard(self) -> None:
+        """Forget the chunk being filled."""
         self._parts, self.chunk_size = [], 0
+        self._indexes = [array('Q') for _ in self._channels]
+
+    def drop_chunk(self) -> bool:
+        """Cut the last chunk off the file; return whether there was one."""
+        if not self._chunks:
+            return False
+        self.size = self._chunks.pop().offset
+        for channel, count in self._chunk_counts.pop().items():
+            self.counts[channel - 1] -= count
+        self.start = min((chunk.start_time for chunk in self._chunks), default=2**64 - 1)
+        self.end = max((chunk.end_time for chunk in self._chunks), default=0)
+        self._cut()
+        return True
+
+    @property
+    def waiting(self) -> int:
+        """Number of messages in the chunk being filled."""
+        return len(self._parts) // 2
+
+    @property
+    def closed(self) -> bool:
+        """Whether the file is finished or abandoned."""
+        return self._file.closed
 
     def sync(self) -> None:
         """Wait until the disk has what was flushed."""
         os.fdatasync(self._file.fileno())
 
     def close(self, notes: dict[str, str]) -> None:
-        """Write the last chunk, ``notes`` as metadata ``rosbag2`` and the summary; close."""
-        try:
-            self.flush()
-            noted = records.metadata('rosbag2', notes)
-            noted_at = self.size
-            self._put(noted + records.data_end())
-            self._put(self._summary(records.metadata_index(noted_at, len(noted), 'rosbag2')))
-            self.sync()
-        finally:
-            self._file.close()
+        """Write ``notes`` as metadata ``rosbag2`` and the summary behind the last chunk; close.
+
+        Raises:
+            OSError: The disk is full or failed; the file is as it was before, and still open.
+
+        """
+        noted = records.metadata('rosbag2', notes)
+        index = records.metadata_index(self.size, len(noted), 'rosbag2')
+        data = noted + records.data_end()
+        self._put(data + self._summary(index, self.size + len(data)))
+        self.sync()
+        self._file.close()
 
     def abandon(self) -> None:
         """Close without a summary: what was flushed stays, and can be recovered."""
         self._file.close()
 
-    def _summary(self, metadata_index: bytes) -> bytes:
-        """Return the summary, its offsets and the footer; ``size`` is where it begins."""
+    def _summary(self, metadata_index: bytes, begin: int) -> bytes:
+        """Return the summary, its offsets and the footer; ``begin`` is where it will stand."""
         counts = {i: count for i, count in enumerate(self.counts, 1) if count}
         start, end = (self.start, self.end) if counts else (0, 0)
         numbers = (sum(self.counts), len(self._schemas), len(self._channels), 0, 1)
@@ -160,12 +192,12 @@ class McapWriter:
             records.CHUNK_INDEX: b''.join(map(records.chunk_index, self._chunks)),
             records.METADATA_INDEX: metadata_index,
         }
-        offsets, position = [], self.size
+        offsets, position = [], begin
         for opcode, group in groups.items():
             if group:
                 offsets.append(records.summary_offset(opcode, position, len(group)))
             position += len(group)
-        foot = records.footer_head(self.size, position)
+        foot = records.footer_head(begin, position)
         summary = b''.join((*groups.values(), *offsets, foot))
         return summary + records.checksum(crc32(summary)) + records.MAGIC
 
@@ -176,7 +208,11 @@ class McapWriter:
             while view:
                 view = view[self._file.write(view) :]
         except OSError:
-            os.ftruncate(self._file.fileno(), self.size)
-            os.lseek(self._file.fileno(), self.size, os.SEEK_SET)
+            self._cut()
             raise
         self.size += len(data)
+
+    def _cut(self) -> None:
+        """End the file where ``size`` says."""
+        os.ftruncate(self._file.fileno(), self.size)
+        os.lseek(self._file.fileno(), self.size, os.SEEK_SET)

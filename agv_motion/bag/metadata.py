@@ -82,11 +82,15 @@ def inside_mcap(description: str) -> str:
 def save(bag: Path, description: str) -> None:
     """Put ``metadata.yaml`` into the folder of a bag, whole or not at all."""
     unfinished = bag / f'{FILE_NAME}.tmp'
-    with unfinished.open('w', encoding='utf-8') as file:
-        file.write(description)
-        file.flush()
-        os.fsync(file.fileno())
-    unfinished.replace(bag / FILE_NAME)
+    try:
+        with unfinished.open('w', encoding='utf-8') as file:
+            file.write(description)
+            file.flush()
+            os.fsync(file.fileno())
+        unfinished.replace(bag / FILE_NAME)
+    except OSError:
+        unfinished.unlink(missing_ok=True)
+        raise
 
 
 def _span(start: int, end: int) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf, isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, NamedTuple, final
 
 from agv_motion.bag import definitions, metadata
 from agv_motion.bag.mcap_writer import McapWriter
@@ -16,6 +16,13 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 DEFAULT_QOS = (OfferedQos(),)
+
+
+class _Finished(NamedTuple):
+    """A file of the bag that is whole, and how many messages each of its topics has."""
+
+    summary: metadata.FileSummary
+    counts: tuple[int, ...]
 
 
 @final
@@ -56,14 +63,18 @@ class BagWriter:
             )
             raise ConfigurationError(msg)
         self.path = Path(path)
+        self.discarded = 0
+        """messages that found no room on a full disk"""
         self._ros_distro = ros_distro
+        self._compression = '' if compression == 'none' else compression
         self._chunk_size = chunk_size
         self._chunk_span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
         self._topics: list[metadata.Topic] = []
+        self._finished: list[_Finished] = []
+        self._number = 0
         try:
             self.path.mkdir(parents=True)
-            file = self.path / f'{self.path.name}_0.mcap'
-            self._file = McapWriter(file, '' if compression == 'none' else compression)
+            self._file = self._open_next()
         except OSError as error:
             msg = f'bag {self.path} cannot be written ({error.strerror}): choose a new folder'
             raise SourceError(msg) from error
@@ -122,21 +133,109 @@ class BagWriter:
         if file.chunk_size >= self._chunk_size or stamp - file.chunk_start >= self._chunk_span:
             file.flush()
 
-    def flush(self) -> None:
-        """Bring all messages to the disk: after this, a power cut does not take them."""
+    def flush(self, *, sync: bool = True) -> None:
+        """Hand all messages to the system and, with ``sync``, to the disk: no power cut takes them.
+
+        Raises:
+            OSError: The disk is full or failed; what was not written waits for the next try.
+
+        """
         self._file.flush()
-        self._file.sync()
+        if sync:
+            self._file.sync()
+
+    @property
+    def closed(self) -> bool:
+        """Whether the bag is finished."""
+        return self._file.closed
+
+    @property
+    def file_size(self) -> int:
+        """Bytes of the present file."""
+        return self._file.size
+
+    @property
+    def finished_files(self) -> int:
+        """Number of files before the present one."""
+        return len(self._finished)
+
+    def split(self) -> None:
+        """Finish the present file and go on in a new one; handles stay as they are.
+
+        Raises:
+            OSError: The disk is full; the present file is whole all the same.
+
+        """
+        self._finish()
+        self._file = self._open_next()
+        for topic in self._topics:
+            self._file.add_channel(topic)
+
+    def drop_oldest(self) -> bool:
+        """Delete the oldest finished file; return whether there was one."""
+        if not self._finished:
+            return False
+        (self.path / self._finished.pop(0).summary.path).unlink(missing_ok=True)
+        metadata.save(self.path, self._describe(self._finished))
+        return True
 
     def close(self) -> None:
-        """Finish the file and write ``metadata.yaml``."""
-        self._file.flush()
+        """Finish the file and write ``metadata.yaml``.
+
+        Raises:
+            OSError: The disk is full. The bag is whole all the same: messages gave way until the
+                summary had room, and ``discarded`` tells how many.
+
+        """
+        if not self._file.closed:
+            self._finish()
+
+    def _open_next(self) -> McapWriter:
+        path = self.path / f'{self.path.name}_{self._number}.mcap'
+        file = McapWriter(path, self._compression)
+        self._number += 1
+        return file
+
+    def _finish(self) -> None:
+        """Close the present file; on a full disk, without as many of its last chunks as needed."""
+        failure = None
+        try:
+            self._file.flush()
+        except OSError as error:
+            failure = error
+            self.discarded += self._file.waiting
+            self._file.discard()
+        while True:
+            try:
+                self._close_file()
+                break
+            except OSError as error:
+                failure = failure or error
+                before = sum(self._file.counts)
+                if not self._file.drop_chunk():
+                    self._file.abandon()
+                    raise
+                self.discarded += before - sum(self._file.counts)
+        if failure is not None:
+            raise failure
+
+    def _close_file(self) -> None:
         file = self._file
-        name = file.path.name
-        files = [metadata.FileSummary(name, file.start, file.end, sum(file.counts))]
-        topics = zip(self._topics, file.counts, strict=True)
-        description = metadata.describe(files, topics, self._ros_distro)
-        file.close({'serialized_metadata': metadata.inside_mcap(description)})
-        metadata.save(self.path, description)
+        total = sum(file.counts)
+        summary = metadata.FileSummary(file.path.name, file.start, file.end, total)
+        this = _Finished(summary, tuple(file.counts))
+        files = [*self._finished, this]
+        metadata.save(self.path, self._describe(files))
+        file.close({'serialized_metadata': metadata.inside_mcap(self._describe([this]))})
+        self._finished = files
+
+    def _describe(self, files: list[_Finished]) -> str:
+        counts = [
+            sum(file.counts[i] for file in files if i < len(file.counts))
+            for i in range(len(self._topics))
+        ]
+        topics = zip(self._topics, counts, strict=True)
+        return metadata.describe([file.summary for file in files], topics, self._ros_distro)
 
     def __enter__(self) -> BagWriter:
         """Return the writer."""

@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from agv_motion.cli import demo, doctor, nodes, parameters, topic
+from agv_motion.cli import demo, doctor, nodes, parameters, record, topic
 from agv_motion.errors import AgvMotionError
 
 app = typer.Typer(
@@ -25,6 +25,7 @@ app.command(
 )(nodes.run)
 app.command()(parameters.parameters)
 app.command()(demo.demo)
+app.command()(record.record)
 app.command()(doctor.doctor)
 
 

@@ -70,7 +70,9 @@ def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
     values = {
         name: _plain(
             node.declare_parameter(
-                prefix + name, getattr(defaults, name), _descriptor(spec, origin)
+                prefix + name,
+                getattr(defaults, name),
+                _descriptor(spec, origin, empty=getattr(defaults, name) == ()),
             ).value
         )
         for name, origin, spec in rows(kind)
@@ -79,12 +81,16 @@ def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
     return kind(**values, **groups)
 
 
-def _descriptor(spec: Spec, origin: Any) -> ParameterDescriptor:
-    """Return what ``ros2 param describe`` shows; rclpy checks the range of scalars by itself."""
+def _descriptor(spec: Spec, origin: Any, *, empty: bool) -> ParameterDescriptor:
+    """Return what ``ros2 param describe`` shows; rclpy checks the range of scalars by itself.
+
+    Of an ``empty`` array, rclpy cannot tell the type: it must not insist on it.
+    """
     descriptor = ParameterDescriptor(
         description=f'{spec.description} [{spec.unit}]' if spec.unit else spec.description,
         additional_constraints=f'one of {", ".join(spec.choices)}' if spec.choices else '',
         read_only=not spec.dynamic,
+        dynamic_typing=empty,
     )
     if spec.between and origin is float:
         low, high = spec.between

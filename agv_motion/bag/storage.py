@@ -1,0 +1,45 @@
+"""How a recording is laid out on the disk: compression, files, and what happens when it fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from agv_motion.parameters import Spec, check
+
+MEGABYTE = 1e6
+
+
+@dataclass(frozen=True)
+class StorageParameters:
+    """Files of a recording, how safe they are, and how much of the disk they may take."""
+
+    compression: Annotated[str, Spec('of the chunks', choices=('zstd', 'lz4', 'none'))] = 'zstd'
+    flush_period: Annotated[
+        float, Spec('a crash loses at most what came within this time', 's', (0.05, 60.0))
+    ] = 0.5
+    sync: Annotated[
+        bool,
+        Spec('wait for the disk at each flush, so that a power cut loses no more than a crash'),
+    ] = True
+    max_bag_size: Annotated[
+        float, Spec('go on in a new file at this size; 0: one file', 'MB', (0.0, 1e9))
+    ] = 0.0
+    max_bag_duration: Annotated[
+        float, Spec('go on in a new file after this time; 0: one file', 's', (0.0, 1e9))
+    ] = 0.0
+    keep_files: Annotated[
+        int, Spec('of the finished files keep the newest so many; 0: all', '', (0, 1_000_000))
+    ] = 0
+    keep_free: Annotated[float, Spec('leave so much of the disk free', 'MB', (0.0, 1e9))] = 100.0
+    when_full: Annotated[
+        str,
+        Spec('at that floor stop, or delete the oldest file', choices=('stop', 'drop_oldest')),
+    ] = 'stop'
+    cache: Annotated[
+        float, Spec('messages that wait for a slow disk; beyond, they are lost', 'MB', (1.0, 1e6))
+    ] = 256.0
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)

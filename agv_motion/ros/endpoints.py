@@ -1,0 +1,72 @@
+"""Who publishes a topic and how: message classes by name, and quality of service to meet it."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from agv_motion.bag.quality_of_service import FOREVER, OfferedQos
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+DEEP = 1000
+"""Messages that may wait for a recorder: a tenth of a second at 10,000 a second."""
+
+
+def message_class(name: str) -> Any:
+    """Return the class of a message type such as ``std_msgs/msg/String``.
+
+    Raises:
+        ConfigurationError: It is not installed.
+
+    """
+    package, _, short = name.replace('/msg/', '/').partition('/')
+    try:
+        return getattr(importlib.import_module(f'{package}.msg'), short)
+    except (ImportError, AttributeError, ValueError) as error:
+        msg = f"message type '{name}' is not installed: install {package}, or source its workspace"
+        raise ConfigurationError(msg) from error
+
+
+def offered(publishers: Sequence[TopicEndpointInfo]) -> list[OfferedQos]:
+    """Return the quality of service of each publisher, as a bag keeps it."""
+    return [_offered(publisher.qos_profile) for publisher in publishers]
+
+
+def _offered(qos: QoSProfile) -> OfferedQos:
+    return OfferedQos(
+        depth=qos.depth,
+        reliability=qos.reliability.name.lower(),
+        durability=qos.durability.name.lower(),
+        history=qos.history.name.lower(),
+        liveliness=qos.liveliness.name.lower(),
+        deadline=_nanoseconds(qos.deadline),
+        lifespan=_nanoseconds(qos.lifespan),
+        lease_duration=_nanoseconds(qos.liveliness_lease_duration),
+    )
+
+
+def _nanoseconds(duration: Any) -> int:
+    return min(int(duration.nanoseconds), FOREVER) or FOREVER
+
+
+def matching(offers: Sequence[OfferedQos], *, latched: bool) -> QoSProfile:
+    """Return a deep profile that hears all publishers; the weakest of them sets the terms.
+
+    Args:
+        offers: What each publisher offers.
+        latched: Ask for what was sent before, which only latched publishers grant.
+
+    """
+    reliable = all(offer.reliability == 'reliable' for offer in offers)
+    return QoSProfile(
+        depth=DEEP,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )

@@ -1,0 +1,158 @@
+"""The recorder on a real graph: every publisher is heard, whatever it offers."""
+
+from __future__ import annotations
+
+import pytest
+from rosbags.rosbag2 import Reader
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
+
+from agv_motion.nodes.bag_recorder import BagRecorder
+
+RELIABLE = QoSProfile(depth=1000)
+
+
+@pytest.fixture
+def record(tester, tmp_path):
+    """Return a function that starts a recorder of all topics with Int32."""
+
+    def start(**parameters):
+        given = {'output': str(tmp_path / 'bag'), 'regex': '^/n', 'storage__keep_free': 0.0}
+        return tester.start(BagRecorder, **{**given, **parameters})
+
+    return start
+
+
+def read(path):
+    """Return the numbers of each topic."""
+    found = {}
+    with Reader(path) as reader:
+        for connection, _, data in reader.messages():
+            found.setdefault(connection.topic, []).append(deserialize_message(data, Int32).data)
+    return found
+
+
+def numbered(tester, topic, qos=RELIABLE):
+    """Return a publisher of Int32 without waiting for its listener."""
+    return tester.node.create_publisher(Int32, topic, qos)
+
+
+def send(publisher, *numbers):
+    for number in numbers:
+        publisher.publish(Int32(data=number))
+
+
+def recorded(tester, node, count):
+    """Spin until the recorder has taken ``count`` messages."""
+    tester.graph.spin_until(lambda: node.recording.messages >= count)
+
+
+def heard(tester, *publishers):
+    tester.graph.spin_until(lambda: all(p.get_subscription_count() for p in publishers))
+
+
+def test_all_messages_of_all_topics_those_that_come_later_too(tester, record, tmp_path):
+    first = numbered(tester, 'n1')
+    node = record()
+    heard(tester, first)
+    send(first, *range(100))
+    recorded(tester, node, 100)
+    later = numbered(tester, 'n2')
+    heard(tester, later)
+    send(later, *range(50))
+    recorded(tester, node, 150)
+    node.trigger_deactivate()
+    assert read(tmp_path / 'bag') == {'/n1': list(range(100)), '/n2': list(range(50))}
+    assert {t.name: (t.messages, t.lost) for t in node.report} == {'/n1': (100, 0), '/n2': (50, 0)}
+
+
+def test_latched_messages_from_before_are_recorded(tester, record, tmp_path, qos):
+    send(numbered(tester, 'n', qos['latched']), 7, 8)
+    node = record()
+    recorded(tester, node, 1)
+    node.trigger_deactivate()
+    assert read(tmp_path / 'bag') == {'/n': [8]}
+    with Reader(tmp_path / 'bag') as reader:
+        (profile,) = reader.connections[0].ext.offered_qos_profiles
+    assert (profile.reliability.name, profile.durability.name) == ('RELIABLE', 'TRANSIENT_LOCAL')
+
+
+def test_publishers_that_offer_different_things_are_all_heard_once(tester, record, tmp_path, qos):
+    latched = numbered(tester, 'n', qos['latched'])
+    send(latched, 1)
+    node = record()
+    recorded(tester, node, 1)
+    weak = numbered(tester, 'n', QoSProfile(depth=100, reliability=qos['sensor'].reliability))
+    heard(tester, weak)
+    tester.graph.spin_until(lambda: latched.get_subscription_count() == 2)
+    send(weak, 2)
+    recorded(tester, node, 2)
+    send(latched, 3)
+    recorded(tester, node, 3)
+    tester.graph.spin_for(0.3)
+    node.trigger_deactivate()
+    assert read(tmp_path / 'bag') == {'/n': [1, 2, 3]}
+
+
+def test_a_pause_is_left_out_and_not_called_a_loss(tester, record, tmp_path):
+    publisher = numbered(tester, 'n')
+    node = record()
+    heard(tester, publisher)
+    send(publisher, 1)
+    recorded(tester, node, 1)
+    assert tester.ask(Trigger, 'bag_recorder/pause', Trigger.Request()).success
+    send(publisher, 2)
+    tester.graph.spin_for(0.2)
+    assert tester.ask(Trigger, 'bag_recorder/toggle_paused', Trigger.Request()).success
+    send(publisher, 3)
+    recorded(tester, node, 2)
+    node.trigger_deactivate()
+    assert read(tmp_path / 'bag') == {'/n': [1, 3]}
+    assert node.report[0].lost == 0
+
+
+def test_split_goes_on_in_a_new_file(tester, record, tmp_path):
+    publisher = numbered(tester, 'n')
+    node = record()
+    heard(tester, publisher)
+    send(publisher, 1)
+    recorded(tester, node, 1)
+    assert tester.ask(Trigger, 'bag_recorder/split', Trigger.Request()).success
+    send(publisher, 2)
+    recorded(tester, node, 2)
+    node.trigger_deactivate()
+    assert len(list((tmp_path / 'bag').glob('*.mcap'))) == 2
+    assert read(tmp_path / 'bag') == {'/n': [1, 2]}
+
+
+def test_what_is_excluded_stays_out(tester, record, tmp_path):
+    publishers = [numbered(tester, topic) for topic in ('n1', 'n2', 'n3')]
+    node = record(exclude_topics=['n2'], exclude_regex='3$')
+    heard(tester, publishers[0])
+    tester.graph.spin_for(0.3)
+    for publisher in publishers:
+        send(publisher, 1)
+    recorded(tester, node, 1)
+    node.trigger_deactivate()
+    assert read(tmp_path / 'bag') == {'/n1': [1]}
+
+
+def test_a_disk_at_its_floor_ends_the_recording_with_an_error(tester, record, tmp_path):
+    node = record(storage__keep_free=1e9, storage__flush_period=0.05)
+    tester.graph.spin_until(lambda: node.recording is None)
+    assert 'keep_free' in node.failure
+    assert 'keep_free' in node.diagnose().message
+    assert read(tmp_path / 'bag') == {}
+
+
+def test_an_existing_folder_keeps_the_node_inactive(tester, record, tmp_path):
+    (tmp_path / 'bag').mkdir()
+    from agv_motion.ros.run import StartError
+
+    with pytest.raises(StartError):
+        record()
