@@ -1,0 +1,54 @@
+"""`agv record` as a real process beside the graph of the test."""
+
+from __future__ import annotations
+
+import signal
+import time
+
+import pytest
+from rosbags.rosbag2 import Reader
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Int32
+
+
+@pytest.fixture
+def publisher(graph):
+    node = graph.add(rclpy.create_node('talker', context=graph.context))
+    return node.create_publisher(Int32, 'number', QoSProfile(depth=1000))
+
+
+def test_until_ctrl_c_and_then_what_was_lost(agv, graph, publisher, tmp_path):
+    process = agv.start('record', '/number', '-o', tmp_path / 'bag', '--compression', 'lz4')
+    graph.spin_until(publisher.get_subscription_count)
+    for i in range(500):
+        publisher.publish(Int32(data=i))
+        time.sleep(0.0005)
+    graph.spin_for(0.3)
+    process.send_signal(signal.SIGINT)
+    out, errors = process.communicate(timeout=20)
+    assert process.returncode == 0, errors
+    line = next(line for line in out.splitlines() if line.startswith('/number'))
+    assert line.split()[1] == '500'
+    assert line.split()[3:5] == ['0', '0']
+    with Reader(tmp_path / 'bag') as reader:
+        assert [data[4] for _, _, data in reader.messages()] == [i % 256 for i in range(500)]
+
+
+def test_the_disk_at_its_floor_is_an_error(agv, publisher, tmp_path):
+    status, _, errors = agv('record', '-a', '-o', tmp_path / 'bag', '--keep-free', '1e9')
+    assert status == 1
+    assert 'error: recording' in errors
+    assert 'keep_free' in errors
+
+
+def test_nothing_to_record_and_a_folder_that_exists_are_told(alone, tmp_path):
+    status, _, errors = alone('record')
+    assert status == 1
+    assert 'topics or regex' in errors
+    status, _, errors = alone('record', '-a', '-o', tmp_path)
+    assert status == 1
+    assert 'choose a new folder' in errors
+    assert 'Traceback' not in errors
