@@ -12,8 +12,13 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    Buffer = bytes | memoryview
+
 _FAST = 1
 """Level at which zstd keeps up with a full link; higher ones gain little on floats."""
+_WIDEST_WINDOW = 1 << 27
+"""[bytes] Memory that a zstd frame may ask for; level 19 asks for 8 MiB."""
+_PIECE = 1 << 17
 
 
 def compressor(name: str) -> Callable[[bytes], bytes]:
@@ -31,3 +36,115 @@ def compressor(name: str) -> Callable[[bytes], bytes]:
         return bytes
     msg = f"compression {name!r}: choose one of 'zstd', 'lz4', 'none'"
     raise ConfigurationError(msg)
+
+
+def decompress(name: str, stored: Buffer, size: int) -> Buffer:
+    """Return exactly ``size`` bytes; more memory than that is never taken.
+
+    Args:
+        name: '', 'lz4' or 'zstd'.
+        stored: The compressed bytes.
+        size: [bytes] that they must become.
+
+    Raises:
+        ValueError: They are damaged, or become something else.
+
+    """
+    if name == 'zstd':
+        data: Buffer = _zstd(stored, size)
+    elif name == 'lz4':
+        data = _lz4(stored, size)
+    elif name == '':
+        data = stored
+    else:
+        msg = f"compression {name!r}, expected '', 'lz4' or 'zstd'"
+        raise ValueError(msg)
+    if len(data) != size:
+        msg = f'{len(data)} bytes where {size} were announced'
+        raise ValueError(msg)
+    return data
+
+
+def salvage(name: str, stored: Buffer, limit: int) -> bytes:
+    """Return what can be decompressed of bytes whose end is missing, at most ``limit`` bytes."""
+    if name == '':
+        return bytes(stored[:limit])
+    try:
+        return _zstd_by_piece(stored, limit) if name == 'zstd' else _lz4_by_piece(stored, limit)
+    except ValueError:
+        return b''
+
+
+def _zstd(stored: Buffer, size: int) -> bytes:
+    try:
+        frame = zstandard.get_frame_parameters(stored)
+        if frame.content_size == size:
+            whole = zstandard.ZstdDecompressor(max_window_size=_WIDEST_WINDOW)
+            return whole.decompress(stored, max_output_size=size)
+    except zstandard.ZstdError as error:
+        msg = f'zstd: {error}'
+        raise ValueError(msg) from None
+    return _zstd_by_piece(stored, size + 1)  # several frames, or one that hides its size
+
+
+def _zstd_by_piece(stored: Buffer, limit: int) -> bytes:
+    reader = zstandard.ZstdDecompressor(max_window_size=_WIDEST_WINDOW).stream_reader(
+        stored, read_across_frames=True
+    )
+    pieces, left = [], limit
+    while left:
+        try:
+            piece = reader.read(min(left, _PIECE))
+        except zstandard.ZstdError:
+            break
+        if not piece:
+            break
+        pieces.append(piece)
+        left -= len(piece)
+    return b''.join(pieces)
+
+
+def _lz4(stored: Buffer, size: int) -> bytes:
+    try:
+        data: bytes = lz4.frame.LZ4FrameDecompressor().decompress(stored, max_length=size + 1)
+    except (RuntimeError, EOFError, MemoryError) as error:
+        msg = f'lz4: {error}'
+        raise ValueError(msg) from None
+    return data
+
+
+def _lz4_by_piece(stored: Buffer, limit: int) -> bytes:
+    """Return what comes out before the first damaged block."""
+    frame, pieces, left = lz4.frame.LZ4FrameDecompressor(), [], limit
+    data = bytes(stored)
+    while left and not frame.eof:
+        try:
+            piece = frame.decompress(data, max_length=min(left, _PIECE))
+        except (RuntimeError, EOFError, MemoryError):
+            break
+        if not piece:
+            break
+        data = b''
+        pieces.append(piece)
+        left -= len(piece)
+    return b''.join(pieces)
+
+
+def decompress_message(stored: Buffer, largest: int) -> bytes:
+    """Return a message that rosbag2 compressed by itself, with zstd.
+
+    Raises:
+        ValueError: It is damaged, or becomes more than ``largest`` bytes.
+
+    """
+    data = _zstd_by_piece(stored, largest + 1)
+    try:
+        announced = zstandard.get_frame_parameters(stored).content_size
+    except zstandard.ZstdError as error:
+        msg = f'zstd: {error}'
+        raise ValueError(msg) from None
+    unknown = announced in (zstandard.CONTENTSIZE_UNKNOWN, len(data))
+    if not unknown or len(data) > largest:
+        msg = f'{len(data)} bytes where {announced} were announced and {largest} are allowed'
+        raise ValueError(msg)
+    return data

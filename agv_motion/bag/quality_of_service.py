@@ -11,6 +11,16 @@ if TYPE_CHECKING:
 
 FOREVER = 2**63 - 1
 """[ns] The longest time, with which ROS says that there is no limit."""
+_NAMES = {
+    'history': ('system_default', 'keep_last', 'keep_all', 'unknown'),
+    'reliability': ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available'),
+    'durability': ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
+    'liveliness': (
+        *('system_default', 'automatic', 'manual_by_node', 'manual_by_topic'),
+        *('unknown', 'best_available'),
+    ),
+}
+"""Words by the numbers of rmw, which rosbag2 wrote before metadata version 9."""
 
 
 class OfferedQos(NamedTuple):
@@ -27,6 +37,29 @@ class OfferedQos(NamedTuple):
     """[ns]"""
     lease_duration: int = FOREVER
     """[ns]"""
+
+    @classmethod
+    def from_yaml(cls, text: str) -> tuple[OfferedQos, ...]:
+        """Return the profiles of a topic's publishers; what cannot be read counts as not given."""
+        try:
+            entries = yaml.safe_load(text) if text else []
+            return tuple(cls.from_entries(entry) for entry in entries or [])
+        except (yaml.YAMLError, TypeError, ValueError, KeyError, RecursionError):
+            return ()
+
+    @classmethod
+    def from_entries(cls, entries: dict[str, Any]) -> OfferedQos:
+        """Return a profile from what rosbag2 wrote, of any version."""
+        words: dict[str, Any] = {key: _word(key, entries[key]) for key in _NAMES if key in entries}
+        times: dict[str, Any] = {
+            field: nanoseconds(entries[key])
+            for field, key in (
+                *(('deadline', 'deadline'), ('lifespan', 'lifespan')),
+                ('lease_duration', 'liveliness_lease_duration'),
+            )
+            if key in entries
+        }
+        return cls(depth=int(entries.get('depth', 10)), **words, **times)
 
     def entries(self) -> dict[str, Any]:
         """Return what rosbag2 writes, in its order."""
@@ -52,3 +85,12 @@ def as_yaml(profiles: Iterable[OfferedQos]) -> str:
 def _time(nanoseconds: int) -> dict[str, int]:
     sec, nsec = divmod(nanoseconds, 1_000_000_000)
     return {'sec': sec, 'nsec': nsec}
+
+
+def nanoseconds(time: dict[str, int]) -> int:
+    """Return a time; zero and what is beyond ``FOREVER`` mean no limit."""
+    return min(int(time['sec']) * 1_000_000_000 + int(time['nsec']), FOREVER) or FOREVER
+
+
+def _word(key: str, value: Any) -> str:
+    return str(_NAMES[key][value] if isinstance(value, int) else value)

@@ -1,0 +1,134 @@
+"""Chunks of an MCAP file: where they lie, what is in them, and which messages."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+from zlib import crc32
+
+import numpy as np
+
+from agv_motion.bag import record_parsing as parsing
+from agv_motion.bag import records
+from agv_motion.bag.compression import decompress, salvage
+from agv_motion.bag.damage import DamagedBagError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.record_parsing import Buffer
+
+LARGEST = 1 << 28
+"""[bytes] Content of a chunk, uncompressed; no robot has a single message as large as that."""
+UNSUSPICIOUS = 1 << 26
+LARGEST_RATIO = 1000
+"""A chunk of more than ``UNSUSPICIOUS`` bytes that shrank further is a trap, not a recording."""
+
+HEAD = np.dtype(
+    [
+        *(('opcode', 'u1'), ('length', '<u8'), ('channel', '<u2'), ('sequence', '<u4')),
+        *(('stamp', '<u8'), ('publish', '<u8')),
+    ]
+)
+"""What stands before the data of a message."""
+
+
+class Chunk(NamedTuple):
+    """A chunk, or a stretch of messages outside chunks, which then is its own content."""
+
+    offset: int
+    """[bytes] of its record in the file"""
+    length: int
+    """[bytes] of the record"""
+    start: int
+    """[ns] log time of the first message"""
+    end: int
+    """[ns] log time of the last message"""
+    indexes: Mapping[int, int] | None
+    """where the message index of each channel lies; None: there is none, walk the content"""
+    bare: bool = False
+    """a stretch of messages outside chunks"""
+    torn: bool = False
+    """its end is missing"""
+
+
+def content(data: memoryview, chunk: Chunk, path: Path, *, validate: bool) -> Buffer:
+    """Return the uncompressed content of a chunk; of a torn one, what can be saved.
+
+    Args:
+        data: The whole file.
+        chunk: Which.
+        path: The file, for errors.
+        validate: Compare with the CRC, where the file has one.
+
+    Raises:
+        DamagedBagError: It is damaged, or larger than ``LARGEST``.
+
+    """
+    end = chunk.offset + chunk.length
+    if chunk.bare:
+        return data[chunk.offset : end]
+    body = chunk.offset + records.PREFIX.size
+    head = parsing.chunk_head(parsing.Body(data[body:end], path, body), body)
+    if head.size > LARGEST or head.size > max(UNSUSPICIOUS, head.stored * LARGEST_RATIO):
+        finding = (
+            f'a chunk of {head.size} bytes out of {head.stored}, expected at most {LARGEST}, '
+            f'and {LARGEST_RATIO} times as many as are stored'
+        )
+        raise DamagedBagError(path, chunk.offset, finding)
+    stored = data[head.content : head.content + head.stored]
+    if chunk.torn:
+        return salvage(head.compression, stored, head.size)
+    if head.content + head.stored != end:
+        finding = f'a chunk that ends at byte {head.content + head.stored}, expected {end}'
+        raise DamagedBagError(path, chunk.offset, finding)
+    try:
+        unpacked = decompress(head.compression, stored, head.size)
+    except ValueError as error:
+        raise DamagedBagError(path, chunk.offset, f'a chunk that is damaged ({error})') from None
+    if validate and head.crc and crc32(unpacked) != head.crc:
+        finding = f'a chunk with CRC {crc32(unpacked):08x}, expected {head.crc:08x}'
+        raise DamagedBagError(path, chunk.offset, finding)
+    return unpacked
+
+
+def message_offsets(unpacked: Buffer) -> NDArray[np.int64]:
+    """Return where the whole messages of a chunk's content lie, by walking through it."""
+    shortest = HEAD.itemsize - records.PREFIX.size
+    return np.fromiter(
+        (
+            body - records.PREFIX.size
+            for opcode, body, end in parsing.walk(unpacked, 0, len(unpacked))
+            if opcode == records.MESSAGE and end - body >= shortest
+        ),
+        np.int64,
+    )
+
+
+def heads(unpacked: Buffer, offsets: NDArray[Any]) -> NDArray[Any]:
+    """Return the heads of the messages that lie at ``offsets``, as structured rows.
+
+    Raises:
+        ValueError: An offset lies outside, or there is no whole message.
+
+    """
+    room = len(unpacked) - HEAD.itemsize + 1
+    if not len(offsets):
+        return np.empty(0, HEAD)
+    if room < 1 or int(offsets.max()) >= room:
+        msg = f'a message at byte {int(offsets.max())} of a content of {len(unpacked)}'
+        raise ValueError(msg)
+    raw = np.dtype((np.void, HEAD.itemsize))
+    windows = np.ndarray((room,), raw, unpacked, strides=(1,))
+    places = offsets.astype(np.intp, copy=False)
+    found = windows[places].view(HEAD)
+    lengths = found['length']
+    shortest = HEAD.itemsize - records.PREFIX.size
+    wrong = (found['opcode'] != records.MESSAGE) | (lengths - shortest > len(unpacked))
+    wrong |= places + lengths.astype(np.int64) > len(unpacked) - records.PREFIX.size
+    if wrong.any():
+        msg = f'no whole message at byte {int(places[int(wrong.argmax())])} of the content'
+        raise ValueError(msg)
+    return found

@@ -1,0 +1,63 @@
+"""One topic of a bag as its messages say it: name, type, definition, quality of service."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from agv_motion.bag.quality_of_service import OfferedQos
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from agv_motion.bag.records import Channel, Schema
+
+
+class Connection(NamedTuple):
+    """Messages of one type on one topic; a topic that changed its type has several."""
+
+    topic: str
+    type: str
+    """such as ``geometry_msgs/msg/TwistStamped``"""
+    definition: str
+    """full text of the type, '' where the bag has none"""
+    definition_encoding: str
+    """``ros2msg`` or ``ros2idl``, '' where the bag has none"""
+    encoding: str
+    """of the messages: ``cdr``"""
+    hash: str
+    """``RIHS01_...``, or '' where unknown"""
+    qos: Sequence[OfferedQos]
+    """of each publisher"""
+
+    @property
+    def latched(self) -> bool:
+        """Whether a late subscriber would have received the last message."""
+        return any(profile.durability == 'transient_local' for profile in self.qos)
+
+
+class Message(NamedTuple):
+    """One message of a bag."""
+
+    connection: Connection
+    stamp: int
+    """[ns] log time: when it was received"""
+    data: bytes
+    """in CDR, its four bytes of header included"""
+    publish: int
+    """[ns] when it was sent"""
+    sequence: int
+    """number that the sender gave it, 0 where unknown"""
+
+
+def from_channel(channel: Channel, schemas: Mapping[int, Schema]) -> Connection:
+    """Return what an MCAP file says of a channel; a schema that is missing leaves gaps."""
+    schema = schemas.get(channel.schema_id)
+    return Connection(
+        channel.topic,
+        schema.name if schema else '',
+        schema.data.decode(errors='replace') if schema else '',
+        schema.encoding if schema else '',
+        channel.encoding,
+        channel.metadata.get('topic_type_hash', ''),
+        OfferedQos.from_yaml(channel.metadata.get('offered_qos_profiles', '')),
+    )

@@ -1,0 +1,28 @@
+"""What a file says that cannot be: every finding names the file and the byte."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from agv_motion.errors import SourceError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+class DamagedBagError(SourceError):
+    """A bag is damaged, or hostile, at a byte of a file."""
+
+    def __init__(self, path: Path | str, offset: int, finding: str, remedy: str = '') -> None:
+        """Keep where and what.
+
+        Args:
+            path: The file.
+            offset: [bytes] from its beginning.
+            finding: What stands there, and what was expected.
+            remedy: What a person can do; by default, ``agv bag recover``.
+
+        """
+        self.path, self.offset, self.finding = path, offset, finding
+        remedy = remedy or 'agv bag recover saves what can be read'
+        super().__init__(f'{path}, byte {offset}: {finding}; {remedy}')

@@ -1,0 +1,197 @@
+"""Read a bag: a folder as rosbag2 leaves it, one MCAP file, or one sqlite3 file.
+
+with BagReader('bag') as bag:
+    for message in bag.messages(['/odom'], start=bag.start + 10**9):
+        print(message.stamp, message.connection.topic, len(message.data))
+"""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from functools import cached_property
+from heapq import merge
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, final
+
+from agv_motion.bag.bag_files import find, unpack_file
+from agv_motion.bag.chunk import LARGEST
+from agv_motion.bag.compression import decompress_message
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.sqlite_file import SqliteFile
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from types import TracebackType
+
+    from agv_motion.bag.connection import Connection, Message
+
+    File = McapFile | SqliteFile
+
+FOREVER = 2**64
+
+
+@final
+class BagReader:
+    """Reads a bag with or without index and metadata, whole or torn, of any size."""
+
+    def __init__(self, path: str | Path, *, validate: bool = True) -> None:
+        """Open the bag.
+
+        Args:
+            path: Folder of the bag, or one of its files.
+            validate: Compare chunks with their CRC, where the file has one.
+
+        Raises:
+            SourceError: There is no bag, or it cannot be read at all.
+
+        """
+        self.path = Path(path)
+        found = find(self.path)
+        self._found = found
+        self._unpacked = TemporaryDirectory() if found.files_compressed else None
+        self.files: list[File] = []
+        try:
+            for file in found.paths:
+                self.files.append(self._open(file, validate=validate))
+        except BaseException:
+            self.close()
+            raise
+        self.problems = [*found.problems, *(p for file in self.files for p in file.problems)]
+        """what is amiss in the bag, though it can be read"""
+        self.connections: tuple[Connection, ...] = tuple(
+            dict.fromkeys(c for file in self.files for c in file.channels.values())
+        )
+        """every topic with its type; a topic that changed its type has several"""
+        self.topics: dict[str, Connection] = {}
+        """the first connection of each topic, by name"""
+        for connection in self.connections:
+            self.topics.setdefault(connection.topic, connection)
+
+    @property
+    def messages_compressed(self) -> bool:
+        """Whether each message is compressed by itself."""
+        return self._found.messages_compressed
+
+    @cached_property
+    def start(self) -> int:
+        """Log time of the first message [ns]; 0 without messages."""
+        return min((file.span[0] for file in self.files if file.span), default=0)
+
+    @cached_property
+    def end(self) -> int:
+        """Log time of the last message [ns]; 0 without messages."""
+        return max((file.span[1] for file in self.files if file.span), default=0)
+
+    @cached_property
+    def counts(self) -> dict[str, int]:
+        """Number of messages of each topic."""
+        counts = dict.fromkeys(self.topics, 0)
+        for file in self.files:
+            for channel, count in file.counts().items():
+                if channel in file.channels:
+                    counts[file.channels[channel].topic] += count
+        return counts
+
+    @property
+    def message_count(self) -> int:
+        """Number of all messages."""
+        return sum(self.counts.values())
+
+    def require(self, topics: Iterable[str]) -> None:
+        """Refuse topics that the bag does not have.
+
+        Raises:
+            ConfigurationError: One is not there; close names are given.
+
+        """
+        for topic in topics:
+            if topic not in self.topics:
+                close = get_close_matches(topic, self.topics, n=1)
+                hint = (
+                    f"did you mean '{close[0]}'?" if close else f'it has {", ".join(self.topics)}'
+                )
+                msg = f"bag {self.path} has no topic '{topic}'; {hint}"
+                raise ConfigurationError(msg)
+
+    def messages(
+        self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
+    ) -> Iterator[Message]:
+        """Yield messages in the order of their log time, few at a time in memory.
+
+        Args:
+            topics: Their names; None means all.
+            start: [ns] first log time; None means the beginning.
+            stop: [ns] log time before which to stop; None means never.
+
+        Raises:
+            ConfigurationError: A topic is not in the bag.
+            DamagedBagError: What comes next is damaged.
+
+        """
+        wanted = None if topics is None else frozenset(topics)
+        self.require(wanted or ())
+        begin, end = max(start or 0, 0), FOREVER if stop is None else max(stop, 0)
+        return self._messages(wanted, begin, end)
+
+    def close(self) -> None:
+        """Let go of the files; messages already read stay valid."""
+        for file in self.files:
+            file.close()
+        if self._unpacked:
+            self._unpacked.cleanup()
+
+    def __enter__(self) -> BagReader:
+        """Return the reader."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the bag."""
+        self.close()
+
+    def _open(self, path: Path, *, validate: bool) -> File:
+        if self._unpacked:
+            path = unpack_file(path, Path(self._unpacked.name))
+        return SqliteFile(path) if path.suffix == '.db3' else McapFile(path, validate=validate)
+
+    def _messages(self, topics: frozenset[str] | None, start: int, stop: int) -> Iterator[Message]:
+        for group in _overlapping(self.files):
+            streams = [
+                file.messages(
+                    [n for n, c in file.channels.items() if topics is None or c.topic in topics],
+                    start,
+                    stop,
+                )
+                for file in group
+            ]
+            stream = streams[0] if len(streams) == 1 else merge(*streams, key=lambda m: m.stamp)
+            yield from map(self._unpack, stream) if self.messages_compressed else stream
+
+    def _unpack(self, message: Message) -> Message:
+        try:
+            return message._replace(data=decompress_message(message.data, LARGEST))
+        except ValueError as error:
+            finding = f'a message on {message.connection.topic} at {message.stamp} ns ({error})'
+            raise DamagedBagError(self.path, 0, finding) from None
+
+
+def _overlapping(files: list[File]) -> Iterator[list[File]]:
+    """Yield groups of files that overlap in time, in the order of time."""
+    filled = [(span, file) for file in files if (span := file.span)]
+    group: list[File] = []
+    latest = -1
+    for (start, end), file in sorted(filled, key=lambda item: item[0][0]):
+        if group and start > latest:
+            yield group
+            group = []
+        group.append(file)
+        latest = max(latest, end)
+    if group:
+        yield group

@@ -1,0 +1,96 @@
+"""One sqlite3 file of rosbag2, read by rosbags."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosbags.rosbag2 import Reader, ReaderError
+
+from agv_motion.bag import definitions
+from agv_motion.bag.connection import Connection, Message
+from agv_motion.bag.quality_of_service import OfferedQos, nanoseconds
+from agv_motion.errors import ConfigurationError, SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+    from pathlib import Path
+
+    from agv_motion.bag.damage import DamagedBagError
+
+
+class SqliteFile:
+    """Reads a ``.db3`` file; definitions that it lacks are taken from the installed types."""
+
+    def __init__(self, path: Path) -> None:
+        """Open the file.
+
+        Raises:
+            SourceError: It cannot be opened, or is no bag.
+
+        """
+        self.path = path
+        self.problems: list[DamagedBagError] = []
+        self.indexed = True
+        self._reader = Reader(path)
+        try:
+            self._reader.open()
+        except (ReaderError, OSError, ValueError, KeyError, TypeError) as error:
+            msg = f'{path} cannot be read as a bag in sqlite3: {error}'
+            raise SourceError(msg) from error
+        self._by_id = {c.id: c for c in self._reader.connections}
+        self.channels = {c.id: _connection(c) for c in self._reader.connections}
+
+    @property
+    def span(self) -> tuple[int, int] | None:
+        """Log time of the first and the last message [ns]; None without messages."""
+        if not self._reader.message_count:
+            return None
+        return self._reader.start_time, self._reader.end_time - 1
+
+    def counts(self) -> dict[int, int]:
+        """Return the number of messages of each channel."""
+        return {c.id: c.msgcount for c in self._reader.connections}
+
+    def messages(self, channels: Collection[int], start: int, stop: int) -> Iterator[Message]:
+        """Yield messages in the order of their log time [ns], from ``start`` to before ``stop``."""
+        wanted = [self._by_id[number] for number in channels]
+        limit = 2**63 - 1
+        if not wanted or start > limit:
+            return
+        rows = self._reader.messages(wanted, max(start, -limit), min(stop, limit))
+        try:
+            for connection, stamp, data in rows:
+                yield Message(self.channels[connection.id], stamp, data, stamp, 0)
+        except Exception as error:
+            if type(error).__module__.partition('.')[0] != 'apsw':
+                raise
+            msg = f'{self.path} is damaged: {error}; sqlite3 {self.path} .recover may help'
+            raise SourceError(msg) from error
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._reader.close()
+
+
+def _connection(found: Any) -> Connection:
+    text, encoding = (
+        found.msgdef.data,
+        'ros2msg' if found.msgdef.format.name == 'MSG' else 'ros2idl',
+    )
+    if not text:
+        encoding = ''
+        try:
+            text, encoding = definitions.installed(found.msgtype).text, 'ros2msg'
+        except ConfigurationError:
+            text = ''
+    profiles = tuple(_profile(profile) for profile in found.ext.offered_qos_profiles)
+    form = found.ext.serialization_format
+    return Connection(found.topic, found.msgtype, text, encoding, form, found.digest, profiles)
+
+
+def _profile(qos: Any) -> OfferedQos:
+    """Return a profile of rosbags in our words."""
+    times = (qos.deadline, qos.lifespan, qos.liveliness_lease_duration)
+    limits = [nanoseconds({'sec': t.sec, 'nsec': t.nsec}) for t in times]
+    words = (qos.reliability, qos.durability, qos.history, qos.liveliness)
+    return OfferedQos(qos.depth, *(word.name.lower() for word in words), *limits)
