@@ -181,6 +181,7 @@ class McapFile:
             inside = (stamps >= start) & (stamps < np.uint64(min(stop, 2**64 - 1)))
             stamps, offsets = stamps[inside], offsets[inside]
             order = np.lexsort((offsets, stamps))
+            self._described(chunk, self.heads(chunk, self.content(chunk), offsets))
             places = offsets[order].tolist()
             return Run(stamps[order].tolist(), lambda a, b: self._messages(chunk, places[a:b]))
 
@@ -189,15 +190,17 @@ class McapFile:
     def _messages(self, chunk: Chunk, offsets: list[int]) -> Iterator[Message]:
         unpacked = memoryview(self.content(chunk))
         unpack, size, prefix = records.MESSAGE_HEAD.unpack_from, records.MESSAGE_HEAD.size, 9
-        self.heads(chunk, unpacked, np.array(offsets, np.uint64))
         channels = self.channels
         for offset in offsets:
             _, length, channel, sequence, stamp, publish = unpack(unpacked, offset)
-            if channel not in channels:
-                finding = f'in this chunk, a message of channel {channel}, which is not described'
-                raise DamagedBagError(self.path, chunk.offset, finding)
             data = bytes(unpacked[offset + size : offset + prefix + length])
             yield Message(channels[channel], stamp, data, publish, sequence)
+
+    def _described(self, chunk: Chunk, found: NDArray[Any]) -> None:
+        for channel in np.unique(found['channel']):
+            if int(channel) not in self.channels:
+                finding = f'in this chunk, a message of channel {channel}, which is not described'
+                raise DamagedBagError(self.path, chunk.offset, finding)
 
     def _indexed(self, channel: int, at: int) -> Entries:
         size = records.PREFIX.size
