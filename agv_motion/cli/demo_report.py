@@ -8,7 +8,7 @@ import numpy as np
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.cli.figure import figure
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -111,22 +111,18 @@ def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
     """Draw zone and trail, probes, wheel speeds and residual into one picture.
 
     Raises:
-        ConfigurationError: matplotlib is not installed.
+        ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
+        SourceError: The file cannot be written.
 
     """
-    try:
-        import matplotlib as mpl
-    except ImportError as error:
-        msg = 'a figure needs matplotlib: pip install "agv_motion[plot]"'
-        raise ConfigurationError(msg) from error
-    mpl.use('Agg')
-    from matplotlib import pyplot as plt
+    mosaic = [['map', 'flow'], ['map', 'speed'], ['map', 'residual']]
+    with figure(path, mosaic, figsize=(13, 7), width_ratios=[1.25, 1]) as axes:
+        _draw_map(axes['map'], run, zone)
+        _draw_signals(axes, run, max_wheel_speed)
 
-    figure, axes = plt.subplot_mosaic(
-        [['map', 'flow'], ['map', 'speed'], ['map', 'residual']],
-        figsize=(13, 7), width_ratios=[1.25, 1], constrained_layout=True,
-    )  # fmt: skip
-    _draw_map(axes['map'], run, zone)
+
+def _draw_signals(axes: dict[str, Any], run: Run, max_wheel_speed: float) -> None:
+    """Draw sap flow, wheel speeds and residual over time."""
     minutes = run.flow[:, 0] / 60.0
     for i, name in enumerate(('s1: speed', 's2: rotation', 's3: places')):
         axes['flow'].plot(minutes, run.flow[:, 1 + i], label=name)
@@ -142,8 +138,6 @@ def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
     axes['speed'].legend(loc='upper right', fontsize='small', ncols=3)
     axes['residual'].plot(run.residual[:, 0] / 60.0, 1e3 * run.residual[:, 1], lw=0.8)
     axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def _draw_map(axes: Any, run: Run, zone: Zone) -> None:

@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from agv_motion.cli import demo, doctor, nodes, parameters, record, topic
+from agv_motion.cli import demo, doctor, nodes, parameters, record, route, topic
 from agv_motion.errors import AgvMotionError
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.command(
     context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
 )(nodes.run)
 app.command()(parameters.parameters)
+app.command()(route.route)
 app.command()(demo.demo)
 app.command()(record.record)
 app.command()(doctor.doctor)

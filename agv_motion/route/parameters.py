@@ -28,6 +28,11 @@ class Profiles(NamedTuple):
     v_d: Table
     """speed over the route still to go [m]"""
 
+    def top_speed(self) -> float:
+        """Return the highest speed [m/s] that the tables together ever allow."""
+        corner = max(*self.v_dn.y, *self.v_alpha.y)
+        return min(corner, max(self.v_dphi.y), max(self.v_d.y))
+
 
 @dataclass(frozen=True)
 class FollowParameters:
@@ -59,7 +64,7 @@ class FollowParameters:
         Spec(
             'speed over dn, from virtual point to next waypoint: slow at it', 'm, m/s', dynamic=True
         ),
-    ] = (0.0, 0.1, 0.6, 0.5)
+    ] = (0.0, 0.12, 0.1, 0.25, 0.4, 0.5)
     v_alpha: Annotated[
         tuple[float, ...],
         Spec(
@@ -67,7 +72,7 @@ class FollowParameters:
             'rad, m/s',
             dynamic=True,
         ),
-    ] = (1.5, 0.1, 3.0, 0.5)
+    ] = (1.5, 0.12, 3.0, 0.5)
     v_d: Annotated[
         tuple[float, ...],
         Spec('speed over d, the route still to go; 0 at 0', 'm, m/s', dynamic=True),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
     from agv_motion.route.route import Route
 
+NOTHING = 'nothing'
+"""What holds the speed down where the robot goes as fast as the tables ever allow."""
+
 
 class Prediction(NamedTuple):
     """The run of an ideal robot, one element a step."""
@@ -25,6 +29,8 @@ class Prediction(NamedTuple):
     """where it is at each"""
     steps: list[Step]
     """what the follower says there; the last one is the arrival, if it arrives"""
+    top_speed: float
+    """[m/s] that the tables allow at all"""
 
     @property
     def arrived(self) -> bool:
@@ -36,9 +42,16 @@ class Prediction(NamedTuple):
         """Until arrival, or until the time is over [s]."""
         return self.dt * (len(self.steps) - 1)
 
+    def held_by(self) -> list[str]:
+        """Return for each step what holds the speed down, :data:`NOTHING` at top speed."""
+        return [
+            NOTHING if hypot(*step.twist[:2]) >= self.top_speed else step.limits.limiter.value
+            for step in self.steps
+        ]
+
     def limiter_shares(self) -> dict[str, float]:
-        """Return for which share of the time each limiter is in force, the most frequent first."""
-        counts = Counter(step.limits.limiter.value for step in self.steps)
+        """Return for which share of the time what holds the speed down, most frequent first."""
+        counts = Counter(self.held_by())
         return {name: count / len(self.steps) for name, count in counts.most_common()}
 
     def cross_track(self, route: Route) -> tuple[float, float]:
@@ -74,4 +87,4 @@ def predict(
         twist = steps[-1].twist
         poses.append(integrate(poses[-1], twist, dt) if twist != REST else poses[-1])
         steps.append(follower.update(poses[-1], dt))
-    return Prediction(dt, poses, steps)
+    return Prediction(dt, poses, steps, parameters.profiles().top_speed())

@@ -65,7 +65,7 @@ def test_on_a_straight_route_it_is_never_beside_it():
     run = predict(straight, PARAMETERS, Pose(0.0, 0.0, 0.0))
     assert run.cross_track(straight) == (0.0, 0.0)
     assert 40.0 < run.duration < 44.0
-    assert next(iter(run.limiter_shares())) == 'v(d)'
+    assert next(iter(run.limiter_shares())) == 'nothing'
 
 
 def test_what_does_not_arrive_is_given_up():
