@@ -29,6 +29,8 @@ class Base(Protocol):
     """Of the fitted displacement, in the base frame, when each travel has a variance of 1 m2"""
     steers: bool
     """Whether the wheels have steering angles of their own"""
+    measuring: int
+    """How many wheels are looked at"""
     redundancy: int
     """How many measurements there are beyond the unknowns: what the residual can tell"""
 
@@ -69,6 +71,7 @@ class OmniBase:
         matrix = np.delete(wheels.matrix, list(self._missing), axis=0)
         spread = np.linalg.inv(matrix.T @ matrix)
         self.unit_covariance = Covariance(*map(float, spread[np.triu_indices(3)]))
+        self.measuring = len(matrix)
         self.redundancy = len(matrix) - 3
 
     def __len__(self) -> int:
@@ -97,6 +100,7 @@ class TurretBase:
         spread = sum((tx - x) ** 2 + (ty - y) ** 2 for tx, ty in turrets.positions)
         at_centroid = Covariance(1.0 / n, 0.0, 0.0, 1.0 / n, 0.0, 1.0 / spread)
         self.unit_covariance = shift(at_centroid, -x, -y)
+        self.measuring = n
         self.redundancy = 2 * n - 3
 
     def __len__(self) -> int:
@@ -128,6 +132,7 @@ class DifferentialBase:
         self._track = track
         # sideways, where nothing is measured, as uncertain as forward
         self.unit_covariance = Covariance(0.5, 0.0, 0.0, 0.5, 0.0, 2.0 / (track * track))
+        self.measuring = 2
         self.redundancy = 0
 
     def __len__(self) -> int:

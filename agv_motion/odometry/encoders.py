@@ -56,7 +56,7 @@ class Encoders:
         self._range = parameters.encoder_range
         self._max_rolled = parameters.max_wheel_speed * len(self._radii)
         self._stamp = -inf
-        self._angles: Sequence[float] = ()
+        self._angles: list[float] = []
         self.duration = 0.0
         """[s] between the last two readings"""
         self.travel: Sequence[float] = ()
@@ -99,6 +99,12 @@ class Encoders:
         self.duration, self.travel, self.rolled = duration, travel, rolled
         self._stamp, self._angles = stamp, list(angles)
         return step
+
+    def set_angles(self, angles: dict[int, float]) -> None:
+        """Take some wheels, by number, to have stood at ``angles`` [rad] in the last reading."""
+        for wheel, angle in angles.items():
+            if self._angles:
+                self._angles[wheel] = angle
 
     def _judge(self, stamp: float, duration: float, angles: Sequence[float], rolled: float) -> Step:
         """Return what a reading means that does not plausibly follow the last."""

@@ -50,16 +50,16 @@ class WheelOdometry:
             msg = f'{len(wheel_radii)} wheel_radii for {len(base)} wheels: give one each'
             raise ConfigurationError(msg)
         given = parameters or OdometryParameters()
-        self._base = base
         self._encoders = Encoders(wheel_radii, given)
         self._reckoning = DeadReckoning()
-        self._walk = given.wheel_noise**2 / len(base)
+        self._given = given
+        self.use(base)
         self._quantum = (given.encoder_resolution * max(wheel_radii)) ** 2 / 6.0  # two roundings
-        self._gap_noise = given.gap_noise / len(base)
         self._steering: Sequence[float] = ()
         self._displacement = 0.0, 0.0, 0.0
         self._unexplained = 0.0
         self._duration = 1.0
+        self._noise = CERTAIN, 1.0
 
     @property
     def stamp(self) -> float | None:
@@ -91,6 +91,22 @@ class WheelOdometry:
     def covariance(self) -> Covariance:
         """Return the covariance of the pose in the axes of `odom`."""
         return self._reckoning.covariance()
+
+    def twist_covariance(self) -> Covariance:
+        """Return the covariance of the twist, in the frame of the base."""
+        covariance, variance = self._noise
+        return scale(covariance, variance / (self._duration * self._duration))
+
+    def use(self, base: Base) -> None:
+        """Go on with ``base``: the same wheels, but others of them left out."""
+        self._base = base
+        wheels = base.measuring
+        self._walk = self._given.wheel_noise**2 / wheels
+        self._gap_noise = self._given.gap_noise / wheels
+
+    def set_angles(self, angles: dict[int, float]) -> None:
+        """Take some wheels to have stood at ``angles`` [rad] in the last reading."""
+        self._encoders.set_angles(angles)
 
     def set_odometry(self, pose: Pose, covariance: Covariance = CERTAIN) -> None:
         """Go on from ``pose``, known as well as ``covariance`` says; the encoders count on.
@@ -144,12 +160,13 @@ class WheelOdometry:
             covariance, variance = scale(covariance, variance), 1.0
             displacement, covariance = turn.correct(displacement, covariance, duration)
         self._reckoning.carry(displacement, covariance, variance)
+        self._noise = covariance, variance
         self._displacement, self._unexplained, self._duration = displacement, residual, duration
         return step
 
     def _with_slip(self, variance: float, residual: float) -> float:
         """Return the variance [m2] of a travel: the usual one, or what the residual shows."""
-        shown = len(self._base) * residual * residual / self._base.redundancy
+        shown = self._base.measuring * residual * residual / self._base.redundancy
         return shown if shown > SLIP * (variance + self._quantum) else variance
 
     def _halfway(self, steering: Sequence[float]) -> Sequence[float]:
@@ -168,4 +185,5 @@ class WheelOdometry:
         """Stay where the base was last seen, as uncertain as the way it may have gone on."""
         way = self._encoders.rolled / len(self._base)
         self._reckoning.carry((0.0, 0.0, 0.0), self._base.unit_covariance, way * way)
+        self._noise = self._base.unit_covariance, way * way
         self._displacement, self._unexplained = (0.0, 0.0, 0.0), 0.0

@@ -88,6 +88,11 @@ class YawRate:
         self._rate = 0.0
         self._angle = self._duration = 0.0
 
+    @property
+    def rate(self) -> float:
+        """Last measured yaw rate, less the bias [rad/s]."""
+        return self._rate - self.bias
+
     def add(self, stamp: float, rate: float, *, at_rest: bool = False) -> None:
         """Take a measurement.
 

@@ -68,7 +68,12 @@ def pose_of(message: Any) -> Pose:
 def fill_pose(message: Any, pose: Pose) -> None:
     """Write ``pose`` into a geometry_msgs/Pose."""
     message.position.x, message.position.y = pose.x, pose.y
-    message.orientation.z, message.orientation.w = sin(pose.theta / 2.0), cos(pose.theta / 2.0)
+    fill_rotation(message.orientation, pose.theta)
+
+
+def fill_rotation(quaternion: Any, heading: float) -> None:
+    """Write a rotation by ``heading`` [rad] about z into a geometry_msgs/Quaternion."""
+    quaternion.z, quaternion.w = sin(heading / 2.0), cos(heading / 2.0)
 
 
 def points_of(path: Any) -> list[tuple[float, float]]:

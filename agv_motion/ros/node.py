@@ -17,7 +17,7 @@ from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallba
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.qos import QoSProfile
 
-from agv_motion.errors import AgvMotionError
+from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.ros.parameters import DeclaredParameters
 
 if TYPE_CHECKING:
@@ -146,17 +146,22 @@ class ManagedNode(LifecycleNode, Generic[P]):
         self._entities.append(lambda: self.destroy_timer(timer))
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
-        """Offer a Trigger or SetBool service: ``act`` returns what was done, or raises why not."""
+        """Offer a service whose answer is `success`, and `message` where its type has that.
+
+        ``act`` returns what was done, or raises why not.
+        """
 
         def guarded(request: Any, response: Any) -> Any:
-            if not self.active:
-                response.message = f'{self.get_name()} is not active: activate it first'
-                return response
             try:
-                response.message, response.success = act(request), True
+                if not self.active:
+                    msg = f'{self.get_name()} is not active: activate it first'
+                    raise ConfigurationError(msg)
+                message, response.success = act(request), True
             except AgvMotionError as error:
-                response.message = str(error)
-            self.get_logger().info(f'{name}: {response.message}')
+                message = f'refused: {error}'
+            if hasattr(response, 'message'):
+                response.message = message.removeprefix('refused: ')
+            self.get_logger().info(f'{name}: {message}')
             return response
 
         service = self.create_service(kind, name, guarded)

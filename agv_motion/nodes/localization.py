@@ -1,0 +1,246 @@
+"""Node `localization`: odometry, position fixes and a gyroscope in, the pose in the map out."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from nav_msgs.srv import SetMap
+from sensor_msgs.msg import Imu
+from std_srvs.srv import Trigger
+
+from agv_motion.errors import SignalError
+from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.nodes.localization_parameters import LocalizationParameters
+from agv_motion.odometry.assumed_noise import AssumedNoise
+from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
+from agv_motion.odometry.fix import Fix
+from agv_motion.odometry.fusion import CLOCK_SET_BACK, PoseFusion
+from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
+from agv_motion.odometry.gyro_odometry import GyroOdometry
+from agv_motion.odometry.history import Waypoint
+from agv_motion.odometry.yaw_rate import YawRate
+from agv_motion.ros.covariances import covariance_of, fill_covariance
+from agv_motion.ros.messages import fill_pose, pose_of, seconds_of, twist_of
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.run import run
+from agv_motion.ros.transforms import Transforms
+
+if TYPE_CHECKING:
+    from agv_motion.planar import Pose
+
+AT_REST = 1e-5
+"""[m/s, rad/s] Below this the robot stands still, and what the gyroscope tells is its bias."""
+ANY_HEADING = 3.0
+"""[rad2] Variance of a heading that may be any: pi squared over 3, and what is near it."""
+SAID = Covariance(0.25, 0.0, 0.0, 0.25, 0.0, 0.0685)
+"""Of a pose that somebody sets without one: half a metre and 15 degrees, as RViz has it."""
+LEVELS = {
+    State.WAITING: WARN,
+    State.SEARCHING: WARN,
+    State.TRACKING: OK,
+    State.DOUBTFUL: WARN,
+    State.ODOMETRY_ONLY: WARN,
+}
+
+
+class Localization(ManagedNode[LocalizationParameters]):
+    """`odom`, `fix` and `imu` -> `pose`, `odom/filtered` and /tf.
+
+    The pose is told with each odometry message as long as it is known well enough; else the topic
+    is silent, so that whoever steers by it stops, and the diagnostics say why.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('localization', LocalizationParameters, **kwargs)
+
+    def open(self) -> None:
+        """Know nothing, and open the topics."""
+        given = self.parameters
+        self._fusion = PoseFusion(given.fusion)
+        self._noise = AssumedNoise(given.odom_noise)
+        self._gyro: YawRate | None = None
+        self._gyro_odometry: GyroOdometry | None = None
+        self._at_rest = False
+        self._last_stamp = -inf
+        self._last_pose: Pose | None = None
+        self._state = State.WAITING
+        self._watchdog = Watchdog(given.odom_timeout, given.odom_timeout)
+        self._pose = self.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
+        self._filtered = self.publisher(Odometry, 'odom/filtered', SENSOR)
+        self._transforms = None if given.tf == 'none' else Transforms(self)
+        self.listen(Odometry, 'odom', self._on_odometry, SENSOR)
+        self.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
+        self.listen(Imu, 'imu', self._on_imu, SENSOR)
+        self.listen(PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, COMMAND)
+        self.serve(SetMap, '~/set_pose', lambda request: self._set_pose(request.initial_pose))
+        self.serve(Trigger, '~/restart', self._on_restart)
+
+    def diagnose(self) -> Diagnosis:
+        """Tell the health of the estimate and the fate of the fixes."""
+        health = self._fusion.health()
+        values = {
+            'state': health.state.name.lower(),
+            'position deviation [m]': f'{health.position_deviation:.3f}',
+            'heading deviation [rad]': f'{health.heading_deviation:.4f}',
+            'since the last good fix [s]': f'{health.since_fix:.1f}',
+            'gyroscope': 'none' if self._gyro is None else f'bias {self._gyro.bias:.5f} rad/s',
+        }
+        values |= {f'fixes {v.name.lower()}': str(n) for v, n in health.verdicts.items() if n}
+        if self._watchdog.judge(self.seconds()) is Silence.LOST:
+            return Diagnosis(ERROR, 'odom is lost', values)
+        if health.state is not State.WAITING and not self._trusted(health):
+            return Diagnosis(ERROR, f'pose not told: {health.state.value}', values)
+        return Diagnosis(LEVELS[health.state], health.state.value, values)
+
+    # What comes in
+
+    def _on_odometry(self, message: Odometry) -> None:
+        given = self.parameters
+        self._require_frame(message.header.frame_id, given.odom_frame)
+        self._require_frame(message.child_frame_id, given.base_frame)
+        pose, twist = pose_of(message.pose.pose), twist_of(message.twist.twist)
+        stamp = seconds_of(message.header.stamp)
+        if -CLOCK_SET_BACK < stamp - self._last_stamp <= 0.0:
+            return
+        waypoint = Waypoint(stamp, pose, self._noise_of(pose, message.pose.covariance))
+        self._watchdog.feed()
+        self._at_rest = all(abs(component) < AT_REST for component in twist)
+        waypoint = self._turned(waypoint)
+        self._fusion.add_odometry(*waypoint)
+        self._publish_filtered(message, waypoint)
+        self._tell(message.header.stamp, waypoint.pose)
+        self._last_stamp, self._last_pose = stamp, pose
+
+    def _noise_of(self, pose: Pose, numbers: Any) -> Covariance:
+        """Return the covariance of the error about the origin of `odom` up to now."""
+        if self.parameters.odom_covariance == 'assumed':
+            return self._noise.follow(pose)
+        covariance = covariance_of(numbers)
+        if min(covariance.xx, covariance.yy, covariance.tt) < 0.0 or (
+            covariance == CERTAIN and self._last_pose is not None and pose != self._last_pose
+        ):
+            msg = (
+                f'covariance {tuple(covariance)} (xx, xy, xt, yy, yt, tt) of odometry is none: '
+                "mend it, or set odom_covariance to 'assumed'"
+            )
+            raise SignalError(msg)
+        return shift(covariance, -pose.x, -pose.y)
+
+    def _turned(self, waypoint: Waypoint) -> Waypoint:
+        """Return ``waypoint`` with its turns as the gyroscope measured them, if there is one."""
+        if self._gyro is None:
+            return waypoint
+        if self._gyro_odometry is None:
+            self._gyro_odometry = GyroOdometry(waypoint)
+        else:
+            self._gyro_odometry.follow(
+                waypoint, self._gyro.take(), self.parameters.fusion.max_speed
+            )
+        own = self._gyro_odometry
+        return Waypoint(waypoint.stamp, own.pose, own.origin_covariance)
+
+    def _on_fix(self, message: PoseWithCovarianceStamped) -> None:
+        """Take a fix; one whose yaw has no variance, or one of any heading, has no heading."""
+        self._require_frame(message.header.frame_id, self.parameters.map_frame)
+        covariance = covariance_of(message.pose.covariance)
+        pose = pose_of(message.pose.pose)
+        unknown = covariance.xt == covariance.yt == covariance.tt == 0.0
+        heading = None if unknown or covariance.tt > ANY_HEADING else pose.theta
+        fix = Fix(seconds_of(message.header.stamp), pose.x, pose.y, covariance, heading)
+        verdict = self._fusion.add_fix(fix)
+        if verdict in {Verdict.KIDNAPPED, Verdict.EARLY}:
+            self.get_logger().warning(
+                f'fix ({fix.x:.2f} m, {fix.y:.2f} m) {verdict.value}', throttle_duration_sec=1.0
+            )
+
+    def _on_imu(self, message: Imu) -> None:
+        given = self.parameters
+        if message.header.frame_id != given.base_frame:
+            self._require_frame(message.header.frame_id, given.imu_frame)
+        stamp, rate = seconds_of(message.header.stamp), message.angular_velocity.z
+        if self._gyro is None:
+            self._gyro = YawRate(given.gyro)
+        self._gyro.add(stamp, rate, at_rest=self._at_rest)
+
+    def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
+        self.get_logger().info(self._set_pose(message))
+
+    def _set_pose(self, message: PoseWithCovarianceStamped) -> str:
+        """Believe that the robot is where somebody says."""
+        self._require_frame(message.header.frame_id, self.parameters.map_frame)
+        pose, covariance = pose_of(message.pose.pose), covariance_of(message.pose.covariance)
+        told = ''
+        if covariance == CERTAIN:
+            covariance, told = SAID, ', taken to be within about 0.5 m and 15 degrees'
+        self._fusion.set_pose(pose, covariance)
+        return f'the robot is at ({pose.x:.2f} m, {pose.y:.2f} m, {pose.theta:.2f} rad){told}'
+
+    def _on_restart(self, _: Any) -> str:
+        self._fusion.restart()
+        return 'all forgotten: searching anew'
+
+    def _require_frame(self, frame: str, expected: str) -> None:
+        if frame not in {'', expected}:
+            msg = (
+                f"frame '{frame}': expected '{expected}'; transform it first, or set the parameter"
+            )
+            raise SignalError(msg)
+
+    # What goes out
+
+    def _publish_filtered(self, odometry: Odometry, waypoint: Waypoint) -> None:
+        """Publish odometry as the gyroscope corrected it, still in `odom`."""
+        message = Odometry(header=odometry.header, twist=odometry.twist)
+        message.header.frame_id = self.parameters.odom_frame
+        message.child_frame_id = self.parameters.base_frame
+        fill_pose(message.pose.pose, waypoint.pose)
+        fill_covariance(
+            message.pose.covariance, shift(waypoint.noise, waypoint.pose.x, waypoint.pose.y)
+        )
+        if self._gyro is not None:
+            message.twist.twist.angular.z = self._gyro.rate
+        self._filtered.publish(message)
+
+    def _tell(self, stamp: Any, in_odom: Pose) -> None:
+        """Publish pose and transforms while the robot is known to be somewhere."""
+        given, estimate, health = self.parameters, self._fusion.estimate(), self._fusion.health()
+        if health.state is not self._state:
+            self.get_logger().info(health.state.value)
+            self._state = health.state
+        transforms = []
+        if given.tf == 'both':
+            transforms.append((given.odom_frame, given.base_frame, in_odom))
+        if estimate is not None and self._trusted(health):
+            self._publish_pose(stamp, estimate)
+            transforms.append((given.map_frame, given.odom_frame, estimate.map_to_odom))
+        if self._transforms is not None and transforms:
+            self._transforms.publish(stamp, *transforms)
+
+    def _publish_pose(self, stamp: Any, estimate: Estimate) -> None:
+        message = PoseWithCovarianceStamped()
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.map_frame
+        fill_pose(message.pose.pose, estimate.pose)
+        fill_covariance(message.pose.covariance, estimate.covariance)
+        self._pose.publish(message)
+
+    def _trusted(self, health: Health) -> bool:
+        given = self.parameters
+        return (
+            health.state is not State.SEARCHING
+            and health.position_deviation <= given.max_position_deviation
+            and health.heading_deviation <= given.max_heading_deviation
+        )
+
+
+def main() -> None:
+    """Run the node."""
+    run(Localization)
+
+
+if __name__ == '__main__':
+    main()

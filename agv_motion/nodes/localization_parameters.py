@@ -1,0 +1,50 @@
+"""What the node `localization` has to be told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from agv_motion.odometry.assumed_noise import AssumedNoiseParameters
+from agv_motion.odometry.fusion_parameters import FusionParameters
+from agv_motion.odometry.yaw_rate import YawRateParameters
+from agv_motion.parameters import Spec, check
+
+
+@dataclass(frozen=True)
+class LocalizationParameters:
+    """Frames, how far odometry is trusted, and when the pose is no longer told."""
+
+    odom_covariance: Annotated[
+        str,
+        Spec(
+            'whence the noise of odometry: assumed from the way (odom_noise), or the one in the '
+            'message, which must grow with the way as that of omni_kinematics does',
+            choices=('assumed', 'message'),
+        ),
+    ] = 'assumed'
+    max_position_deviation: Annotated[
+        float, Spec('standard deviation beyond which the pose is not told', 'm', (0.01, 100.0))
+    ] = 1.0
+    max_heading_deviation: Annotated[
+        float, Spec('standard deviation beyond which the pose is not told', 'rad', (0.01, 3.2))
+    ] = 0.5
+    odom_timeout: Annotated[
+        float, Spec('silence of odom after which it is lost', 's', (0.01, 3600.0))
+    ] = 1.0
+    tf: Annotated[
+        str,
+        Spec('transforms to publish where tf2_msgs is installed: map to odom, odom to base_link',
+             choices=('both', 'map', 'none')),
+    ] = 'both'  # fmt: skip
+    map_frame: Annotated[str, Spec('frame of fixes and pose')] = 'map'
+    odom_frame: Annotated[str, Spec('frame of the odometry')] = 'odom'
+    base_frame: Annotated[str, Spec('frame of the robot')] = 'base_link'
+    imu_frame: Annotated[str, Spec('frame of the gyroscope, its z axis upright')] = 'imu_link'
+    odom_noise: AssumedNoiseParameters = field(default_factory=AssumedNoiseParameters)
+    gyro: YawRateParameters = field(default_factory=YawRateParameters)
+    fusion: FusionParameters = field(default_factory=FusionParameters)
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)

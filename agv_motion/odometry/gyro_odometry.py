@@ -1,0 +1,67 @@
+"""Odometry of another, corrected by a gyroscope on the way: its steps, with a better turn in each.
+
+The wheels are no longer at hand, only the poses they led to; a step is what lies between two of
+them, and its noise what was added meanwhile (see `dead_reckoning`), seen from the base.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from agv_motion.odometry.covariance import Covariance, rotate, shift
+from agv_motion.odometry.dead_reckoning import DeadReckoning
+from agv_motion.planar import Pose, compose, inverse, logarithm
+
+if TYPE_CHECKING:
+    from agv_motion.odometry.history import Waypoint
+    from agv_motion.odometry.yaw_rate import Turn
+
+
+class GyroOdometry:
+    """Follows waypoints of odometry; starts where the first of them is."""
+
+    def __init__(self, first: Waypoint) -> None:
+        """Start at ``first``, with its uncertainty."""
+        self._last = first
+        self._reckoning = DeadReckoning()
+        self._restart(first)
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the base in `odom`."""
+        return self._reckoning.pose
+
+    @property
+    def origin_covariance(self) -> Covariance:
+        """Covariance of the error about the origin of `odom`."""
+        return self._reckoning.origin_covariance
+
+    def follow(self, waypoint: Waypoint, turn: Turn | None, max_speed: float) -> None:
+        """Take the step from the last waypoint to a newer one.
+
+        Odometry that jumps, in place or in noise, began anew: so does this.
+
+        Args:
+            waypoint: Where odometry sees the base now.
+            turn: What the gyroscope says of the turn since; None when it was silent.
+            max_speed: Of the base [m/s]; beyond, odometry has jumped.
+
+        """
+        last, self._last = self._last, waypoint
+        duration = waypoint.stamp - last.stamp
+        step = logarithm(compose(inverse(last.pose), waypoint.pose))
+        added = Covariance(*[b - a for a, b in zip(last.noise, waypoint.noise, strict=True)])
+        far = step.vx * step.vx + step.vy * step.vy > (max_speed * duration) ** 2
+        if duration <= 0.0 or far or added.tt < 0.0:
+            self._restart(waypoint)
+            return
+        x, y = 0.5 * (last.pose.x + waypoint.pose.x), 0.5 * (last.pose.y + waypoint.pose.y)
+        covariance = rotate(shift(added, x, y), -(last.pose.theta + 0.5 * step.wz))
+        displacement: tuple[float, float, float] = step
+        if turn is not None and covariance.tt > 0.0:
+            displacement, covariance = turn.correct(displacement, covariance, duration)
+        self._reckoning.carry(displacement, covariance)
+
+    def _restart(self, waypoint: Waypoint) -> None:
+        x, y = waypoint.pose.x, waypoint.pose.y
+        self._reckoning.set(waypoint.pose, shift(waypoint.noise, x, y))
