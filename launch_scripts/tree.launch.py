@@ -1,4 +1,4 @@
-"""Launch the tree: probes, motion, wheels, and a simulated platform unless a real one is there.
+"""Launch the tree: probes, motion, wheels, localization, and a simulated platform if asked for.
 
 ros2 launch agv_motion tree.launch.py namespace:=oak source:=serial simulate:=false
 """
@@ -43,8 +43,9 @@ def generate_launch_description() -> LaunchDescription:
         [
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('granier_probe', sim_time, {'source': value['source']}),
-            node('motion_generator', sim_time, remappings=[('pose', 'fix')]),
+            node('motion_generator', sim_time),
             node('wheel_kinematics', sim_time),
+            node('localization', sim_time),
             node(
                 'simulator',
                 {'time_factor': time_factor},

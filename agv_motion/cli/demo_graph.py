@@ -1,4 +1,4 @@
-"""The graph of the demo: the four nodes of the tree and a recorder, on one executor."""
+"""The graph of the demo: the five nodes of the tree and a recorder, on one executor."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from agv_motion.cli.demo_report import Outcome, draw, read_run, summary
 from agv_motion.cli.demo_view import DemoView
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
@@ -52,6 +53,7 @@ TOPICS = [
     Topic('odom', Odometry),
     Topic('ground_truth', Odometry),
     Topic('fix', PoseWithCovarianceStamped),
+    Topic('pose', PoseWithCovarianceStamped),
     Topic('sunlight', Illuminance),
     Topic('/diagnostics', DiagnosticArray),
 ]
@@ -83,16 +85,16 @@ class DemoGraph:
             x, y = self._zone.parts[0].representative_point().coords[0]
             goal['goal'] = [x, y]
         probe = GranierProbe(**_configured('granier_probe', common | probes))
-        motion = MotionGenerator(
-            **_configured('motion_generator', common | goal),
-            cli_args=['--ros-args', '-r', 'pose:=fix'],
-        )
+        motion = MotionGenerator(**_configured('motion_generator', common | goal))
         wheels = WheelKinematics(**_configured('wheel_kinematics', common))
+        localization = Localization(**_configured('localization', common))
         start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))
         self._simulator = Simulator(
             **_configured('simulator', {'time_factor': time_factor, 'seed': seed, **start_at})
         )
-        self._nodes: list[ManagedNode[Any]] = [probe, motion, wheels, self._simulator]
+        self._nodes: list[ManagedNode[Any]] = [
+            probe, motion, wheels, localization, self._simulator,
+        ]  # fmt: skip
         self._wheels = wheels.parameters
         for node in self._nodes:
             start(node)

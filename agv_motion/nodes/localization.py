@@ -32,6 +32,8 @@ from agv_motion.ros.transforms import Transforms
 if TYPE_CHECKING:
     from agv_motion.planar import Pose
 
+ON_TIME = 0.99
+"""[-] Share of the period after which the next pose is due: stamps are rounded."""
 AT_REST = 1e-5
 """[m/s, rad/s] Below this the robot stands still, and what the gyroscope tells is its bias."""
 ANY_HEADING = 3.0
@@ -66,7 +68,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._gyro: YawRate | None = None
         self._gyro_odometry: GyroOdometry | None = None
         self._at_rest = False
-        self._last_stamp = -inf
+        self._last_stamp = self._told_at = -inf
         self._last_pose: Pose | None = None
         self._state = State.WAITING
         self._watchdog = Watchdog(given.odom_timeout, given.odom_timeout)
@@ -112,8 +114,11 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._at_rest = all(abs(component) < AT_REST for component in twist)
         waypoint = self._turned(waypoint)
         self._fusion.add_odometry(*waypoint)
-        self._publish_filtered(message, waypoint)
-        self._tell(message.header.stamp, waypoint.pose)
+        if self._filtered.get_subscription_count():
+            self._publish_filtered(message, waypoint)
+        if abs(stamp - self._told_at) * (given.rate or inf) >= ON_TIME:
+            self._told_at = stamp
+            self._tell(message.header.stamp, waypoint.pose)
         self._last_stamp, self._last_pose = stamp, pose
 
     def _noise_of(self, pose: Pose, numbers: Any) -> Covariance:

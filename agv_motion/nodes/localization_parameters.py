@@ -29,6 +29,10 @@ class LocalizationParameters:
     max_heading_deviation: Annotated[
         float, Spec('standard deviation beyond which the pose is not told', 'rad', (0.01, 3.2))
     ] = 0.5
+    rate: Annotated[
+        float,
+        Spec('pose and /tf at most so often; 0: with each odometry message', 'Hz', (0.0, 1000.0)),
+    ] = 0.0
     odom_timeout: Annotated[
         float, Spec('silence of odom after which it is lost', 's', (0.01, 3600.0))
     ] = 1.0

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import random
 from math import atan2, cos, hypot, inf, nan, sin
 
+import numpy as np
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
@@ -33,7 +33,7 @@ class Robot:
 
     def __init__(self, tester, covariance=ROUND, **parameters):
         self.tester, self.covariance = tester, covariance
-        self.time, self.gone, self.random = 100.0, 0.0, random.Random(1)
+        self.time, self.gone, self.random = 100.0, 0.0, np.random.default_rng(1)
         self.lifted = Pose(0.0, 0.0, 0.0)
         self.poses = tester.listen(PoseWithCovarianceStamped, 'pose', SENSOR)
         self.filtered = tester.listen(Odometry, 'odom/filtered', SENSOR)
@@ -60,7 +60,7 @@ class Robot:
     def sight(self, time, pose, covariance=None, noise=0.15):
         message = PoseWithCovarianceStamped()
         message.header.stamp, message.header.frame_id = stamp_of(round(time * 1e9)), 'map'
-        x, y = self.random.gauss(pose.x, noise), self.random.gauss(pose.y, noise)
+        x, y = self.random.normal(pose.x, noise), self.random.normal(pose.y, noise)
         fill_pose(message.pose.pose, Pose(x, y, pose.theta))
         fill_covariance(message.pose.covariance, covariance or self.covariance)
         return message
