@@ -76,6 +76,11 @@ class OfferedQos(NamedTuple):
         }
 
 
+def kept(profiles: Iterable[OfferedQos]) -> int:
+    """Return how many messages the latched publishers of a topic keep for late listeners."""
+    return sum(max(one.depth, 1) for one in profiles if one.durability == 'transient_local')
+
+
 def as_yaml(profiles: Iterable[OfferedQos]) -> str:
     """Return the profiles of a topic's publishers as a channel keeps them."""
     entries = [profile.entries() for profile in profiles]

@@ -17,6 +17,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.continuity import Continuity
+from agv_motion.bag.quality_of_service import kept
 from agv_motion.bag.storage import MEGABYTE
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 PERIOD = 0.02
 """[s] at which the thread looks for messages"""
 
-LATCHED = 'transient_local'
 MOST_LATCHED = 100
 """messages of a latched topic that are repeated in a new file"""
 
@@ -108,10 +108,9 @@ class Recording:
             ConfigurationError: The type is not installed, or the topic is there already.
 
         """
-        depths = sum(max(one.depth, 1) for one in qos if one.durability == LATCHED)
         with self._lock:
             handle = self._writer.add_topic(name, message_type, qos=qos)
-            self._topics.append(_Topic(name, deque(maxlen=min(depths, MOST_LATCHED))))
+            self._topics.append(_Topic(name, deque(maxlen=min(kept(qos), MOST_LATCHED))))
         return handle
 
     def set_publishers(self, topic: int, count: int) -> None:

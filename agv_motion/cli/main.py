@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from agv_motion.cli import demo, doctor, nodes, parameters, record, route, topic
+from agv_motion.cli import demo, doctor, nodes, parameters, record, replay, route, topic
 from agv_motion.errors import AgvMotionError
 
 app = typer.Typer(
@@ -27,6 +27,7 @@ app.command()(parameters.parameters)
 app.command()(route.route)
 app.command()(demo.demo)
 app.command()(record.record)
+app.command()(replay.replay)
 app.command()(doctor.doctor)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from agv_motion.bag.quality_of_service import FOREVER, OfferedQos
+from agv_motion.bag.quality_of_service import FOREVER, OfferedQos, kept
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 DEEP = 1000
 """Messages that may wait for a recorder: a tenth of a second at 10,000 a second."""
+
+SHALLOW = 100
+"""Messages that a player keeps for listeners that are slow."""
 
 
 def message_class(name: str) -> Any:
@@ -54,6 +57,17 @@ def _offered(qos: QoSProfile) -> OfferedQos:
 
 def _nanoseconds(duration: Any) -> int:
     return min(int(duration.nanoseconds), FOREVER) or FOREVER
+
+
+def offering(recorded: Sequence[OfferedQos]) -> QoSProfile:
+    """Return the profile that satisfies whoever listened to any of the recorded publishers."""
+    reliable = not recorded or any(offer.reliability == 'reliable' for offer in recorded)
+    latched = kept(recorded)
+    return QoSProfile(
+        depth=latched or max(SHALLOW, *(offer.depth for offer in recorded), 0),
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
 
 
 def matching(offers: Sequence[OfferedQos], *, latched: bool) -> QoSProfile:

@@ -1,0 +1,205 @@
+"""Node `bag_player`: what a bag holds, to the graph, each message at its time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import yaml
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock as ClockMessage
+from std_srvs.srv import Trigger
+
+from agv_motion.bag.playback import Playback, PlaybackParameters
+from agv_motion.bag.quality_of_service import OfferedQos
+from agv_motion.bag.reader import BagReader
+from agv_motion.errors import ConfigurationError
+from agv_motion.parameters import Spec
+from agv_motion.ros.endpoints import message_class, offering
+from agv_motion.ros.messages import stamp_of
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.run import run
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.bag.connection import Message
+
+CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+@dataclass(frozen=True)
+class BagPlayerParameters(PlaybackParameters):
+    """Which bag to play, how, and what else to tell."""
+
+    bag: Annotated[str, Spec('folder or file of the bag')] = ''
+    clock: Annotated[
+        float, Spec('publish the time of the bag on /clock so often; 0: not', 'Hz', (0.0, 1000.0))
+    ] = 0.0
+    qos_overrides: Annotated[
+        str, Spec('YAML file with quality of service by topic, as ros2 bag play takes it')
+    ] = ''
+    wait_for_all_acked: Annotated[
+        float,
+        Spec(
+            'at the end wait so long for every listener to confirm; negative: not', 's', (-1, 1e6)
+        ),
+    ] = -1.0
+    seek_to: Annotated[
+        float, Spec('where ~/seek goes, from the start of the bag', 's', (0.0, 1e10), dynamic=True)
+    ] = 0.0
+    burst: Annotated[
+        int, Spec('how many messages ~/burst sends', '', (1, 1_000_000), dynamic=True)
+    ] = 100
+
+
+class BagPlayer(ManagedNode[BagPlayerParameters]):
+    """Plays while active; messages go out as they stand in the bag, without being decoded."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('bag_player', BagPlayerParameters, **kwargs)
+        self.playback: Playback | None = None
+
+    def open(self) -> None:
+        """Open the bag, a publisher for each topic, and the services."""
+        given = self.parameters
+        if not given.bag:
+            msg = 'which bag? give bag, the path of a folder or file'
+            raise ConfigurationError(msg)
+        self._bag = BagReader(given.bag)
+        self._entities.append(self._bag.close)
+        for problem in self._bag.problems:
+            self.get_logger().warning(str(problem))
+        self._publish = self._open_topics(Playback(self._bag, given, self._send).topics)
+        if given.clock:
+            self._clock_message = ClockMessage()
+            self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
+            steady = Clock(clock_type=ClockType.STEADY_TIME)
+            self.every(1.0 / given.clock, self._tell_time, steady)
+        for name, act in (
+            ('pause', self._pause),
+            ('resume', self._resume),
+            ('toggle_paused', self._toggle),
+            ('play_next', lambda _: self._play(1)),
+            ('burst', lambda _: self._play(self.parameters.burst)),
+            ('seek', self._seek),
+        ):
+            self.serve(Trigger, f'~/{name}', act)
+
+    def begin(self) -> None:
+        """Begin to play."""
+        self.playback = Playback(self._bag, self.parameters, self._send)
+        self.playback.start()
+
+    def halt(self) -> None:
+        """Stop, and tell how late the messages were."""
+        self.playing.stop()
+        if self.playing.failure:
+            self.get_logger().error(self.playing.failure)
+        limit = self.parameters.wait_for_all_acked
+        if limit >= 0.0 and not self._acknowledged(limit):
+            self.get_logger().warning(f'not every listener has confirmed within {limit:g} s')
+        self.get_logger().info(str(self.playing.lag))
+
+    def accept(self, parameters: BagPlayerParameters) -> None:
+        """Take over another rate."""
+        if self.playback is not None and parameters.rate != self.parameters.rate:
+            self.playback.set_rate(parameters.rate)
+
+    def diagnose(self) -> Diagnosis:
+        """Tell where it stands."""
+        playing = self.playing
+        values = {'position [s]': f'{(playing.position() - self._bag.start) * 1e-9:.3f}'}
+        if playing.failure:
+            return Diagnosis(ERROR, playing.failure, values)
+        if playing.finished.is_set():
+            return Diagnosis(OK, 'finished', values)
+        return Diagnosis(*((WARN, 'paused') if playing.paused else (OK, 'playing')), values)
+
+    @property
+    def playing(self) -> Playback:
+        """The playback; there is one from the first activation on."""
+        assert self.playback is not None
+        return self.playback
+
+    def _open_topics(self, topics: Sequence[str]) -> dict[str, Any]:
+        """Return the function that publishes each topic, by name."""
+        overrides = _overrides(self.parameters.qos_overrides)
+        publish = {}
+        for topic in topics:
+            connection = self._bag.topics[topic]
+            if topic == '/clock' and self.parameters.clock:
+                continue  # one clock is enough
+            try:
+                kind = message_class(connection.type)
+            except ConfigurationError as error:
+                self.get_logger().error(f'{topic} is not played: {error}')
+                continue
+            qos = offering([overrides[topic]] if topic in overrides else connection.qos)
+            publish[topic] = self.publisher(kind, topic, qos).publish
+        return publish
+
+    def _send(self, message: Message) -> None:
+        publish = self._publish.get(message.connection.topic)
+        if publish is not None:
+            publish(message.data)
+
+    def _tell_time(self) -> None:
+        self._clock_message.clock = stamp_of(self.playing.position())
+        self._clock_publisher.publish(self._clock_message)
+
+    def _acknowledged(self, limit: float) -> bool:
+        patience = Duration(seconds=limit)
+        return all(publisher.wait_for_all_acked(patience) for publisher in self.publishers)
+
+    def _pause(self, _: Any = None) -> str:
+        self.playing.pause()
+        return 'paused'
+
+    def _resume(self, _: Any = None) -> str:
+        self.playing.resume()
+        return 'playing'
+
+    def _toggle(self, _: Any) -> str:
+        return self._resume() if self.playing.paused else self._pause()
+
+    def _play(self, count: int) -> str:
+        self.playing.play_next(count)
+        return f'sending {count}'
+
+    def _seek(self, _: Any) -> str:
+        self.playing.seek(self._bag.start + int(self.parameters.seek_to * 1e9))
+        return f'at {self.parameters.seek_to:g} s'
+
+
+def _overrides(path: str) -> dict[str, OfferedQos]:
+    """Return the quality of service of each topic in a file.
+
+    Raises:
+        ConfigurationError: The file cannot be read, or a topic has no profile.
+
+    """
+    if not path:
+        return {}
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
+        return {topic: OfferedQos.from_entries(entries) for topic, entries in content.items()}
+    except (OSError, yaml.YAMLError, AttributeError, TypeError, KeyError, ValueError) as error:
+        msg = (
+            f"qos_overrides '{path}': {error}; expected topics, each with reliability, durability, "
+            'history, depth'
+        )
+        raise ConfigurationError(msg) from error
+
+
+def main() -> None:
+    """Run the node."""
+    run(BagPlayer)
+
+
+if __name__ == '__main__':
+    main()
