@@ -1,0 +1,208 @@
+"""Playing real bags in real time, into a list."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from rosbags.typesys import Stores, get_typestore
+
+from agv_motion.bag.playback import Playback, PlaybackParameters
+from agv_motion.bag.quality_of_service import OfferedQos
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.errors import ConfigurationError
+
+TEXT = 'std_msgs/msg/String'
+DEFINITION, _ = get_typestore(Stores.ROS2_JAZZY).generate_msgdef(TEXT, ros_version=2)
+SECOND = 1_000_000_000
+START = 1000 * SECOND
+STEP = SECOND // 20
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """Return a bag of a second: 20 messages on /a, and /map latched at 0 s and 0.5 s."""
+    latched = [OfferedQos(durability='transient_local', depth=1)]
+    with BagWriter(tmp_path / 'bag') as writer:
+        first = writer.add_topic('/a', TEXT, DEFINITION)
+        second = writer.add_topic('/map', TEXT, DEFINITION, qos=latched)
+        for i in range(20):
+            if i in {0, 10}:
+                writer.write(second, START + i * STEP, b'm%02d' % i)
+            writer.write(first, START + i * STEP, b'%02d' % i)
+    with BagReader(tmp_path / 'bag') as reader:
+        yield reader
+
+
+class Player:
+    """A playback, and what it sent with the time of sending."""
+
+    def __init__(self, bag, **given):
+        self.sent, self.times = [], []
+        self.playback = Playback(bag, PlaybackParameters(**given), self.take)
+        self.begun = time.perf_counter()
+        self.playback.start()
+
+    def take(self, message):
+        self.times.append(time.perf_counter() - self.begun)
+        self.sent.append(message.data.decode())
+
+    def to_the_end(self):
+        assert self.playback.finished.wait(10.0)
+        assert not self.playback.failure
+        return self.sent
+
+    def until(self, count):
+        end = time.monotonic() + 10.0
+        while len(self.sent) < count:
+            assert time.monotonic() < end, self.sent
+            time.sleep(0.002)
+
+
+@pytest.fixture
+def play(bag):
+    players = []
+
+    def start(**given):
+        players.append(Player(bag, **given))
+        return players[-1]
+
+    yield start
+    for player in players:
+        player.playback.stop()
+
+
+def numbers(sent):
+    return [int(text) for text in sent if not text.startswith('m')]
+
+
+def test_every_message_at_its_time(play):
+    player = play(topics=('/a',))
+    assert numbers(player.to_the_end()) == list(range(20))
+    delays = [t - i * 0.05 for i, t in enumerate(player.times)]
+    assert min(delays) >= 0.0
+    assert sorted(delays)[10] < 0.02
+    assert player.playback.lag.count == 20
+
+
+def test_twice_as_fast_takes_half_the_time(play):
+    player = play(rate=10.0)
+    player.to_the_end()
+    assert 0.095 <= player.times[-1] < 0.5
+
+
+@pytest.mark.parametrize(
+    ('given', 'expected'),
+    [
+        ({'start_offset': 0.5}, range(10, 20)),
+        ({'playback_duration': 0.2}, range(5)),
+        ({'start_offset': 0.3, 'playback_duration': 0.1}, range(6, 9)),
+        ({'playback_until': 1000.1}, range(3)),
+        ({'exclude_topics': ('/map',), 'start_offset': 0.9}, range(18, 20)),
+        ({'regex': '^/a', 'start_offset': 0.9}, range(18, 20)),
+        ({'exclude_regex': 'map', 'playback_duration': 0.0}, range(1)),
+    ],
+)
+def test_parts_of_a_bag(play, given, expected):
+    assert numbers(play(rate=100.0, **given).to_the_end()) == list(expected)
+
+
+def test_what_was_latched_before_the_start_comes_first(play):
+    assert play(rate=100.0, start_offset=0.9).to_the_end() == ['m10', '18', '19']
+    assert play(rate=100.0, start_offset=0.25).to_the_end()[:2] == ['m00', '05']
+
+
+def test_loop_begins_again_with_what_is_latched(play):
+    player = play(rate=100.0, start_offset=0.9, loop=True)
+    player.until(9)
+    player.playback.stop()
+    assert player.sent[:9] == ['m10', '18', '19'] * 3
+
+
+def test_paused_it_waits_and_goes_message_by_message(play):
+    player = play(start_paused=True, topics=('/a',))
+    time.sleep(0.1)
+    assert player.sent == []
+    player.playback.play_next()
+    player.until(1)
+    player.playback.play_next(3)
+    player.until(4)
+    time.sleep(0.05)
+    assert player.sent == ['00', '01', '02', '03']
+    player.playback.set_rate(100.0)
+    player.playback.resume()
+    assert numbers(player.to_the_end()) == list(range(20))
+    with pytest.raises(ConfigurationError, match='pause first'):
+        player.playback.play_next()
+
+
+def test_pause_holds_the_time_of_the_bag(play):
+    player = play()
+    player.until(3)
+    player.playback.pause()
+    position, count = player.playback.position(), len(player.sent)
+    time.sleep(0.2)
+    assert player.playback.position() == position
+    assert len(player.sent) <= count + 1
+
+
+def test_seek_forward_and_back(play):
+    player = play(start_paused=True)
+    player.playback.seek(START + 18 * STEP)
+    player.until(1)
+    assert player.sent == ['m10']
+    player.playback.play_next()
+    player.until(2)
+    player.playback.seek(START)
+    player.playback.set_rate(100.0)
+    player.playback.resume()
+    assert player.to_the_end()[:4] == ['m10', '18', 'm00', '00']
+    assert numbers(player.sent)[1:] == list(range(20))
+
+
+def test_a_time_outside_is_refused(play):
+    player = play(start_paused=True, start_offset=0.5)
+    with pytest.raises(ConfigurationError, match=r'0\.100 s: choose a time in \[0\.500, 0\.950\]'):
+        player.playback.seek(START + 2 * STEP)
+
+
+def test_the_rate_may_change_meanwhile_within_its_range(play):
+    player = play(rate=1.0)
+    player.until(2)
+    with pytest.raises(ConfigurationError, match='rate = 0'):
+        player.playback.set_rate(0.0)
+    player.playback.set_rate(50.0)
+    player.to_the_end()
+    assert player.times[-1] < 0.9
+
+
+def test_delay_waits_before_the_first(play):
+    player = play(delay=0.2, rate=100.0)
+    player.to_the_end()
+    assert player.times[0] >= 0.2
+
+
+@pytest.mark.parametrize(
+    ('given', 'message'),
+    [
+        ({'topics': ('/ab',)}, "did you mean '/a'"),
+        ({'exclude_regex': '.'}, 'no topic'),
+        ({'start_offset': 5.0}, 'nothing to play'),
+        ({'playback_until': 1.0}, 'nothing to play'),
+    ],
+)
+def test_nothing_to_play_is_refused(bag, given, message):
+    with pytest.raises(ConfigurationError, match=message):
+        Playback(bag, PlaybackParameters(**given), print)
+
+
+def test_a_send_that_fails_ends_it_with_the_reason(bag):
+    def fail(_):
+        msg = 'no network'
+        raise RuntimeError(msg)
+
+    playback = Playback(bag, PlaybackParameters(), fail)
+    playback.start()
+    assert playback.finished.wait(5.0)
+    assert 'no network' in playback.failure

@@ -1,0 +1,101 @@
+"""`agv replay` as a real process, in a real terminal."""
+
+from __future__ import annotations
+
+import os
+import pty
+import subprocess
+import sys
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Int32
+
+from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.keys import split
+
+SECOND = 1_000_000_000
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """Return a bag of 1 s with 100 numbers."""
+    with BagWriter(tmp_path / 'bag') as writer:
+        number = writer.add_topic('/number', 'std_msgs/msg/Int32')
+        for i in range(100):
+            stamp = 1000 * SECOND + i * SECOND // 100
+            writer.write(number, stamp, serialize_message(Int32(data=i)))
+    return tmp_path / 'bag'
+
+
+@pytest.fixture
+def inbox(graph):
+    """Return the numbers that come on /other."""
+    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    numbers = []
+    node.create_subscription(
+        Int32, '/other', lambda m: numbers.append(m.data), QoSProfile(depth=1000)
+    )
+    return numbers
+
+
+def test_to_the_end_remapped_with_a_report(agv, inbox, bag):
+    status, out, errors = agv(
+        'replay', bag, '-r', '2', '--delay', '1', '-m', '/number:=/other',
+        '--start-offset', '0.5', '--wait-for-all-acked', '1000',
+    )  # fmt: skip
+    assert status == 0, errors
+    assert inbox == list(range(50, 100))
+    assert '50 messages, late by' in out
+
+
+def test_errors_are_told_in_a_line(alone, bag):
+    status, _, errors = alone('replay', bag.parent / 'nowhere')
+    assert status == 1
+    assert 'nowhere' in errors
+    assert 'Traceback' not in errors
+    status, _, errors = alone('replay', bag, '--topics', '/numbr')
+    assert status == 1
+    assert "did you mean '/number'" in errors
+
+
+def test_keys_in_a_terminal(graph, inbox, bag):
+    main, other = pty.openpty()
+    command = ['replay', bag, '-p', '-m', '/number:=/other']
+    process = subprocess.Popen(  # noqa: S603 - our own command
+        [sys.executable, '-m', 'agv_motion.cli.main', *map(str, command)],
+        stdin=other, stdout=other, stderr=other,
+    )  # fmt: skip
+    node = graph.nodes[0]
+    graph.spin_until(lambda: node.count_publishers('/other'))
+    graph.spin_for(0.5)
+    os.write(main, b'\x1b[C\x1b[C\x1b[C')
+    graph.spin_until(lambda: inbox == [0, 1, 2])
+    os.write(main, b'\x1b[A' * 30 + b' ')
+    graph.spin_until(lambda: process.poll() is not None)
+    assert inbox == list(range(100))
+    shown = os.read(main, 100_000).decode()
+    assert 'paused' in shown
+    assert 'late by' in shown
+    assert process.returncode == 0
+
+
+def test_q_ends(graph, inbox, bag):
+    main, other = pty.openpty()
+    process = subprocess.Popen(  # noqa: S603 - our own command
+        [sys.executable, '-m', 'agv_motion.cli.main', 'replay', str(bag), '-l'],
+        stdin=other, stdout=other, stderr=other,
+    )  # fmt: skip
+    node = graph.nodes[0]
+    graph.spin_until(lambda: node.count_publishers('/number'))
+    os.write(main, b'q')
+    graph.spin_until(lambda: process.poll() is not None)
+    assert process.returncode == 0
+
+
+def test_what_a_terminal_sends_as_keys():
+    assert split('a\x1b[A \x1b[D\x1b') == ['a', 'up', ' ', 'left', '\x1b']
