@@ -14,6 +14,7 @@ rclpy = pytest.importorskip('rclpy')
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
 
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.keys import split
@@ -43,12 +44,19 @@ def inbox(graph):
     return numbers
 
 
-def test_to_the_end_remapped_with_a_report(agv, inbox, bag):
-    status, out, errors = agv(
-        'replay', bag, '-r', '2', '--delay', '1', '-m', '/number:=/other',
-        '--start-offset', '0.5', '--wait-for-all-acked', '1000',
+def test_to_the_end_remapped_with_a_report(agv, graph, inbox, bag):
+    process = agv.start(
+        'replay', bag, '-p', '-r', '2', '-m', '/number:=/other', '--start-offset', '0.5',
+        '--wait-for-all-acked', '1000',
     )  # fmt: skip
-    assert status == 0, errors
+    (node,) = graph.nodes
+    resume = node.create_client(Trigger, '/bag_player/resume')
+    graph.spin_until(lambda: node.count_publishers('/other') and resume.service_is_ready())
+    graph.spin_for(0.5)
+    resume.call_async(Trigger.Request())
+    graph.spin_until(lambda: process.poll() is not None)
+    out, errors = process.communicate()
+    assert process.returncode == 0, errors
     assert inbox == list(range(50, 100))
     assert '50 messages, late by' in out
 
