@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
-from math import atan2, hypot
+from math import atan2
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.motion.polar import STILL, PolarCommand
+from agv_motion.motion.polar import PolarCommand
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import wrap
 
@@ -25,21 +24,6 @@ class SapFlow(NamedTuple):
     """rotation; 0.5 does not turn"""
     s3: float
     """what the tree remembers of places"""
-
-
-class Activity(Enum):
-    """What the tree is at."""
-
-    RESTING = 'resting: the sap stands'
-    TURNING = 'turning on the spot at the goal'
-    WALKING = 'walking to the goal'
-
-
-class Motion(NamedTuple):
-    """What the tree does now."""
-
-    command: PolarCommand
-    activity: Activity
 
 
 @dataclass(frozen=True)
@@ -98,46 +82,17 @@ def polar_command(flow: SapFlow, pose: Pose, target: tuple[float, float]) -> Pol
     return PolarCommand(flow.s1, wrap(bearing - pose.theta), 2.0 * flow.s2 - 1.0)
 
 
-LEAVE = 2.0
-"""[-] A tree that has arrived sets out again only from so many times the distance of arrival, so
-that the noise of position fixes does not send it to and fro."""
-
-
-class MotionGenerator:
-    """Remembers whether the tree rests, and where it has arrived; all else comes in."""
+class Sleep:
+    """Whether the tree rests: remembers that, so that it neither falls asleep nor wakes twice."""
 
     def __init__(self, parameters: RestParameters) -> None:
-        """Start at rest."""
+        """Start asleep."""
         self.parameters = parameters
         self.resting = True
-        self._arrived_at: tuple[float, float] | None = None
 
-    def decide(
-        self,
-        flow: SapFlow,
-        pose: Pose,
-        goal: tuple[float, float],
-        waypoint: tuple[float, float] | None = None,
-    ) -> Motion:
-        """Return the command that ``flow`` asks for at ``pose``.
-
-        At the goal the tree turns on the spot.
-
-        Args:
-            flow: Normalised sap flow, checked.
-            pose: Of the platform in the map.
-            goal: Where to go, in the map [m].
-            waypoint: Where to head for on the way there [m]; None: straight to the goal.
-
-        """
-        given = self.parameters
+    def feel(self, flow: SapFlow) -> bool:
+        """Return whether the tree rests with ``flow``."""
         mean = (flow.s1 + flow.s2 + flow.s3) / 3.0
+        given = self.parameters
         self.resting = mean < (given.wake_above if self.resting else given.rest_below)
-        if self.resting:
-            return Motion(STILL, Activity.RESTING)
-        distance = hypot(goal[0] - pose.x, goal[1] - pose.y)
-        arrived = distance < given.arrival * (LEAVE if self._arrived_at == goal else 1.0)
-        self._arrived_at = goal if arrived else None
-        if arrived:
-            return Motion(PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0), Activity.TURNING)
-        return Motion(polar_command(flow, pose, waypoint or goal), Activity.WALKING)
+        return self.resting

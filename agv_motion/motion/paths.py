@@ -1,44 +1,61 @@
 """The shortest way inside a zone: straight, and round the corners of edges and holes.
 
-The shortest path in a polygon with holes turns only at its corners, so it is a shortest path in
-the visibility graph of those corners.
+The shortest path in a polygon with holes turns only at corners that point into the floor, so it is
+a shortest path in the visibility graph of those corners. The distances between all of them are
+worked out once; a way then costs what its two ends see.
 
-Source: T. Lozano-Perez, M. A. Wesley, "An algorithm for planning collision-free paths among
-polyhedral obstacles", Communications of the ACM 22(10), 1979.
+Sources: T. Lozano-Perez, M. A. Wesley, "An algorithm for planning collision-free paths among
+polyhedral obstacles", Communications of the ACM 22(10), 1979; R. W. Floyd, "Algorithm 97: Shortest
+path", Communications of the ACM 5(6), 1962.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
-import networkx as nx
 import numpy as np
 import shapely
+from shapely import LineString, Polygon
+from shapely.geometry.polygon import orient
 
 from agv_motion.errors import GeometryError
 
 if TYPE_CHECKING:
-    from shapely import Polygon
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from agv_motion.motion.zone import Zone
 
     Point = tuple[float, float]
+    Column = NDArray[np.float64]
 
 TOLERANCE = 1e-6
 """[m] by which a way may cut an edge, so that ways along an edge are not refused by rounding."""
-
-Start, Goal = -1, -2
-"""Names of the two ends in the graph, whose corners are numbered from 0."""
 
 
 class Paths:
     """Ways inside one zone; the visibility graph of its corners is made once."""
 
-    def __init__(self, zone: Zone) -> None:
-        """Make the graph of each walkable part."""
+    def __init__(self, zone: Zone, parts: Sequence[Polygon] | None = None) -> None:
+        """Make the graph of each walkable part.
+
+        Args:
+            zone: Where the tree walks.
+            parts: What of its walkable floor is free; None: all of it.
+
+        """
         self._zone = zone
-        self._parts = [_VisibilityGraph(part) for part in zone.parts]
+        self._free = list(zone.parts if parts is None else parts)
+        self._parts = [_VisibilityGraph(part) for part in self._free]
+
+    def without(self, taken: shapely.Geometry) -> Paths:
+        """Return the ways that keep off ``taken``, an area that others need."""
+        left = (shapely.get_parts(part.difference(taken)) for part in self._free)
+        polygons = [p for parts in left for p in parts if isinstance(p, Polygon) and p.area > 0.0]
+        return Paths(self._zone, polygons)
 
     def way(self, start: Point, goal: Point) -> list[Point]:
         """Return the corners of the shortest way, its ends included.
@@ -50,19 +67,23 @@ class Paths:
             goal: Where it should go, in the map [m].
 
         Raises:
-            GeometryError: The goal is not walkable, or lies in another part of the zone.
+            GeometryError: The goal is not walkable or not free, or no way leads there.
 
         """
         zone = self._zone
         if not zone.walkable(*goal):
             msg = f'goal ({goal[0]:.2f}, {goal[1]:.2f}) {zone.why_not(*goal)}: choose another'
             raise GeometryError(msg)
-        inside = start if zone.walkable(*start) else zone.nearest_walkable(*start)
-        graph = next((g for g in self._parts if g.covers(goal)), self._parts[0])
+        inside = start if zone.walkable(*start) else zone.way_back(*start)
+        graph = next((g for g in self._parts if g.covers(goal)), None)
+        if graph is None:
+            msg = f'goal ({goal[0]:.2f}, {goal[1]:.2f}) lies where another tree is or goes: wait'
+            raise GeometryError(msg)
         if not graph.covers(inside):
             msg = (
                 f'goal ({goal[0]:.2f}, {goal[1]:.2f}) lies in another part of the zone than '
-                f'({start[0]:.2f}, {start[1]:.2f}): the passage is narrower than the margins'
+                f'({start[0]:.2f}, {start[1]:.2f}): the passage is taken, or narrower than the '
+                'margins'
             )
             raise GeometryError(msg)
         way = graph.shortest(inside, goal)
@@ -70,48 +91,100 @@ class Paths:
 
 
 class _VisibilityGraph:
-    """Corners of one polygon, joined where a straight way between them stays inside."""
+    """Corners of one polygon that point into it, and the shortest way between any two."""
 
     def __init__(self, part: Polygon) -> None:
         self._floor = part.buffer(TOLERANCE)
         shapely.prepare(self._floor)
-        rings = [part.exterior, *part.interiors]
-        self._corners = np.vstack([np.array(ring.coords)[:-1] for ring in rings])
-        self._graph: nx.Graph[int] = nx.Graph()
-        self._graph.add_nodes_from(range(len(self._corners)))
-        for i, corner in enumerate(self._corners):
-            self._join(self._graph, i, corner, self._corners[:i])
+        self._corners = np.vstack([_reflex(ring) for ring in _rings(part)])
+        count = len(self._corners)
+        self._step: Column = np.full((count, count), np.inf)
+        for i in range(count):
+            self._step[i, :i] = self._step[:i, i] = self._seen(
+                (self._corners[i, 0], self._corners[i, 1]), self._corners[:i]
+            )
+        self._distance = self._step.copy()
+        np.fill_diagonal(self._distance, 0.0)
+        for k in range(count):
+            through = self._distance[:, k, None] + self._distance[None, k, :]
+            np.minimum(self._distance, through, out=self._distance)
 
     def covers(self, point: Point) -> bool:
         """Return whether ``point`` lies in this part."""
         return bool(shapely.intersects_xy(self._floor, *point))
 
     def shortest(self, start: Point, goal: Point) -> list[Point]:
-        """Return the shortest way between two points of this part."""
-        if bool(shapely.covers(self._floor, shapely.LineString([start, goal]))):
+        """Return the shortest way between two points of this part.
+
+        Raises:
+            GeometryError: There is none, which a connected part rules out but for rounding.
+
+        """
+        if shapely.covers(self._floor, LineString([start, goal])):
             return [start, goal]
-        graph = self._graph.copy()
-        for name, end in ((Start, start), (Goal, goal)):
-            self._join(graph, name, np.array(end), self._corners)
-        corners = nx.dijkstra_path(graph, Start, Goal)[1:-1]
+        to_start, to_goal = (self._seen(end, self._corners) for end in (start, goal))
+        total = to_start[:, None] + self._distance + to_goal[None, :]
+        if not total.size or not np.isfinite(total.min()):
+            msg = f'no way from ({start[0]:.2f}, {start[1]:.2f}) to ({goal[0]:.2f}, {goal[1]:.2f})'
+            raise GeometryError(msg)
+        here, last = (int(i) for i in np.unravel_index(total.argmin(), total.shape))
+        corners = [here]
+        while here != last and len(corners) <= len(self._corners):
+            here = int((self._step[here] + self._distance[:, last]).argmin())
+            corners.append(here)
         return [start, *((float(x), float(y)) for x, y in self._corners[corners]), goal]
 
-    def _join(
-        self,
-        graph: nx.Graph[int],
-        name: int,
-        point: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
-        corners: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
-    ) -> None:
-        """Join ``point`` to each of ``corners`` that it sees, by the distance."""
-        if not len(corners):
-            return
-        lines = shapely.linestrings(np.stack([np.broadcast_to(point, corners.shape), corners], 1))
-        for i in np.flatnonzero(shapely.covers(self._floor, lines)):
-            graph.add_edge(name, int(i), weight=hypot(*(corners[i] - point)))
+    def _seen(self, point: Point, corners: Column) -> Column:
+        """Return the distance of ``point`` to each of ``corners``; infinite where it is hidden."""
+        ends = np.stack([np.broadcast_to(np.asarray(point), corners.shape), corners], 1)
+        seen = shapely.covers(self._floor, shapely.linestrings(ends))
+        away = np.hypot(corners[:, 0] - point[0], corners[:, 1] - point[1])
+        distances: Column = np.where(seen, away, np.inf)
+        return distances
 
 
-def next_waypoint(way: list[Point], reach: float) -> Point:
-    """Return the first corner of ``way`` that is further from its start than ``reach`` [m]."""
-    x, y = way[0]
-    return next((p for p in way[1:-1] if hypot(p[0] - x, p[1] - y) > reach), way[-1])
+def _rings(part: Polygon) -> list[shapely.LinearRing]:
+    """Return the edges of ``part`` with the floor on their left."""
+    oriented = orient(part)
+    return [oriented.exterior, *oriented.interiors]
+
+
+def _reflex(ring: shapely.LinearRing) -> Column:
+    """Return the (n, 2) corners of ``ring`` that point into the floor on its left."""
+    corners = np.array(ring.coords)[:-1]
+    before, after = corners - np.roll(corners, 1, 0), np.roll(corners, -1, 0) - corners
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    into: Column = corners[turn < 0.0]
+    return into
+
+
+def length(way: Sequence[Point]) -> float:
+    """Return the length of a way [m]."""
+    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(way))
+
+
+class Waypoints:
+    """Which corner of a way to head for."""
+
+    def __init__(self, zone: Zone, reach: float, slack: float) -> None:
+        """Take the reach off the corners.
+
+        Args:
+            zone: Where the tree walks.
+            reach: A corner nearer than this counts as reached [m] ...
+            slack: ... unless skipping it would cut into the margin by more than this [m].
+
+        """
+        self._reach = reach
+        self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0), quad_segs=4)
+        shapely.prepare(self._floor)
+
+    def target(self, way: Sequence[Point]) -> Point:
+        """Return the first corner of ``way`` not yet reached from its start."""
+        x, y = way[0]
+        for corner, following in pairwise(way[1:]):
+            if hypot(corner[0] - x, corner[1] - y) > self._reach or not shapely.covers(
+                self._floor, LineString([(x, y), following])
+            ):
+                return corner
+        return way[-1]

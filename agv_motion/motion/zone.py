@@ -69,6 +69,13 @@ class Zone:
         if self.home is not None and not self.walkable(*self.home):
             msg = f'home {self.home}: {self.why_not(*self.home)}; move it onto free floor'
             raise GeometryError(msg)
+        if self.home is not None and self.part_of(*self.home) is not self.parts[0]:
+            msg = (
+                f'home {self.home} cannot be reached from the largest part of the zone '
+                f'({self.parts[0].area:.1f} m2): move it there, or take less than '
+                f'{margin:g} m of margin'
+            )
+            raise GeometryError(msg)
 
     def _check_holes(self, outer: Polygon) -> None:
         for i, hole in enumerate(self.holes):
@@ -81,7 +88,11 @@ class Zone:
                     raise GeometryError(msg)
 
     def _take_off(self, margin: float) -> list[Polygon]:
-        """Return the parts of the floor that remain within the margin, the largest first."""
+        """Return the parts of the floor that remain within the margin, the largest first.
+
+        Round corners that point inwards the edge is an arc of four straight pieces a quarter, so
+        there the margin is up to 2 % less.
+        """
         if self.floor.is_empty:
             msg = 'the holes cover the whole zone: nothing is left to walk on'
             raise GeometryError(msg)
@@ -111,9 +122,13 @@ class Zone:
         """Return whether the centre of the platform may be at (x, y)."""
         return bool(shapely.intersects_xy(self._walkable, x, y))
 
-    def may_turn(self, x: float, y: float) -> bool:
-        """Return whether the platform may turn at (x, y)."""
-        return not shapely.intersects_xy(self._delicate, x, y)
+    def may_turn(self, x: float, y: float, radius: float = 0.0) -> bool:
+        """Return whether a platform of ``radius`` [m] may turn: none of it on delicate floor."""
+        if not self.translation_only:
+            return True
+        if radius == 0.0:
+            return not shapely.intersects_xy(self._delicate, x, y)
+        return not shapely.dwithin(self._delicate, shapely.Point(x, y), radius)
 
     def part_of(self, x: float, y: float) -> Polygon | None:
         """Return the walkable part in which (x, y) lies, None where it lies in none."""
@@ -123,6 +138,26 @@ class Zone:
         """Return the walkable point nearest to (x, y) [m]."""
         point = shapely.shortest_line(self._walkable, shapely.Point(x, y)).coords[0]
         return point[0], point[1]
+
+    def way_back(self, x: float, y: float) -> tuple[float, float]:
+        """Return the walkable point to which the platform can go straight from (x, y) [m].
+
+        Raises:
+            GeometryError: A hole or an edge lies between.
+
+        """
+        here = shapely.Point(x, y)
+        lines = [shapely.shortest_line(here, part) for part in self.parts]
+        for line in sorted(lines, key=lambda line: float(line.length)):
+            if self.contains(x, y):
+                free = self.floor.buffer(1e-6).covers(line)
+            else:
+                free = not any(h.intersects(line) for h in self.holes if not h.intersects(here))
+            if free:
+                point = line.coords[-1]
+                return point[0], point[1]
+        msg = f'({x:.2f}, {y:.2f}) {self.why_not(x, y)}, and no straight way leads back'
+        raise GeometryError(msg)
 
     def why_not(self, x: float, y: float) -> str:
         """Return in words why the platform may not be at (x, y)."""

@@ -9,25 +9,26 @@ from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamp
 from geometry_msgs.msg import Twist as TwistMessage
 from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.errors import ConfigurationError, GeometryError
-from agv_motion.motion import generator
+from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import RestParameters, SapFlow, checked_sap_flow
-from agv_motion.motion.paths import Paths, next_waypoint
+from agv_motion.motion.goals import Goal, GoalParameters
+from agv_motion.motion.limits import Limited, LimitParameters, Limits
+from agv_motion.motion.memory import MemoryParameters
+from agv_motion.motion.mind import HomeParameters, Mind, MindParameters
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
+from agv_motion.motion.schedule import ScheduleParameters
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
+from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import REST, Pose, Twist
+from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
-
-WAYPOINT_REACHED = 0.3
-"""[m] A corner of the way counts as reached from here: twice the noise of a position fix."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,8 @@ class MotionGeneratorParameters:
         float, Spec('centre to turret: its rim has the same top speed', 'm', (0.01, 100.0))
     ] = PLATFORM_RADIUS
     goal: Annotated[
-        tuple[float, ...], Spec('where to go, x and y in the map; RViz may set another', 'm')
+        tuple[float, ...],
+        Spec('where to go with the strategy fixed, x and y in the map; RViz may set another', 'm'),
     ] = (10.0, 7.5)
     report_after: Annotated[
         float, Spec('silence of sap flow or pose to report', 's', (0.01, 3600))
@@ -56,7 +58,22 @@ class MotionGeneratorParameters:
     zone_file: Annotated[
         str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
     ] = ''
+    memory_file: Annotated[
+        str, Spec('where to keep the memory of places over a restart; empty: nowhere')
+    ] = ''
+    map_period: Annotated[
+        float, Spec('time between two publications of the memory maps', 's', (0.1, 3600.0))
+    ] = 5.0
+    last_visit_span: Annotated[
+        float,
+        Spec('time since a visit that memory/last_visit shows as 100', 'h', (0.01, 1e5)),
+    ] = 100.0
     rest: RestParameters = field(default_factory=RestParameters)
+    goals: GoalParameters = field(default_factory=GoalParameters)
+    memory: MemoryParameters = field(default_factory=MemoryParameters)
+    limits: LimitParameters = field(default_factory=LimitParameters)
+    schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
+    home: HomeParameters = field(default_factory=HomeParameters)
 
     def __post_init__(self) -> None:
         """Check every row, and that the goal is a point."""
@@ -65,9 +82,22 @@ class MotionGeneratorParameters:
             msg = f'goal = {list(self.goal)}: give x and y in metres'
             raise ConfigurationError(msg)
 
+    def mind(self) -> MindParameters:
+        """Return what the mind needs of these."""
+        return MindParameters(
+            goals=self.goals,
+            memory=self.memory,
+            rest=self.rest,
+            schedule=self.schedule,
+            home=self.home,
+            goal=(self.goal[0], self.goal[1]) if self.goals.strategy == 'fixed' else None,
+            linear_speed=self.linear_speed,
+            platform_radius=self.platform_radius,
+        )
+
 
 class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
-    """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal` and `state`.
+    """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal`, `way` and `state`.
 
     Without a fresh and valid sap flow, or without a pose, the command is an explicit zero.
     """
@@ -77,20 +107,20 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         super().__init__('motion_generator', MotionGeneratorParameters, **kwargs)
 
     def open(self) -> None:
-        """Build the generator and open the topics."""
+        """Build the mind, give it back its memory, and open the topics."""
         given = self.parameters
-        self._generator = generator.MotionGenerator(given.rest)
+        zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
+        self._mind = Mind(zone, given.mind())
+        self._limits = Limits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
-        self._zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
-        self._paths = None if self._zone is None else Paths(self._zone)
-        self._goal = self._reachable(given.goal[0], given.goal[1])
-        self._waypoint: tuple[float, float] | None = None
-        self._no_way = ''
         self._valid = True
         self._paused = False
         self._told = ''
-        self._told_way: list[tuple[float, float]] = []
+        self._told_goal: Goal | None = None
+        self._told_way: tuple[tuple[float, float], ...] = ()
+        self._limited_by: tuple[str, ...] = ()
+        self._commanded_at = self.seconds()
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         self._watchdogs = {
@@ -104,29 +134,46 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._way = self.publisher(Path, 'way', LATCHED)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
         self._state = self.publisher(String, 'state', LATCHED)
+        self._keeper = (
+            None
+            if self._mind.memory is None
+            else MemoryKeeper(
+                self, self._mind.memory, given.memory_file, given.map_frame, given.last_visit_span
+            )
+        )
         self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR)
         self.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
         self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
         self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
         self.serve(SetBool, '~/pause', self._on_pause)
+        self.serve(Trigger, '~/next_goal', self._on_next_goal)
+        self.serve(Trigger, '~/go_home', self._on_go_home)
         self.every(1.0 / given.rate, self._tick)
-        self.every(1.0, self._plan)
 
     def begin(self) -> None:
-        """Tell where the tree means to go."""
-        self._publish_goal()
+        """Tell where the tree means to go, and what it remembers."""
+        self._tell_goal(self._mind.goal)
+        if self._keeper is not None:
+            self._keeper.publish()
 
     def halt(self) -> None:
-        """Send the last word: no motion."""
-        self._publish(REST, 'stopped')
+        """Send the last word: no motion; then keep what is remembered."""
+        self._publish(self._limits.stop(), 'stopped')
+        if self._keeper is not None:
+            self._keeper.save_at_last()
 
     def accept(self, parameters: MotionGeneratorParameters) -> None:
         """Take over new thresholds."""
-        self._generator.parameters = parameters.rest
+        self._mind.rest = parameters.rest
 
     def diagnose(self) -> Diagnosis:
-        """Tell what the tree does, and what it misses."""
-        return Diagnosis(WARN if self._lost else OK, self._told, {})
+        """Tell what the tree does, why, and what it misses."""
+        values = {'limits in force': ', '.join(self._limited_by) or 'none'}
+        if self._mind.goal is not None:
+            values['goal'] = self._mind.goal.reason
+        if self._keeper is not None:
+            values |= self._keeper.report()
+        return Diagnosis(WARN if self._lost else OK, self._told, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector = message.vector
@@ -151,41 +198,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _on_goal(self, message: PoseStamped) -> None:
         self._require_map(message.header.frame_id)
         goal = pose_of(message.pose)
-        self._goal = self._reachable(goal.x, goal.y)
-        self._plan()
-        self.get_logger().info(f'new goal ({goal.x:.2f}, {goal.y:.2f})')
-        self._publish_goal()
-
-    def _plan(self) -> None:
-        """Find the way to the goal from where the tree is now."""
-        self._waypoint, self._no_way = None, ''
-        if self._paths is None or self._pose is None:
-            return
-        try:
-            way = self._paths.way((self._pose.x, self._pose.y), self._goal)
-        except GeometryError as error:
-            self._no_way = str(error)
-            return
-        self._waypoint = next_waypoint(way, WAYPOINT_REACHED)
-        if way[1:] != self._told_way[1:]:
-            self._told_way = way
-            self._publish_way(way)
-
-    def _publish_way(self, way: list[tuple[float, float]]) -> None:
-        message = Path()
-        message.header.frame_id = self.parameters.map_frame
-        self.stamp(message)
-        for x, y in way:
-            corner = PoseStamped(header=message.header)
-            fill_pose(corner.pose, Pose(x, y, 0.0))
-            message.poses.append(corner)
-        self._way.publish(message)
-
-    def _reachable(self, x: float, y: float) -> tuple[float, float]:
-        if self._zone is not None and not self._zone.walkable(x, y):
-            msg = f'goal ({x:.2f}, {y:.2f}) {self._zone.why_not(x, y)}: choose another'
-            raise ConfigurationError(msg)
-        return x, y
+        self._mind.set_goal(goal.x, goal.y, 'asked for')
+        self._tell_goal(self._mind.goal)
 
     def _require_map(self, frame: str) -> None:
         if frame not in {'', self.parameters.map_frame}:
@@ -197,6 +211,16 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._judge()
         self._move()
         return 'paused' if self._paused else 'going on'
+
+    def _on_next_goal(self, _: Any) -> str:
+        self._mind.next_goal()
+        self._move()
+        return self._mind.goal.reason if self._mind.goal else f'chosen later; {self._told}'
+
+    def _on_go_home(self, _: Any) -> str:
+        self._mind.go_home()
+        self._move()
+        return self._told
 
     def _tick(self) -> None:
         """Judge the silence of both inputs and keep the command alive."""
@@ -227,41 +251,64 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             return 'resting: a probe cannot be believed'
         if self._lost or self._sap_flow is None or self._pose is None:
             return f'resting: no {self._lost or "input"}'
-        if self._zone is not None and not self._zone.contains(self._pose.x, self._pose.y):
-            return f'stopped: the tree {self._zone.why_not(self._pose.x, self._pose.y)}'
-        if self._paths is not None and self._waypoint is None:
-            self._plan()
-        return f'stopped: {self._no_way}' if self._no_way else ''
+        return ''
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
         if self._obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(REST, self._obstacle)
+            self._publish(self._limits.stop(), self._obstacle)
             return
-        command, activity = self._generator.decide(
-            self._sap_flow, self._pose, self._goal, self._waypoint
-        )
-        given = self.parameters
-        twist = to_twist(command, given.linear_speed, given.platform_radius)
-        self._publish(twist, activity.value)
+        now = self.seconds()
+        thought = self._mind.think(now, self._pose, self._sap_flow)
+        # after a hiccup the command goes on from where it was, as if no time had passed
+        dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
+        self._commanded_at = now
+        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
+        if thought.goal is not self._told_goal:
+            self._tell_goal(thought.goal)
+        if thought.way[1:] != self._told_way[1:]:
+            self._tell_way(thought.way)
 
-    def _publish(self, twist: Twist, state: str) -> None:
-        if self.parameters.stamped:
+    def _publish(self, limited: Limited, state: str) -> None:
+        self._limited_by = limited.by
+        given = self.parameters
+        twist = to_twist(limited.command, given.linear_speed, given.platform_radius)
+        if given.stamped:
             self.stamp(self._message)
             fill_twist(self._message.twist, twist)
         else:
             fill_twist(self._message, twist)
         self._command.publish(self._message)
+        if 'translation only' in limited.by:
+            state = f'{state}; not turning: delicate floor'
         if state != self._told:
             self._told = state
             self._state.publish(String(data=state))
 
-    def _publish_goal(self) -> None:
+    def _tell_goal(self, goal: Goal | None) -> None:
+        """Publish and log a new goal with its reason, and why others were not taken."""
+        self._told_goal = goal
+        for refusal in self._mind.refusals:
+            self.get_logger().info(f'no goal: {refusal}')
+        if goal is None:
+            return
+        self.get_logger().info(f'goal: {goal.reason}')
         message = PoseStamped()
         self.stamp(message)
         message.header.frame_id = self.parameters.map_frame
-        fill_pose(message.pose, Pose(*self._goal, 0.0))
+        fill_pose(message.pose, Pose(*goal.place, 0.0))
         self._goal_publisher.publish(message)
+
+    def _tell_way(self, way: tuple[tuple[float, float], ...]) -> None:
+        self._told_way = way
+        message = Path()
+        message.header.frame_id = self.parameters.map_frame
+        self.stamp(message)
+        for x, y in way:
+            corner = PoseStamped(header=message.header)
+            fill_pose(corner.pose, Pose(x, y, 0.0))
+            message.poses.append(corner)
+        self._way.publish(message)
 
 
 def main() -> None:

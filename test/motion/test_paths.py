@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations
 from math import hypot, sqrt
+from random import Random
 
+import networkx
 import pytest
 import shapely
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.paths import TOLERANCE, Paths, next_waypoint
+from agv_motion.motion.paths import TOLERANCE, Paths, Waypoints, length
 from agv_motion.motion.zone import Zone
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]
@@ -19,11 +21,8 @@ COLUMN = [[4, 4], [6, 4], [6, 6], [4, 6]]
 WALL = [[4.9, 0], [5.1, 0], [5.1, 8], [4.9, 8]]
 AROUND = Zone(SQUARE, [COLUMN], margin=0.5)
 ALONG = Zone(SQUARE, [WALL], margin=0.5)
+PATHS = Paths(ALONG)
 ANYWHERE = st.tuples(st.floats(0.0, 10.0), st.floats(0.0, 10.0))
-
-
-def length(way):
-    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(way))
 
 
 def test_straight_where_nothing_stands():
@@ -43,11 +42,12 @@ def test_round_the_end_of_a_wall():
     assert max(y for _, y in way) == pytest.approx(8.5, abs=0.01)
 
 
-@given(ANYWHERE, ANYWHERE, st.sampled_from([AROUND, ALONG]))
-def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, goal, zone):
+@given(ANYWHERE, ANYWHERE, st.sampled_from([(AROUND, Paths(AROUND)), (ALONG, PATHS)]))
+def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, goal, place):
+    zone, paths = place
     assume(zone.walkable(*goal))
     assume(zone.walkable(*start))
-    way = Paths(zone).way(start, goal)
+    way = paths.way(start, goal)
     assert way[0] == start
     assert way[-1] == goal
     floor = shapely.union_all(zone.parts).buffer(3 * TOLERANCE)
@@ -59,7 +59,7 @@ def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, go
 def test_the_way_back_is_as_long(start, goal):
     assume(ALONG.walkable(*goal))
     assume(ALONG.walkable(*start))
-    paths = Paths(ALONG)
+    paths = PATHS
     assert length(paths.way(start, goal)) == pytest.approx(length(paths.way(goal, start)))
 
 
@@ -83,7 +83,95 @@ def test_a_goal_behind_too_narrow_a_passage_is_refused():
         Paths(parted).way((1.0, 1.0), (9.0, 1.0))
 
 
-def test_the_next_waypoint_is_the_first_corner_not_yet_reached():
-    way = [(0.0, 0.0), (0.1, 0.0), (2.0, 1.0), (5.0, 5.0)]
-    assert next_waypoint(way, 0.3) == (2.0, 1.0)
-    assert next_waypoint([(0.0, 0.0), (0.1, 0.0)], 0.3) == (0.1, 0.0)
+def test_a_corner_is_skipped_when_near_and_the_next_can_be_seen():
+    waypoints = Waypoints(AROUND, reach=0.3, slack=0.1)
+    assert waypoints.target([(1.0, 1.0), (1.1, 1.0), (2.0, 1.0), (5.0, 2.0)]) == (2.0, 1.0)
+    assert waypoints.target([(1.0, 1.0), (1.1, 1.0)]) == (1.1, 1.0)
+
+
+def test_a_near_corner_is_not_cut_by_more_than_the_slack():
+    """0.29 m before the end of the wall, the line to the other side would pass through it."""
+    way = [(4.3, 8.21), (4.4, 8.5), (5.6, 8.5), (8.0, 1.0)]
+    assert Waypoints(ALONG, reach=0.31, slack=0.1).target(way) == (4.4, 8.5)
+
+
+ROOMS = Zone(
+    [[0, 0], [12, 0], [12, 8], [0, 8]],
+    [
+        [[5.9, 0.0], [6.1, 0.0], [6.1, 3.3], [5.9, 3.3]],
+        [[5.9, 5.86], [6.1, 5.86], [6.1, 8.0], [5.9, 8.0]],
+    ],
+    margin=1.18,
+)
+"""Two rooms and a door of platform width plus 20 cm."""
+
+
+def test_through_a_narrow_door():
+    way = Paths(ROOMS).way((2.0, 2.0), (10.0, 2.0))
+    floor = ROOMS.floor.buffer(-1.18 * 0.98)  # arcs round corners are polygons: 2 % nearer
+    assert floor.covers(shapely.LineString(way))
+    assert any(4.4 < y < 4.8 and 4.7 < x < 7.3 for x, y in way)
+
+
+def test_ways_keep_off_what_others_take():
+    paths = Paths(AROUND)
+    assert len(paths.way((1.0, 2.0), (9.0, 2.0))) == 2
+    taken = shapely.box(4.0, -1.0, 5.0, 5.0)
+    way = shapely.LineString(paths.without(taken).way((1.0, 2.0), (9.0, 2.0)))
+    assert not way.crosses(taken)
+    assert way.length > 12.0
+
+
+def test_a_goal_or_a_passage_that_others_take_is_told():
+    taken = Paths(ROOMS).without(shapely.box(5.0, 0.0, 7.0, 8.0))
+    with pytest.raises(GeometryError, match='the passage is taken'):
+        taken.way((2.0, 2.0), (10.0, 2.0))
+    with pytest.raises(GeometryError, match='where another tree is'):
+        taken.way((2.0, 2.0), (6.0, 4.5))
+
+
+def crowded(seed):
+    """Return a zone of 20 m with four skew holes, from a seed."""
+    draw = Random(seed)  # noqa: S311 - a zone, no secret
+    holes = []
+    for k in range(4):
+        x, y = 6.0 + 8.0 * (k % 2), 6.0 + 8.0 * (k // 2)
+        corners = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+        holes.append(
+            [[x + draw.uniform(0.5, 2) * a, y + draw.uniform(0.5, 2) * b] for a, b in corners]
+        )
+    return Zone([[0, 0], [20, 0], [20, 20], [0, 20]], holes)
+
+
+@pytest.mark.parametrize('seed', range(2))
+def test_no_shorter_way_than_by_an_independent_search(seed):
+    """Dijkstra over all corners, the pointless ones included, by networkx."""
+    zone = crowded(seed)
+    floor = zone.parts[0].buffer(TOLERANCE)
+    corners = [p for ring in (floor.exterior, *floor.interiors) for p in ring.coords[:-1]]
+    draw = Random(seed)  # noqa: S311 - a zone, no secret
+    ends = [
+        e
+        for e in ((draw.uniform(0, 20), draw.uniform(0, 20)) for _ in range(40))
+        if zone.walkable(*e)
+    ][:6]
+    graph = networkx.Graph()
+    shapely.prepare(floor)
+    for a, b in combinations([*corners, *ends], 2):
+        line = shapely.LineString([a, b])
+        if floor.covers(line):
+            graph.add_edge(a, b, weight=line.length)
+    paths = Paths(zone)
+    for a, b in combinations(ends, 2):
+        expected = networkx.dijkstra_path_length(graph, a, b)
+        assert length(paths.way(a, b)) == pytest.approx(expected, abs=1e-4)
+
+
+def test_way_back_never_leads_through_a_wall():
+    """A dead end narrower than the margins behind a thin wall: the nearest floor is no way."""
+    zone = Zone(
+        [[0, 0], [10, 0], [10, 6], [4, 6], [4, 5], [0, 5]],
+        [[[4.5, 0.5], [4.6, 0.5], [4.6, 5.6], [4.5, 5.6]]],
+    )
+    x, y = zone.way_back(4.2, 4.9)
+    assert zone.floor.buffer(1e-6).covers(shapely.LineString([(4.2, 4.9), (x, y)]))

@@ -1,0 +1,424 @@
+"""The tree's mind: time, pose and sap flow in; what to do, where to, by which way, and why, out.
+
+All that a tree decides is decided here, in the node and in simulations alike. In this order: the
+hours of the day, the edge of the zone, the way home, sleep, the goal, and the way to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import hypot, inf
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.motion.generator import RestParameters, SapFlow, Sleep, polar_command
+from agv_motion.motion.goals import Goal, GoalCycle, GoalParameters, Wish
+from agv_motion.motion.limits import Place
+from agv_motion.motion.memory import Memory, MemoryParameters
+from agv_motion.motion.paths import Paths, Waypoints, length
+from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, PolarCommand
+from agv_motion.motion.schedule import Hour, Phase, Schedule, ScheduleParameters
+from agv_motion.parameters import Spec, check
+
+if TYPE_CHECKING:
+    import shapely
+
+    from agv_motion.motion.paths import Point
+    from agv_motion.motion.zone import Zone
+    from agv_motion.planar import Pose
+
+PLAN_PERIOD = 1.0
+"""[s] between two looks for the way of a tree that is off it."""
+
+PLAN_LIFETIME = 60.0
+"""[s] after which the way is looked for anew in any case."""
+
+OFF_COURSE = 0.05
+"""[m] from the line to the next corner: the way from here is another."""
+
+LEAVE = 2.0
+"""[-] A tree that has arrived for good sets out again only from so many times the distance of
+arrival, so that the noise of position fixes does not send it to and fro."""
+
+REST_OF_WAY = 1.25
+"""[-] How much longer the way home may turn out."""
+
+
+@dataclass(frozen=True)
+class HomeParameters:
+    """How the tree goes home, and back into its zone."""
+
+    speed: Annotated[
+        float, Spec('v on the way home at least, however little sap flows', '1', (0.01, 1.0))
+    ] = 0.5
+    arrival: Annotated[float, Spec('distance at which it is home', 'm', (0.02, 100.0))] = 0.3
+    spare: Annotated[
+        float, Spec('how long before closing it wants to be there', 'min', (0.0, 600.0))
+    ] = 10.0
+    outside: Annotated[
+        str,
+        Spec(
+            'outside the zone: refuse to move, or return slowly to the nearest walkable point',
+            choices=('refuse', 'return'),
+        ),
+    ] = 'refuse'
+    return_speed: Annotated[float, Spec('v on that return at most', '1', (0.01, 1.0))] = 0.25
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+@dataclass(frozen=True)
+class MindParameters:
+    """All that shapes the decisions of one tree."""
+
+    goals: GoalParameters = field(default_factory=GoalParameters)
+    memory: MemoryParameters = field(default_factory=MemoryParameters)
+    rest: RestParameters = field(default_factory=RestParameters)
+    schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
+    home: HomeParameters = field(default_factory=HomeParameters)
+    goal: Point | None = None
+    """where to go first, and with the strategy `fixed` for good [m]"""
+    linear_speed: float = LINEAR_SPEED
+    """[m/s] at v = 1"""
+    platform_radius: float = PLATFORM_RADIUS
+    """[m] of what must not turn over delicate floor"""
+    corner_reach: float = 0.3
+    """[m] a corner of the way counts as reached from here: twice the noise of a position fix"""
+    corner_slack: float = 0.1
+    """[m] by which skipping it may cut into the margin"""
+
+
+class Surroundings(NamedTuple):
+    """What others allow: the seam to other trees."""
+
+    avoid: shapely.Geometry | None = None
+    """area to keep off, taken off the walkable floor; the same object while it is the same"""
+    wait: str = ''
+    """why the tree must not go on now, in words; empty if it may"""
+
+
+ALONE = Surroundings()
+
+
+class Thought(NamedTuple):
+    """What the tree makes of a moment."""
+
+    wanted: PolarCommand
+    """before the limits"""
+    activity: str
+    """what it does, in words"""
+    place: Place
+    """what the place allows, for the limits"""
+    goal: Goal | None
+    way: tuple[Point, ...]
+    """corners from here to the goal; empty if it goes nowhere"""
+
+
+class Mind:
+    """Memory, goal and way of one tree."""
+
+    def __init__(self, zone: Zone | None, parameters: MindParameters | None = None) -> None:
+        """Wake up without memory.
+
+        Args:
+            zone: Where it may walk; None: anywhere, towards a given goal.
+            parameters: How it decides.
+
+        Raises:
+            ConfigurationError: The strategy needs a zone and there is none, or the first goal is
+                not walkable.
+
+        """
+        self.parameters = given = parameters or MindParameters()
+        self.zone = zone
+        self._fixed = given.goals.strategy == 'fixed'
+        if zone is None and not self._fixed:
+            msg = f"strategy '{given.goals.strategy}' remembers places of a zone: give zone_file"
+            raise ConfigurationError(msg)
+        self.memory = None if zone is None else Memory(zone, given.memory)
+        self._ways = None if zone is None else _Ways(zone, given)
+        self._cycle = GoalCycle(given.goals)
+        self._sleep = Sleep(given.rest)
+        self._schedule = Schedule(given.schedule)
+        self._homing = ''
+        self._retry_at = -inf
+        self._arrived = False
+        self.refusals: list[str] = []
+        """Why goals before the present one were not taken, in words."""
+        self.goal: Goal | None = None
+        if given.goal is not None:
+            self.set_goal(*given.goal, 'the first one')
+
+    @property
+    def rest(self) -> RestParameters:
+        """When the tree rests, and when it has arrived; may be set."""
+        return self._sleep.parameters
+
+    @rest.setter
+    def rest(self, value: RestParameters) -> None:
+        self._sleep.parameters = value
+
+    def set_goal(self, x: float, y: float, why: str) -> None:
+        """Take (x, y) [m] as the goal.
+
+        Raises:
+            ConfigurationError: The platform cannot stand there; the old goal stays.
+
+        """
+        if self.zone is not None and not self.zone.walkable(x, y):
+            msg = f'goal ({x:.2f}, {y:.2f}) {self.zone.why_not(x, y)}: choose another'
+            raise ConfigurationError(msg)
+        self._take(Goal(x, y, f'({x:.1f}, {y:.1f}), {why}'))
+        self._homing = ''
+
+    def next_goal(self) -> None:
+        """Drop the present goal; the next thought chooses another.
+
+        Raises:
+            ConfigurationError: With the strategy `fixed` there is no other.
+
+        """
+        if self._fixed:
+            msg = "strategy 'fixed' has one goal: send another to goal_pose, or choose 'memory'"
+            raise ConfigurationError(msg)
+        self._take(None)
+        self._homing, self._retry_at = '', -inf
+
+    def go_home(self, why: str = 'asked to') -> None:
+        """Go home and stay there.
+
+        Raises:
+            ConfigurationError: The zone has no home.
+
+        """
+        if self.zone is None or self.zone.home is None:
+            msg = 'there is no home: give one in the zone file, such as home: [2.0, 2.0]'
+            raise ConfigurationError(msg)
+        self._homing = why
+
+    def think(
+        self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings = ALONE
+    ) -> Thought:
+        """Return what to do now.
+
+        Args:
+            time: Now, seconds since 1970.
+            pose: Of the platform in the map.
+            flow: Normalised sap flow, checked and believed.
+            surroundings: What others allow.
+
+        """
+        asleep = self._sleep.feel(flow)
+        hour = self._schedule.hour(time)
+        if hour.phase is not Phase.OPEN:
+            self._homing = ''
+            until = self._schedule.clock(hour.until)
+            return self._stay(f'resting: {hour.phase.value} until {until}')
+        here = pose.x, pose.y
+        if self.zone is not None and not self.zone.contains(*here):
+            return self._outside(pose, flow, asleep=asleep)
+        if self.memory is not None and not asleep:
+            self.memory.feel(time, *here, flow.s3)
+        if self._goes_home(time, here, hour):
+            return self._walk_home(time, pose, flow, surroundings)
+        if asleep:
+            return self._stay('resting: the sap stands')
+        return self._seek(time, pose, flow, surroundings)
+
+    def _outside(self, pose: Pose, flow: SapFlow, *, asleep: bool) -> Thought:
+        """Refuse to move outside the zone, or return to it."""
+        assert self.zone is not None
+        why = f'the tree {self.zone.why_not(pose.x, pose.y)}'
+        home = self.parameters.home
+        if home.outside == 'refuse':
+            return self._stay(f'stopped: {why}; drive it back, or set home.outside to return')
+        if asleep:
+            return self._stay(f'resting: the sap stands, and {why}')
+        try:
+            back = self.zone.way_back(pose.x, pose.y)
+        except GeometryError as error:
+            return self._stay(f'stopped: {error}')
+        wanted = polar_command(flow, pose, back)._replace(omega=0.0)
+        place = Place(may_turn=True, top_speed=home.return_speed)
+        way = ((pose.x, pose.y), back)
+        return Thought(wanted, f'returning slowly to the zone: {why}', place, self.goal, way)
+
+    def _goes_home(self, time: float, here: Point, hour: Hour) -> bool:
+        """Return whether it is time to go home, or the tree was sent."""
+        if self._homing:
+            return True
+        if hour.until == inf or self.zone is None or self.zone.home is None:
+            return False
+        home = self.parameters.home
+        assert self._ways is not None
+        distance = self._ways.distance_home(time, here)
+        needed = REST_OF_WAY * distance / (home.speed * self.parameters.linear_speed)
+        if hour.until - time <= needed + 60.0 * home.spare:
+            self._homing = f'closing at {self._schedule.clock(hour.until)}'
+        return bool(self._homing)
+
+    def _walk_home(
+        self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings
+    ) -> Thought:
+        """Go home, even if little sap flows; stay there."""
+        assert self.zone is not None
+        assert self.zone.home is not None
+        home, given = self.zone.home, self.parameters.home
+        reason = f'home at ({home[0]:.1f}, {home[1]:.1f}), {self._homing}'
+        goal = Goal(*home, reason)
+        if self._near(pose, home, given.arrival):
+            return self._stay(f'at home: {self._homing}', goal)
+        flow = flow._replace(s1=max(flow.s1, given.speed), s2=0.5)
+        return self._walk(time, pose, flow, goal, surroundings)
+
+    def _near(self, pose: Pose, place: Point, arrival: float) -> bool:
+        """Return whether the tree is at ``place``; once it is, noise does not carry it away."""
+        distance = hypot(place[0] - pose.x, place[1] - pose.y)
+        self._arrived = distance < arrival * (LEAVE if self._arrived else 1.0)
+        return self._arrived
+
+    def _seek(self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings) -> Thought:
+        """Go to the goal; when there, to the next one."""
+        if self._fixed:
+            return self._seek_fixed(time, pose, flow, surroundings)
+        if self.goal is not None and self._is_reached(pose, self.goal):
+            self._take(None)
+        if self.goal is None and time >= self._retry_at:
+            self._choose(time, pose, surroundings)
+        if self.goal is None:
+            return self._turn(pose, flow, 'no goal can be reached: turning on the spot')
+        thought = self._walk(time, pose, flow, self.goal, surroundings)
+        if not thought.way:  # the way has been taken by others: look for another goal
+            self._take(None)
+        return thought
+
+    def _seek_fixed(
+        self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings
+    ) -> Thought:
+        """Go to the one goal and turn there."""
+        if self.goal is None:
+            return self._stay('resting: no goal; send one to goal_pose')
+        if self._near(pose, self.goal.place, self.rest.arrival):
+            return self._turn(pose, flow, 'turning on the spot at the goal')
+        return self._walk(time, pose, flow, self.goal, surroundings)
+
+    def _is_reached(self, pose: Pose, goal: Goal) -> bool:
+        return hypot(goal.x - pose.x, goal.y - pose.y) < self._arrival(goal.wish)
+
+    def _arrival(self, wish: Wish | None) -> float:
+        """Return the distance of arrival; what is to be visited must come under the platform."""
+        arrival = self.rest.arrival
+        return min(arrival, 0.8 * self.parameters.memory.reach) if wish is Wish.UNKNOWN else arrival
+
+    def _choose(self, time: float, pose: Pose, surroundings: Surroundings) -> None:
+        """Take the next goal of the cycle; if none can be reached, try again later."""
+        assert self.memory is not None
+        assert self._ways is not None
+        paths = self._ways.free(surroundings)
+        choice = self._cycle.next(time, (pose.x, pose.y), self.memory, paths, self._arrival)
+        self.refusals = choice.failures
+        self._take(choice.goal)
+        if choice.goal is None:
+            self._retry_at = time + self.parameters.goals.retry_after
+
+    def _walk(
+        self, time: float, pose: Pose, flow: SapFlow, goal: Goal, surroundings: Surroundings
+    ) -> Thought:
+        """Head for the next corner of the way to ``goal``."""
+        here = pose.x, pose.y
+        way: tuple[Point, ...] = (here, goal.place)
+        if self._ways is not None:
+            try:
+                way = self._ways.to(time, here, goal.place, surroundings)
+            except GeometryError as error:
+                return self._stay(f'stopped: {error}', goal)
+        if surroundings.wait:
+            return Thought(STILL, f'waiting: {surroundings.wait}', self._place(pose), goal, way)
+        wanted = polar_command(flow, pose, way[1])
+        return Thought(wanted, f'walking to {goal.reason}', self._place(pose), goal, way)
+
+    def _turn(self, pose: Pose, flow: SapFlow, activity: str) -> Thought:
+        wanted = PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0)
+        return Thought(wanted, activity, self._place(pose), self.goal, ())
+
+    def _stay(self, activity: str, goal: Goal | None = None) -> Thought:
+        return Thought(STILL, activity, Place(), goal or self.goal, ())
+
+    def _place(self, pose: Pose) -> Place:
+        if self.zone is None:
+            return Place()
+        return Place(self.zone.may_turn(pose.x, pose.y, self.parameters.platform_radius))
+
+    def _take(self, goal: Goal | None) -> None:
+        self.goal, self._arrived = goal, False
+
+
+class _Ways:
+    """The way to the goal, looked for now and then; and the ways that others leave free."""
+
+    def __init__(self, zone: Zone, given: MindParameters) -> None:
+        self._zone = zone
+        self._all = Paths(zone)
+        self._taken: shapely.Geometry | None = None
+        self._free = self._all
+        self._waypoints = Waypoints(zone, given.corner_reach, given.corner_slack)
+        self._planned_at, self._planned_for = -inf, ((0.0, 0.0), self._all)
+        self._from: Point = (0.0, 0.0)
+        self._rest: tuple[Point, ...] = ()
+        self._home_at, self._home = -inf, 0.0
+
+    def free(self, surroundings: Surroundings) -> Paths:
+        """Return the ways off what others need; worked out once for each area."""
+        if surroundings.avoid is not self._taken:
+            self._taken = surroundings.avoid
+            self._free = self._all if self._taken is None else self._all.without(self._taken)
+        return self._free
+
+    def to(
+        self, time: float, here: Point, goal: Point, surroundings: Surroundings
+    ) -> tuple[Point, ...]:
+        """Return the corners of the way to ``goal``, the first to head for after ``here``.
+
+        It is looked for anew when the goal or what others leave free has changed, when the tree
+        is off it, and now and then.
+
+        Raises:
+            GeometryError: There is none.
+
+        """
+        wanted = goal, self.free(surroundings)
+        age = time - self._planned_at
+        if (
+            wanted != self._planned_for
+            or not 0.0 <= age < PLAN_LIFETIME
+            or (age >= PLAN_PERIOD and _off(here, self._from, self._rest[0]) > OFF_COURSE)
+        ):
+            self._planned_at = -inf
+            self._from, self._rest = here, tuple(wanted[1].way(here, goal)[1:])
+            self._planned_at, self._planned_for = time, wanted
+        target = self._waypoints.target((here, *self._rest))
+        if target != self._rest[0]:
+            self._from, self._rest = here, self._rest[self._rest.index(target) :]
+        return (here, *self._rest)
+
+    def distance_home(self, time: float, here: Point) -> float:
+        """Return the length of the way home [m], looked for once a minute; 0 if there is none."""
+        assert self._zone.home is not None
+        if not 0.0 <= time - self._home_at < 60.0:
+            self._home_at = time
+            try:
+                self._home = length(self._all.way(here, self._zone.home))
+            except GeometryError:
+                self._home = 0.0
+        return self._home
+
+
+def _off(here: Point, start: Point, end: Point) -> float:
+    """Return how far ``here`` is from the straight line from ``start`` to ``end`` [m]."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    squared = x * x + y * y
+    along = (here[0] - start[0]) * x + (here[1] - start[1]) * y
+    share = min(max(along / squared, 0.0), 1.0) if squared > 0.0 else 0.0
+    return hypot(here[0] - start[0] - share * x, here[1] - start[1] - share * y)

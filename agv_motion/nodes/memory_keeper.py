@@ -1,0 +1,109 @@
+"""What `motion_generator` does with its memory of places: show it as maps, keep it on disk."""
+
+from __future__ import annotations
+
+from array import array
+from concurrent.futures import Future, ThreadPoolExecutor, TimeoutError
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from nav_msgs.msg import OccupancyGrid
+from rclpy.clock import Clock, ClockType
+
+from agv_motion.motion.memory_file import restore, save
+from agv_motion.ros.qos import LATCHED
+
+if TYPE_CHECKING:
+    from agv_motion.motion.memory import Map, Mask, Memory
+    from agv_motion.ros.node import ManagedNode
+
+SAVE_PERIOD = 15.0
+"""[s] A power cut loses this much, and what the disk was still writing: less than 30 s."""
+
+PATIENCE = 5.0
+"""[s] How long a stopping node waits for the disk."""
+
+
+class MemoryKeeper:
+    """Publishes `memory/sap_flow` and `memory/last_visit`, and saves in a thread of its own.
+
+    The disk may take its time: the node only copies the maps.
+    """
+
+    def __init__(
+        self, node: ManagedNode[Any], memory: Memory, file: str, frame: str, span: float
+    ) -> None:
+        """Restore the memory and open its topics on ``node``.
+
+        Args:
+            node: The node that is being configured.
+            memory: To show and to keep.
+            file: Where to keep it; empty: nowhere.
+            frame: Of the maps.
+            span: Time since a visit that is shown as 100 [h].
+
+        """
+        self._node, self._memory, self._file, self._span = node, memory, file, span
+        self._frame = frame
+        self._flow = node.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
+        self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        node.every(node.parameters.map_period, self.publish, steady)
+        self._writer: ThreadPoolExecutor | None = None
+        self._writing: Future[None] | None = None
+        if file:
+            complaint = restore(file, memory)
+            if complaint:
+                node.get_logger().warning(complaint)
+            self._writer = ThreadPoolExecutor(1, 'memory')
+            node.every(SAVE_PERIOD, self.save, steady)
+
+    def publish(self) -> None:
+        """Show both maps: 0 to 100, unknown -1."""
+        memory, now = self._memory, self._node.seconds()
+        self._publish(self._flow, 100.0 * memory.remembered(now), memory.felt)
+        hours = (now - memory.visited_at) / 3600.0
+        self._publish(self._visit, 100.0 * hours / self._span, memory.visited)
+
+    def save(self) -> None:
+        """Let the thread write what is remembered now, unless it is still at the last."""
+        if self._writing is not None and not self._writing.done():
+            self._node.refuse(f'the disk is slow: {self._file} is still being written')
+        elif self._writer is not None:
+            self._check(0.0)
+            self._writing = self._writer.submit(save, self._file, self._memory.grid())
+
+    def save_at_last(self) -> None:
+        """Write what is remembered and wait for the disk."""
+        if self._writer is not None:
+            self._check(PATIENCE)
+            self._writing = self._writer.submit(save, self._file, self._memory.grid())
+            self._check(PATIENCE)
+
+    def _check(self, patience: float) -> None:
+        """Tell what came of the last save, waiting for it so long [s]."""
+        try:
+            if self._writing is not None:
+                self._writing.result(patience)
+        except (OSError, TimeoutError) as error:
+            self._node.refuse(f'cannot keep the memory of places: {error!r}')
+
+    def report(self) -> dict[str, str]:
+        """Return how much is remembered, for the diagnostics."""
+        visited, felt = self._memory.coverage()
+        return {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
+
+    def _publish(self, publisher: Any, values: Map, known: Mask) -> None:
+        memory = self._memory
+        message = OccupancyGrid()
+        self._node.stamp(message)
+        message.header.frame_id = self._frame
+        message.info.map_load_time = message.header.stamp
+        message.info.resolution = memory.parameters.cell
+        message.info.height, message.info.width = values.shape
+        message.info.origin.position.x = memory.west
+        message.info.origin.position.y = memory.south
+        cells = np.full(values.shape, -1, np.int8)
+        cells[known] = np.clip(np.rint(values[known]), 0, 100).astype(np.int8)
+        message.data = array('b', cells.tobytes())
+        publisher.publish(message)
