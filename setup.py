@@ -45,7 +45,6 @@ setup(
     python_requires='>=3.10',
     install_requires=[
         'mcap>=1.1',
-        'networkx>=3.1',
         'numpy>=1.26',
         'pyserial>=3.5',
         'pyyaml>=6',
@@ -53,6 +52,7 @@ setup(
         'rosbags>=0.10',
         'shapely>=2',
         'typer>=0.12',
+        'tzdata',
         'zstandard>=0.22',
     ],
     extras_require={
@@ -72,9 +72,9 @@ setup(
             'mcap-ros2-support>=0.5',
             'mpmath>=1.3',
             'mypy>=1.11',
+            'networkx>=3.1',
             'pytest>=8',
             'ruff>=0.12',
-            'types-networkx',
             'types-pyserial',
             'types-pyyaml',
         ],

@@ -79,13 +79,12 @@ class DemoGraph:
         self._stop = Stop()
         self._bag = bag
         common: dict[str, Any] = {'use_sim_time': True}
-        goal: dict[str, Any] = {'zone_file': zone} if zone else {}
+        place: dict[str, Any] = {'zone_file': zone} if zone else {}
         self._zone = load_zone(find_config(zone or 'zone_outdoor.yaml'))
-        if zone:
-            x, y = self._zone.parts[0].representative_point().coords[0]
-            goal['goal'] = [x, y]
         probe = GranierProbe(**_configured('granier_probe', common | probes))
-        motion = MotionGenerator(**_configured('motion_generator', common | goal))
+        motion = MotionGenerator(
+            **_configured('motion_generator', common | place | {'goals__seed': seed})
+        )
         wheels = WheelKinematics(**_configured('wheel_kinematics', common))
         localization = Localization(**_configured('localization', common))
         start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))

@@ -34,7 +34,6 @@ MODULES = (
     ('rosbags', 'rosbags', True, 'pip install rosbags'),
     ('yaml', 'pyyaml', True, 'pip install pyyaml'),
     ('shapely', 'shapely', True, 'pip install shapely'),
-    ('networkx', 'networkx', True, 'pip install networkx'),
     ('serial', 'pyserial', True, 'pip install pyserial (probes on a serial line)'),
     ('matplotlib', 'matplotlib', False, 'pip install "agv_motion[plot]" (figures)'),
     ('tf2_msgs', 'tf2_msgs', False, 'comes with a ROS installation (/tf)'),

@@ -17,7 +17,7 @@ from agv_motion.motion.limits import Place
 from agv_motion.motion.memory import Memory, MemoryParameters
 from agv_motion.motion.paths import Paths, Waypoints, length
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, PolarCommand
-from agv_motion.motion.schedule import Hour, Phase, Schedule, ScheduleParameters
+from agv_motion.motion.schedule import ALWAYS, Hour, Phase, Schedule, ScheduleParameters
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
@@ -142,6 +142,7 @@ class Mind:
         self._cycle = GoalCycle(given.goals)
         self._sleep = Sleep(given.rest)
         self._schedule = Schedule(given.schedule)
+        self._hour, self._hour_from = ALWAYS, inf
         self._homing = ''
         self._retry_at = -inf
         self._arrived = False
@@ -211,7 +212,9 @@ class Mind:
 
         """
         asleep = self._sleep.feel(flow)
-        hour = self._schedule.hour(time)
+        if not self._hour_from <= time < self._hour.until:
+            self._hour, self._hour_from = self._schedule.hour(time), time
+        hour = self._hour
         if hour.phase is not Phase.OPEN:
             self._homing = ''
             until = self._schedule.clock(hour.until)

@@ -176,7 +176,7 @@ class Waypoints:
 
         """
         self._reach = reach
-        self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0), quad_segs=4)
+        self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0))
         shapely.prepare(self._floor)
 
     def target(self, way: Sequence[Point]) -> Point:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from concurrent.futures import Future, ThreadPoolExecutor, TimeoutError
+from concurrent import futures
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,13 +49,13 @@ class MemoryKeeper:
         self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.every(node.parameters.map_period, self.publish, steady)
-        self._writer: ThreadPoolExecutor | None = None
-        self._writing: Future[None] | None = None
+        self._writer: futures.ThreadPoolExecutor | None = None
+        self._writing: futures.Future[None] | None = None
         if file:
             complaint = restore(file, memory)
             if complaint:
                 node.get_logger().warning(complaint)
-            self._writer = ThreadPoolExecutor(1, 'memory')
+            self._writer = futures.ThreadPoolExecutor(1, 'memory')
             node.every(SAVE_PERIOD, self.save, steady)
 
     def publish(self) -> None:
@@ -85,7 +85,7 @@ class MemoryKeeper:
         try:
             if self._writing is not None:
                 self._writing.result(patience)
-        except (OSError, TimeoutError) as error:
+        except (OSError, futures.TimeoutError) as error:
             self._node.refuse(f'cannot keep the memory of places: {error!r}')
 
     def report(self) -> dict[str, str]:

@@ -10,14 +10,13 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.generator import (
-    Activity,
-    MotionGenerator,
     RestParameters,
     SapFlow,
+    Sleep,
     checked_sap_flow,
     polar_command,
 )
-from agv_motion.motion.polar import STILL, checked
+from agv_motion.motion.polar import checked
 from agv_motion.planar import Pose
 
 SHARE = st.floats(0.0, 1.0)
@@ -37,34 +36,9 @@ def test_every_sap_flow_gives_a_command_in_its_domain(flow, pose, target):
 
 
 def test_rest_has_hysteresis():
-    generator = MotionGenerator(RestParameters(rest_below=0.1, wake_above=0.3))
-    pose, goal = Pose(0.0, 0.0, 0.0), (5.0, 0.0)
-    states = [
-        generator.decide(SapFlow(s, s, s), pose, goal).command is STILL
-        for s in (0.2, 0.31, 0.2, 0.11, 0.09, 0.2, 0.29, 0.3)
-    ]
+    sleep = Sleep(RestParameters(rest_below=0.1, wake_above=0.3))
+    states = [sleep.feel(SapFlow(s, s, s)) for s in (0.2, 0.31, 0.2, 0.11, 0.09, 0.2, 0.29, 0.3)]
     assert states == [True, False, False, False, True, True, True, False]
-
-
-def test_at_the_goal_it_turns_on_the_spot():
-    generator = MotionGenerator(RestParameters(arrival=1.0))
-    flow, pose = SapFlow(1.0, 0.9, 0.9), Pose(0.0, 0.0, 0.0)
-    command, activity = generator.decide(flow, pose, (0.5, 0.5))
-    assert activity is Activity.TURNING
-    assert command == pytest.approx((0.0, 0.0, 0.8))
-
-
-def test_noise_at_the_goal_does_not_send_it_to_and_fro():
-    generator = MotionGenerator(RestParameters(arrival=1.0))
-    flow, goal = SapFlow(1.0, 0.9, 0.9), (0.0, 0.0)
-    seen = [
-        generator.decide(flow, Pose(x, 0.0, 0.0), goal).activity
-        for x in (1.1, 0.9, 1.1, 1.9, 2.1, 1.9)
-    ]
-    walking, turning = Activity.WALKING, Activity.TURNING
-    assert seen == [walking, turning, turning, turning, walking, walking]
-    assert generator.decide(flow, Pose(0.5, 0.0, 0.0), goal).activity is turning
-    assert generator.decide(flow, Pose(0.5, 0.0, 0.0), (2.0, 0.0)).activity is walking
 
 
 @pytest.mark.parametrize('flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01)])

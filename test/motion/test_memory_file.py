@@ -28,7 +28,7 @@ def test_it_comes_back(tmp_path):
     save(path, full().grid())
     assert restore(path, again) == ''
     assert again.flow[4, 4] == 0.75
-    assert os.listdir(path.parent) == ['memory.npz']
+    assert [file.name for file in path.parent.iterdir()] == ['memory.npz']
 
 
 def test_nothing_kept_is_nothing_wrong(tmp_path):

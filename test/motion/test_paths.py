@@ -6,7 +6,7 @@ from itertools import combinations
 from math import hypot, sqrt
 from random import Random
 
-import networkx
+import networkx as nx
 import pytest
 import shapely
 from hypothesis import assume, given
@@ -145,7 +145,7 @@ def crowded(seed):
 
 @pytest.mark.parametrize('seed', range(2))
 def test_no_shorter_way_than_by_an_independent_search(seed):
-    """Dijkstra over all corners, the pointless ones included, by networkx."""
+    """Dijkstra over all corners, the pointless ones included, by nx."""
     zone = crowded(seed)
     floor = zone.parts[0].buffer(TOLERANCE)
     corners = [p for ring in (floor.exterior, *floor.interiors) for p in ring.coords[:-1]]
@@ -155,7 +155,7 @@ def test_no_shorter_way_than_by_an_independent_search(seed):
         for e in ((draw.uniform(0, 20), draw.uniform(0, 20)) for _ in range(40))
         if zone.walkable(*e)
     ][:6]
-    graph = networkx.Graph()
+    graph = nx.Graph()
     shapely.prepare(floor)
     for a, b in combinations([*corners, *ends], 2):
         line = shapely.LineString([a, b])
@@ -163,7 +163,7 @@ def test_no_shorter_way_than_by_an_independent_search(seed):
             graph.add_edge(a, b, weight=line.length)
     paths = Paths(zone)
     for a, b in combinations(ends, 2):
-        expected = networkx.dijkstra_path_length(graph, a, b)
+        expected = nx.dijkstra_path_length(graph, a, b)
         assert length(paths.way(a, b)) == pytest.approx(expected, abs=1e-4)
 
 
