@@ -11,6 +11,7 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import benchmark_odometry
+import benchmark_trajectory
 import numpy as np
 import rclpy
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
@@ -183,7 +184,8 @@ def main() -> None:
     for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
         table.add_column(column)
     for section in track(
-        [turret_rows, benchmark_odometry.rows, chain_rows, process_rows], 'Measuring'
+        [turret_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows, process_rows],
+        'Measuring',
     ):
         for row in section():
             load = row.what.startswith('idle')

@@ -21,7 +21,7 @@ Graphics and Applications 10(3), 1990 (adaptive Gaussian quadrature, table, Newt
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,13 +30,15 @@ from agv_motion.errors import GeometryError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.trajectory.bezier import Column, CubicBezier
+    from agv_motion.trajectory.bezier import Column, ComplexColumn, CubicBezier
 
 CHANGE_IN_A_CELL = 0.05
 """q of equation (1)."""
 
 FIRST_CELLS = 64
 """Cells that a curve is cut into before equation (1) asks for more."""
+
+FIRST_NODES = np.linspace(0.0, 1.0, FIRST_CELLS + 1)
 
 MOST_CELLS = 4000
 """A curve that needs more comes to rest within itself: it has a cusp."""
@@ -55,17 +57,9 @@ INTEGRAL = np.linalg.inv(np.vander(GAUSS_NODES, increasing=True)).T / np.arange(
 HALF_POWERS = 0.5 ** np.arange(1.0, 7.0)
 
 
-class _Cell(NamedTuple):
-    curve: CubicBezier
-    start: float
-    """[m] way at its start"""
-    guess: list[float]
-    """u over the way since the start: four coefficients"""
-    first_u: float
-    width: float
-    """of u"""
-    integral: list[float]
-    """c_1 ... c_6 of equation (2) [m]"""
+Cell = tuple[float, list[float], float, float, list[float]]
+"""Way at its start [m]; four coefficients of u over the way since then; u at its start; its width
+in u; c_1 ... c_6 of equation (2) [m]."""
 
 
 class ArcLength:
@@ -88,38 +82,45 @@ class ArcLength:
 
         """
         ways, curvatures, middle_ways, middles = [], [], [], []
-        self._cells: list[_Cell] = []
+        self._curves: list[CubicBezier] = []  # of each cell
+        self._cells: list[Cell] = []
         self.length = 0.0
         for number, curve in enumerate(curves, 1):
-            u = _nodes(curve, number)
-            widths = np.diff(u)
-            inside = u[:-1, None] + widths[:, None] * GAUSS_NODES
-            speeds = widths[:, None] * np.abs(curve.velocity(inside))
+            u, speed = _nodes(curve, number)
+            first, widths = u[:-1], u[1:] - u[:-1]
+            inside = first[:, None] + widths[:, None] * GAUSS_NODES
+            speeds = widths[:, None] * _length(curve.velocity(inside))
             lengths, integral = speeds @ GAUSS_WEIGHTS, speeds @ INTEGRAL
-            way = self.length + np.concatenate(([0.0], np.cumsum(lengths)))
-            guess = _guess(u, lengths, np.abs(curve.velocity(u)))
-            self._cells += map(
-                _Cell, [curve] * len(widths), way[:-1].tolist(), guess.tolist(),
-                u[:-1].tolist(), widths.tolist(), integral.tolist(),
+            way = np.empty(len(u))
+            way[0] = self.length
+            np.cumsum(lengths, out=way[1:])
+            way[1:] += self.length
+            self._curves += [curve] * len(widths)
+            self._cells += zip(
+                way[:-1].tolist(), _guess(first, widths, lengths, speed).tolist(),
+                first.tolist(), widths.tolist(), integral.tolist(), strict=True,
             )  # fmt: skip
             self.length = float(way[-1])
             ways.append(way)
-            curvatures.append(curve.curvature(u))
-            sharpest = int(np.argmax(np.abs(curvatures[-1])))
-            if abs(curvatures[-1][sharpest]) * (way[-1] - way[0]) > MOST_TURN:
+            curvature = curve.curvature(np.concatenate((u, first + 0.5 * widths)))
+            curvature, middle = curvature[: len(u)], curvature[len(u) :]
+            curvatures.append(curvature)
+            sharpest = int(np.abs(curvature).argmax())
+            if abs(curvature[sharpest]) * (way[-1] - way[0]) > MOST_TURN:
                 raise GeometryError(_cusp(number, float(u[sharpest])))
             middle_ways += [way[:-1] + integral @ HALF_POWERS, way[-1:]]
-            middles += [curve.curvature(u[:-1] + 0.5 * widths), curvatures[-1][-1:]]
+            middles += [middle, curvature[-1:]]
         self.way: Column = np.concatenate(ways)
         self.curvature: Column = np.concatenate(curvatures)
         self.middle_way: Column = np.concatenate(middle_ways[:-1])
         self.middle_curvature: Column = np.concatenate(middles[:-1])
-        self._starts = [cell.start for cell in self._cells]
+        self._starts = [cell[0] for cell in self._cells]
 
     def locate(self, way: float) -> tuple[CubicBezier, float]:
         """Return the curve and its parameter at ``way`` [m] from the start of the chain."""
         number = bisect_right(self._starts, way) - 1
-        curve, start, (g0, g1, g2, g3), first, width, (c1, c2, c3, c4, c5, c6) = self._cells[number]
+        curve = self._curves[number]
+        start, (g0, g1, g2, g3), first, width, (c1, c2, c3, c4, c5, c6) = self._cells[number]
         rest = way - start
         u = g0 + rest * (g1 + rest * (g2 + rest * g3))
         x = (u - first) / width
@@ -127,19 +128,20 @@ class ArcLength:
         return curve, u - error / abs(curve.velocity(u))
 
 
-def _nodes(curve: CubicBezier, number: int) -> Column:
-    """Return the parameters at the ends of the cells, after equation (1)."""
-    u: Column = np.linspace(0.0, 1.0, FIRST_CELLS + 1)
+def _nodes(curve: CubicBezier, number: int) -> tuple[Column, Column]:
+    """Return the parameters at the ends of the cells, after equation (1), and |P'| there."""
+    u = FIRST_NODES
     while True:
         velocity = curve.velocity(u)
         with np.errstate(all='ignore'):
-            change = np.abs(velocity[1:] / velocity[:-1] - 1.0) / CHANGE_IN_A_CELL
+            change = _length(velocity[1:] / velocity[:-1] - 1.0)
+        if change.max() <= CHANGE_IN_A_CELL:  # not so where one is NaN
+            return u, _length(velocity)
+        change /= CHANGE_IN_A_CELL
         parts = np.ceil(np.clip(np.nan_to_num(change, nan=8.0), 1.0, 8.0)).astype(int)
-        if parts.max() == 1:
-            return u
         if parts.sum() > MOST_CELLS:
             raise GeometryError(_cusp(number, float(u[int(np.argmax(parts))])))
-        widths = np.repeat(np.diff(u) / parts, parts)
+        widths = np.repeat((u[1:] - u[:-1]) / parts, parts)
         rank = np.arange(len(widths)) - np.repeat(np.cumsum(parts) - parts, parts)
         u = np.append(np.repeat(u[:-1], parts) + rank * widths, 1.0)
 
@@ -151,10 +153,19 @@ def _cusp(number: int, u: float) -> str:
     )
 
 
-def _guess(u: Column, lengths: Column, speed: Column) -> Column:
+def _guess(u: Column, widths: Column, lengths: Column, speed: Column) -> Column:
     """Return (n, 4) coefficients of the cubics u over the way, with slopes 1 / |P'|."""
-    mean = np.diff(u) / lengths
-    first, last = 1.0 / speed[:-1], 1.0 / speed[1:]
-    square = (3.0 * mean - 2.0 * first - last) / lengths
-    cube = (first + last - 2.0 * mean) / lengths**2
-    return np.stack((u[:-1], first, square, cube), axis=1)
+    slope, mean = 1.0 / speed, widths / lengths
+    first, last = slope[:-1], slope[1:]
+    guess: Column = np.empty((len(u), 4))
+    guess[:, 0] = u
+    guess[:, 1] = first
+    guess[:, 2] = (3.0 * mean - 2.0 * first - last) / lengths
+    guess[:, 3] = (first + last - 2.0 * mean) / (lengths * lengths)
+    return guess
+
+
+def _length(vectors: ComplexColumn) -> Column:
+    """Return the absolute values; numpy's own are safe against overflow, and slow."""
+    length: Column = np.sqrt(vectors.real**2 + vectors.imag**2)
+    return length

@@ -79,7 +79,8 @@ class CubicBezier:
         r"""Return the curvature :math:`P' \times P'' / |P'|^3` [1/m], left positive."""
         velocity = self.velocity(u)
         square = velocity.real**2 + velocity.imag**2
-        cross = (np.conj(velocity) * self.acceleration(u)).imag
+        bend = self.acceleration(u)
+        cross = velocity.real * bend.imag - velocity.imag * bend.real
         return np.asarray(cross / (square * np.sqrt(square)))
 
 

@@ -6,7 +6,7 @@ A motion is immutable; where it stands at a time depends on that time alone.
 from __future__ import annotations
 
 from cmath import phase
-from math import copysign, pi
+from math import pi
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from agv_motion.planar import Pose, wrap
@@ -176,7 +176,7 @@ class Drive:
 
     def at_way(self, way: float) -> Pose:
         """Return the pose at ``way`` [m] from the start."""
-        curve, u = self.course.locate(max(way, 0.0))
+        curve, u = self.course.locate(max(0.0, way))
         point, heading = curve.point(u), phase(self._sense * curve.velocity(u))
         return Pose(point.real, point.imag, heading if heading < pi else -pi)
 
@@ -185,10 +185,11 @@ class Drive:
         if not 0.0 <= time < self.duration:
             return STILL
         way, speed, _ = self.profile.at(time)
-        curve, u = self.course.locate(max(way, 0.0))
-        velocity = curve.velocity(u)
-        cross = (velocity.conjugate() * curve.acceleration(u)).imag
-        return Speeds(copysign(speed, self._sense), speed * cross / abs(velocity) ** 3)
+        curve, u = self.course.locate(max(0.0, way))
+        velocity, bend = curve.velocity(u), curve.acceleration(u)
+        length = abs(velocity)
+        cross = velocity.real * bend.imag - velocity.imag * bend.real
+        return Speeds(self._sense * speed, speed * cross / (length * length * length))
 
     def stopped(self, time: float) -> Drive:
         """Return the same drive until ``time`` [s], then braked to rest on its curve."""

@@ -188,21 +188,24 @@ def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> 
     that line in the middle of a cell, its ends are lowered by as much, but no more than a tenth;
     where this is not enough, the higher end comes down until the line meets the middle.
     """
-    square = lowest_ceiling(limits, course.curvature, cruising_speed) ** 2
-    middle = lowest_ceiling(limits, course.middle_curvature, cruising_speed) ** 2
-    length = np.diff(course.way)
+    everywhere = np.concatenate((course.curvature, course.middle_curvature))
+    squares = lowest_ceiling(limits, everywhere, cruising_speed) ** 2
+    square, middle = squares[: len(course.way)], squares[len(course.way) :]
+    length = course.way[1:] - course.way[:-1]
     joint = length <= SHORTEST * course.length  # of two curves, where the curvature may step
     share = (course.middle_way - course.way[:-1]) / np.where(joint, 1.0, length)
     first, last = square[:-1], square[1:]
     excess = np.where(joint, 0.0, np.maximum(first + share * (last - first) - middle, 0.0))
-    either = np.maximum(np.append(excess, 0.0), np.append(0.0, excess))
-    square = square - np.minimum(either, 0.1 * square)
+    either = np.zeros(len(square))
+    either[:-1] = excess
+    np.maximum(either[1:], excess, out=either[1:])
+    square -= np.minimum(either, 0.1 * square)
     share[joint], middle[joint] = 0.5, np.inf
-    first, last = square[:-1], square[1:]
     first_most = np.maximum(middle, (middle - share * last) / (1.0 - share))
     last_most = np.maximum(middle, (middle - (1.0 - share) * first) / share)
-    most = np.minimum(np.append(first_most, np.inf), np.append(np.inf, last_most))
-    ceiling: Column = np.sqrt(np.minimum(square, most))
+    np.minimum(first, first_most, out=first)
+    np.minimum(last, last_most, out=last)
+    ceiling: Column = np.sqrt(square)
     return ceiling
 
 

@@ -94,9 +94,9 @@ class SharpProfile:
 
         """
         speed = np.sqrt(square)
-        length = np.diff(way)
+        length = way[1:] - way[:-1]
         times = np.cumsum(2.0 * length / (speed[1:] + speed[:-1])).tolist()
-        accelerations = (0.5 * np.diff(square) / length).tolist()
+        accelerations = (0.5 * (square[1:] - square[:-1]) / length).tolist()
         return cls([0.0, *times], way.tolist(), speed.tolist(), [*accelerations, 0.0])
 
     def at(self, time: float) -> Progress:

@@ -90,21 +90,23 @@ def _lowest(way: Column, square: Column, acceleration: float, start_speed: float
 
 def _with_corners(way: Column, ceiling: Column, lowest: Column, slope: float) -> SharpProfile:
     """Place the corners in each cell: at x1 it leaves the ramp up, at x2 it meets the ramp down."""
-    length = np.diff(way)
+    start = way[:-1]
+    length = way[1:] - start
     w0, w1, c0 = lowest[:-1], lowest[1:], ceiling[:-1]
     peak = 0.5 * (length + (w1 - w0) / slope)
     with np.errstate(divide='ignore', invalid='ignore'):
-        tilt = np.diff(ceiling) / length
+        tilt = (ceiling[1:] - c0) / length
         flat = c0 + tilt * peak < w0 + slope * peak  # the ceiling cuts the peak off
         x1 = np.where(flat, (c0 - w0) / (slope - tilt), peak)
         x2 = np.where(flat, (w1 + slope * length - c0) / (slope + tilt), peak)
-    x1, x2 = np.clip(x1, 0.0, length), np.clip(x2, 0.0, length)
-    nodes = np.stack((way[:-1], way[:-1] + x1, way[:-1] + x2), axis=1).ravel()
-    squares = np.stack((w0, w0 + slope * x1, w1 + slope * (length - x2)), axis=1).ravel()
-    keep = np.diff(nodes, append=way[-1]) > SHORTEST * (way[-1] - way[0])
-    return SharpProfile.over_way(
-        np.append(nodes[keep], way[-1]), np.append(squares[keep], lowest[-1])
-    )
+    x1, x2 = (np.minimum(np.maximum(x, 0.0), length) for x in (x1, x2))
+    nodes, squares = np.empty(3 * len(start) + 1), np.empty(3 * len(start) + 1)
+    nodes[:-1:3], nodes[1::3], nodes[2::3], nodes[-1] = start, start + x1, start + x2, way[-1]
+    squares[:-1:3], squares[1::3], squares[2::3] = w0, w0 + slope * x1, w1 + slope * (length - x2)
+    squares[-1] = lowest[-1]
+    keep = np.ones(len(nodes), dtype=bool)
+    np.greater(nodes[1:] - nodes[:-1], SHORTEST * (way[-1] - way[0]), out=keep[:-1])
+    return SharpProfile.over_way(nodes[keep], squares[keep])
 
 
 def _lowest_within(way: Column, values: Column, reach: Column) -> Column:

@@ -84,5 +84,7 @@ class Trajectory:
         return [*(self.pose(k * step) for k in range(count + 1)), self.end]
 
     def _at(self, time: float) -> tuple[Motion, float]:
-        number = bisect_right(self._starts, time) - 1 if len(self._starts) > 1 else 0
-        return self.motions[max(number, 0)], self._starts[max(number, 0)]
+        if len(self._starts) == 1:
+            return self.motions[0], 0.0
+        number = max(bisect_right(self._starts, time) - 1, 0)
+        return self.motions[number], self._starts[number]
