@@ -183,10 +183,10 @@ def main() -> None:
     table = Table(title='Ours beside the peer; medians', title_justify='left')
     for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
         table.add_column(column)
-    for section in track(
-        [turret_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows, process_rows],
-        'Measuring',
-    ):
+    sections = (
+        turret_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows, process_rows,
+    )  # fmt: skip
+    for section in track(sections, 'Measuring'):
         for row in section():
             load = row.what.startswith('idle')
             ours = f'{row.ours:.3f}' if load else shown(row.ours)
