@@ -14,7 +14,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist
-from agv_motion.ros.messages import fill_twist, pose_of
+from agv_motion.ros.messages import fill_twist, pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 
@@ -47,12 +47,16 @@ P = TypeVar('P', bound=DrivingParameters)
 class DrivingNode(ManagedNode[P]):
     """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`."""
 
+    state_topic = 'state'
+
     def open(self) -> None:
         """Open the topics."""
         given = self.parameters
         self.pose: Pose | None = None
         self.lost = f'no {given.position} yet'
         """Why the pose cannot be used; empty if it can"""
+        self.pose_time = 0.0
+        """[s] by the stamp of the pose"""
         self.told = ''
         """The state told last"""
         self._watchdog = Watchdog(given.report_after, given.stop_after)
@@ -62,7 +66,7 @@ class DrivingNode(ManagedNode[P]):
         if given.stamped:
             self._message.header.frame_id = given.base_frame
         self._command = self.publisher(type(self._message), 'cmd_vel', COMMAND)
-        self._state = self.publisher(String, 'state', LATCHED)
+        self._state = self.publisher(String, self.state_topic, LATCHED)
         if given.position == 'odom':
             self.listen(Odometry, 'odom', self._on_pose, SENSOR)
         else:
@@ -115,6 +119,8 @@ class DrivingNode(ManagedNode[P]):
     def _on_pose(self, message: Any) -> None:
         self.require_frame(message.header.frame_id)
         self.pose = pose_of(message.pose.pose)
+        self.pose_time = seconds_of(message.header.stamp)
+        self.lost = ''
         self._watchdog.feed()
 
     def _on_cycle(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from agv_motion.trajectory.trajectory import Trajectory
+
+STRAIGHT = 1e-6
+"""[1/m] A bend of less is not worth a word."""
 
 
 class Slow(NamedTuple):
@@ -42,6 +46,19 @@ class Feasibility(NamedTuple):
     """[1/m] of the sharpest bend"""
     slow: tuple[Slow, ...]
     """where and why the cruising speed is not allowed, in the order of the way"""
+
+    def lines(self) -> list[str]:
+        """Return it in words, one thing a line."""
+        lines = [f'{self.length:.2f} m in {self.duration:.1f} s, at most {self.top_speed:.2f} m/s']
+        if self.turn > 0.0:
+            lines.append(f'turns on the spot: {degrees(self.turn):.0f} degrees in all')
+        if self.top_curvature > STRAIGHT:
+            lines.append(f'sharpest bend: radius {1.0 / self.top_curvature:.2f} m')
+        lines += (
+            f'from {start:.2f} m to {end:.2f} m no faster than {speed:.2f} m/s: {reason}'
+            for start, end, speed, reason in self.slow
+        )
+        return lines
 
 
 def examine(trajectory: Trajectory) -> Feasibility:

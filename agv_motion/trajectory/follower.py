@@ -106,8 +106,21 @@ class Follower:
         if self._leash.pace == 1.0:
             self.ghost.abort()  # at full pace, with the ramps of the trajectory
 
+    def halt(self) -> None:
+        """Stand at once and without a ramp, for as long as the pose is lost; `step` goes on."""
+        self._leash.restart(moving=False)
+        self.ghost.lock(True)  # noqa: FBT003 - the name says what the flag is
+        if self._aborting:
+            self._end(Following.ABORTED)
+
+    def retune(self, parameters: FollowerParameters) -> None:
+        """Go on with other gains and another leash; limits count from the next trajectory on."""
+        self.parameters = parameters
+        self._law = parameters.make_law()
+        self._leash.parameters = parameters.leash
+
     def stop(self) -> None:
-        """End it at once and without a ramp: when the pose is lost."""
+        """End it at once and without a ramp."""
         if not self.at_rest:
             self._end(Following.ABORTED)
 
@@ -133,6 +146,8 @@ class Follower:
         if self._leash.is_lost(self.separation):
             return self._end(Following.LOST)
         self._pace(dt)
+        if self.state is Following.LOCKED:
+            return REST  # the robot stands, as near as it came
         twist = self._law.twist(self.error, Speeds(linear, angular))
         if ghost.finished:
             self._settling += dt

@@ -20,19 +20,28 @@ if TYPE_CHECKING:
 class FollowerParameters:
     """How the robot follows its Ghost."""
 
-    law: Annotated[str, Spec('law of control', choices=('kanayama', 'ramsete', 'holonomic'))] = (
-        'kanayama'
-    )
+    law: Annotated[
+        str, Spec('law of control', choices=('kanayama', 'ramsete', 'holonomic'), dynamic=True)
+    ] = 'kanayama'
     delay: Annotated[
-        float, Spec('speeds are fed forward so much ahead: lag of motors and link', 's', (0.0, 2.0))
+        float,
+        Spec(
+            'speeds are fed forward so much ahead: lag of motors and link',
+            's',
+            (0.0, 2.0),
+            dynamic=True,
+        ),
     ] = 0.03
     settle_speed: Annotated[
         float,
-        Spec('at the end: arrived when the law asks for less', 'm/s', (0.0, 1.0)),
+        Spec('at the end: arrived when the law asks for less', 'm/s', (0.0, 1.0), dynamic=True),
     ] = 0.02
-    settle_turn: Annotated[float, Spec('... and for less of a turn', 'rad/s', (0.0, 1.0))] = 0.04
+    settle_turn: Annotated[
+        float, Spec('... and for less of a turn', 'rad/s', (0.0, 1.0), dynamic=True)
+    ] = 0.04
     settle_time: Annotated[
-        float, Spec('it has arrived as well as it can after so long', 's', (0.0, 60.0))
+        float,
+        Spec('it has arrived as well as it can after so long', 's', (0.0, 60.0), dynamic=True),
     ] = 1.0
     kanayama: KanayamaGains = field(default_factory=KanayamaGains)
     ramsete: RamseteGains = field(default_factory=RamseteGains)

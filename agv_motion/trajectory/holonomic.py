@@ -31,8 +31,12 @@ class HolonomicGains:
 
     """
 
-    position: Annotated[float, Spec('K_p, on the errors of place', '1/s', (1e-3, 100.0))] = 4.0
-    heading: Annotated[float, Spec('K_theta, on the heading', '1/s', (1e-3, 100.0))] = 4.0
+    position: Annotated[
+        float, Spec('K_p, on the errors of place', '1/s', (1e-3, 100.0), dynamic=True)
+    ] = 4.0
+    heading: Annotated[
+        float, Spec('K_theta, on the heading', '1/s', (1e-3, 100.0), dynamic=True)
+    ] = 4.0
 
     def __post_init__(self) -> None:
         """Check every row."""

@@ -39,14 +39,22 @@ class KanayamaGains:
 
     """
 
-    along: Annotated[float, Spec('K_x, on the error along', '1/s', (1e-3, 100.0))] = 4.0
-    across: Annotated[float, Spec('K_y, on the error across', '1/m2', (1e-3, 1e4))] = 16.0
+    along: Annotated[float, Spec('K_x, on the error along', '1/s', (1e-3, 100.0), dynamic=True)] = (
+        4.0
+    )
+    across: Annotated[
+        float, Spec('K_y, on the error across', '1/m2', (1e-3, 1e4), dynamic=True)
+    ] = 16.0
     heading: Annotated[
         float,
-        Spec('K_theta, on the heading; 2 sqrt(K_y) or more does not swing', '1/m', (1e-3, 1e3)),
-    ] = 8.0
+        Spec(
+            'K_theta, on the heading; 2 sqrt(K_y) or more does not swing', '1/m', (1e-3, 1e3),
+            dynamic=True,
+        ),
+    ] = 8.0  # fmt: skip
     heading_at_rest: Annotated[
-        float, Spec('K_0, on the heading even in turns on the spot', '1/s', (0.0, 100.0))
+        float,
+        Spec('K_0, on the heading even in turns on the spot', '1/s', (0.0, 100.0), dynamic=True),
     ] = 2.0
 
     def __post_init__(self) -> None:

@@ -25,14 +25,30 @@ SLOWEST = 0.1
 class LeashParameters:
     """Distances between robot and Ghost, in their order."""
 
-    slow_beyond: Annotated[float, Spec('the Ghost dawdles', 'm', (1e-3, 100.0))] = 0.10
-    wait_beyond: Annotated[float, Spec('the Ghost waits', 'm', (1e-3, 100.0))] = 0.25
-    lost_beyond: Annotated[float, Spec('the robot is lost: stop', 'm', (1e-3, 100.0))] = 0.60
+    slow_beyond: Annotated[float, Spec('the Ghost dawdles', 'm', (1e-3, 100.0), dynamic=True)] = (
+        0.10
+    )
+    wait_beyond: Annotated[float, Spec('the Ghost waits', 'm', (1e-3, 100.0), dynamic=True)] = 0.25
+    lost_beyond: Annotated[
+        float, Spec('the robot is lost: stop', 'm', (1e-3, 100.0), dynamic=True)
+    ] = 0.60
     heading_arm: Annotated[
-        float, Spec('an error of heading counts as so many metres a radian', 'm/rad', (0.0, 10.0))
+        float,
+        Spec(
+            'an error of heading counts as so many metres a radian',
+            'm/rad',
+            (0.0, 10.0),
+            dynamic=True,
+        ),
     ] = 0.15
     ease: Annotated[
-        float, Spec('time in which the Ghost comes from full pace to waiting', 's', (0.01, 10.0))
+        float,
+        Spec(
+            'time in which the Ghost comes from full pace to waiting',
+            's',
+            (0.01, 10.0),
+            dynamic=True,
+        ),
     ] = 0.5
 
     def __post_init__(self) -> None:

@@ -40,8 +40,12 @@ class RamseteGains:
 
     """
 
-    b: Annotated[float, Spec('stiffness b, as a proportional gain', 'rad2/m2', (1e-3, 1e4))] = 16.0
-    zeta: Annotated[float, Spec('damping zeta, between 0 and 1', '1', (0.0, 1.0))] = 0.9
+    b: Annotated[
+        float, Spec('stiffness b, as a proportional gain', 'rad2/m2', (1e-3, 1e4), dynamic=True)
+    ] = 16.0
+    zeta: Annotated[float, Spec('damping zeta, between 0 and 1', '1', (0.0, 1.0), dynamic=True)] = (
+        0.9
+    )
 
     def __post_init__(self) -> None:
         """Check every row, and that zeta lies inside its range."""

@@ -1,0 +1,240 @@
+"""Node `ghost_trajectory`: a goal and the pose in, the twist that follows the Ghost there out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry_msgs.msg import PoseStamped, Vector3Stamped
+from nav_msgs.msg import Path
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+
+from agv_motion.errors import SignalError
+from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.parameters import Spec
+from agv_motion.planar import REST, Pose, Twist, integrate
+from agv_motion.ros.messages import fill_pose, pose_of
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
+from agv_motion.ros.qos import COMMAND, LATCHED
+from agv_motion.ros.run import run
+from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.follower_parameters import FollowerParameters
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from agv_motion.trajectory.ghost import Ghost
+    from agv_motion.trajectory.trajectory import Trajectory
+
+LONGEST_STEP = 5
+"""Cycles that pass for the Ghost at once at most: it does not run away from a node that slept."""
+
+OLDEST_POSE = 0.3
+"""[s] An older pose, or one from another clock, is taken as of now."""
+
+DRAWN = 0.05
+"""[s] between two poses of the path that is shown."""
+
+WORDS = {
+    Following.IDLE: 'waiting for a goal',
+    Following.LOCKED: 'locked: call ~/lock with data: false to go on',
+    Following.WAITING: 'the Ghost waits for the robot',
+    Following.SETTLING: 'settling',
+    Following.ARRIVED: 'arrived',
+    Following.ABORTED: 'aborted',
+}
+
+
+@dataclass(frozen=True)
+class GhostTrajectoryParameters(DrivingParameters):
+    """How the Ghost goes to a goal, and how the robot follows it."""
+
+    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 50.0
+    cruising_speed: Annotated[float, Spec('of the Ghost', 'm/s', (0.001, 100.0), dynamic=True)] = (
+        0.4
+    )
+    speed_ramps: Annotated[
+        float, Spec('acceleration and braking of the Ghost', 'm/s2', (0.001, 100.0), dynamic=True)
+    ] = 0.4
+    delta_curve: Annotated[
+        float,
+        Spec(
+            'handles of the curves as a share of the distance; 0: straight lines, turns on the '
+            'spot', '1', (0.0, 5.0), dynamic=True,
+        ),
+    ] = 0.4  # fmt: skip
+    backward: Annotated[bool, Spec('go to goals backwards', dynamic=True)] = False
+    lock_goals: Annotated[
+        bool, Spec('a new goal waits for ~/lock with false: read its report first', dynamic=True)
+    ] = False
+    follow: FollowerParameters = field(default_factory=FollowerParameters)
+
+
+class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
+    """`goal_pose`, `path`, `arc` and the pose -> `cmd_vel`, `ghost/pose`, `ghost/path`, ...
+
+    Silence of the pose, a robot that is lost, `~/abort`, arrival and the end of the node are
+    explicit zeros.
+    """
+
+    state_topic = 'ghost/state'
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('ghost_trajectory', GhostTrajectoryParameters, **kwargs)
+
+    def open(self) -> None:
+        """Open the topics."""
+        super().open()
+        self._follower = Follower(self.parameters.follow)
+        self._twist = REST
+        self._ghost_pose = PoseStamped()
+        self._ghost_pose.header.frame_id = self.parameters.frame
+        self._pose_publisher = self.publisher(PoseStamped, 'ghost/pose', COMMAND)
+        self._path = self.publisher(Path, 'ghost/path', LATCHED)
+        self._report = self.publisher(String, 'ghost/report', LATCHED)
+        self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
+        self.listen(Path, 'path', self._on_path, COMMAND)
+        self.listen(Vector3Stamped, 'arc', self._on_arc, COMMAND)
+        self.serve(SetBool, '~/lock', self._on_lock)
+        self.serve(Trigger, '~/abort', self._on_abort)
+
+    def begin(self) -> None:
+        """Say that a goal may come."""
+        self.tell(WORDS[Following.IDLE])
+
+    def halt(self) -> None:
+        """Forget the goal and send the last word: no motion."""
+        self._follower.stop()
+        super().halt()
+
+    def accept(self, parameters: GhostTrajectoryParameters) -> None:
+        """Take over other gains at once; speeds and ramps count from the next goal on."""
+        self._follower.retune(parameters.follow)
+
+    def diagnose(self) -> Diagnosis:
+        """Tell what the robot does, and how far it is from its Ghost."""
+        follower = self._follower
+        along, across, heading = follower.error
+        values = {
+            'along [m]': f'{along:.4f}', 'across [m]': f'{across:.4f}',
+            'heading [rad]': f'{heading:.4f}',
+            'Ghost': f'{follower.ghost.time:.1f} s of {follower.ghost.trajectory.duration:.1f} s',
+            'locked': str(follower.ghost.locked), 'rotating': str(follower.ghost.rotating),
+            'backward': str(follower.ghost.backward), 'finished': str(follower.ghost.finished),
+        }  # fmt: skip
+        if follower.state is Following.LOST:
+            return Diagnosis(ERROR, self.told, values)
+        blind = bool(self.lost) and not follower.at_rest
+        waits = follower.state is Following.WAITING
+        return Diagnosis(WARN if blind or waits else OK, self.told, values)
+
+    def cycle(self, dt: float) -> None:
+        """Command the robot to stay with its Ghost, or not at all."""
+        follower = self._follower
+        if follower.at_rest:
+            self.leave(dt)
+        elif self.lost or self.pose is None:
+            follower.halt()
+            self._command_twist(REST)
+            self.tell(f'stopped: {self.lost}')
+            return
+        else:
+            step = min(dt, LONGEST_STEP / self.parameters.rate)
+            self._command_twist(follower.step(step, self._pose_now(self.pose)))
+            self._show_ghost()
+        self.tell(self._words())
+
+    def _command_twist(self, twist: Twist) -> None:
+        self._twist = twist
+        self.drive(twist)
+
+    def _pose_now(self, pose: Pose) -> Pose:
+        """Return ``pose`` carried on to now by what was commanded since it was measured."""
+        age = self.seconds() - self.pose_time
+        return integrate(pose, self._twist, age) if 0.0 < age < OLDEST_POSE else pose
+
+    def _words(self) -> str:
+        follower = self._follower
+        if follower.state is Following.LOST:
+            limit = self.parameters.follow.leash.lost_beyond
+            return f'lost: {follower.separation:.2f} m from the Ghost, limit {limit:g} m'
+        if follower.state is Following.DRIVING:
+            ghost = follower.ghost
+            return 'turning' if ghost.rotating else 'backing' if ghost.backward else 'driving'
+        return WORDS[follower.state]
+
+    def _show_ghost(self) -> None:
+        self.stamp(self._ghost_pose)
+        fill_pose(self._ghost_pose.pose, self._follower.ghost.pose)
+        self._pose_publisher.publish(self._ghost_pose)
+
+    # Goals
+
+    def _on_goal(self, message: PoseStamped) -> None:
+        self.require_frame(message.header.frame_id)
+        self._go([pose_of(message.pose)])
+
+    def _on_path(self, message: Path) -> None:
+        self.require_frame(message.header.frame_id)
+        for stamped in message.poses:
+            self.require_frame(stamped.header.frame_id)
+        self._go([pose_of(stamped.pose) for stamped in message.poses])
+
+    def _go(self, goals: list[Pose]) -> None:
+        given = self.parameters
+        shape = given.delta_curve, given.speed_ramps, given.cruising_speed
+        self._depart(lambda ghost: ghost.compute_path(goals, *shape, backward=given.backward))
+
+    def _on_arc(self, message: Vector3Stamped) -> None:
+        """Drive an arc: x is its angle [rad], y its inner diameter [m], z the speed [m/s]."""
+        angle, diameter, speed = message.vector.x, message.vector.y, message.vector.z
+        ramps = self.parameters.speed_ramps
+        self._depart(lambda ghost: ghost.compute_arc(angle, diameter, ramps, speed))
+
+    def _depart(self, plan: Callable[[Ghost], Trajectory]) -> None:
+        if self.lost or self.pose is None:
+            msg = f'{self.lost}: where the robot is must be known before it can go anywhere'
+            raise SignalError(msg)
+        follower = self._follower
+        if self.parameters.lock_goals:
+            follower.hold(True)  # noqa: FBT003 - the name says what the flag is
+        trajectory = follower.depart(self._pose_now(self.pose), plan)
+        lines = follower.ghost.report().lines()
+        self._report.publish(String(data='\n'.join(lines)))
+        self.get_logger().info('; '.join(lines))
+        self._show_path(trajectory)
+        self.tell(self._words())
+
+    def _show_path(self, trajectory: Trajectory) -> None:
+        message = Path()
+        self.stamp(message)
+        message.header.frame_id = self.parameters.frame
+        for pose in trajectory.polyline(DRAWN):
+            stamped = PoseStamped(header=message.header)
+            fill_pose(stamped.pose, pose)
+            message.poses.append(stamped)
+        self._path.publish(message)
+
+    # Services
+
+    def _on_lock(self, request: Any) -> str:
+        self._follower.hold(request.data)
+        return 'the Ghost comes to a halt' if request.data else 'the Ghost is free to go'
+
+    def _on_abort(self, _: Any) -> str:
+        if self._follower.at_rest:
+            msg = f'nothing to abort: {self.told}'
+            raise SignalError(msg)
+        self._follower.abort()
+        return 'braking'
+
+
+def main() -> None:
+    """Run the node."""
+    run(GhostTrajectory)
+
+
+if __name__ == '__main__':
+    main()
