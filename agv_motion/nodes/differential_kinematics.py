@@ -1,0 +1,75 @@
+"""Node `differential_kinematics`: twist in, rates of two wheels out; encoders in, odometry out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.errors import SignalError
+from agv_motion.motion.watchdog import Silence
+from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
+from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
+from agv_motion.odometry.base import DifferentialBase
+from agv_motion.odometry.wheel_odometry import WheelOdometry
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
+from agv_motion.ros.run import run
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.odometry.encoders import Step
+    from agv_motion.planar import Twist
+
+
+@dataclass(frozen=True)
+class DifferentialKinematicsParameters(WheelsParameters, DifferentialBaseParameters):
+    """The base, its limits, what makes it stop, and how far its encoders are trusted."""
+
+
+class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
+    """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('differential_kinematics', DifferentialKinematicsParameters, **kwargs)
+
+    def open(self) -> None:
+        """Build the kinematics and the odometry, and open the topics."""
+        given = self.parameters
+        self._wheels = given.drive()
+        base = DifferentialBase(self._wheels.track)
+        self._odometry = WheelOdometry(base, given.wheel_radii, given.odometry)
+        self.open_wheels(given.joint_names, self._odometry)
+
+    def diagnose(self) -> Diagnosis:
+        """Tell of a stop and of silence."""
+        silence, stopped = self.silence(), self.why_stopped()
+        values = {'cmd_vel': silence.value, 'odometry': self.last_step.value}
+        if stopped:
+            return Diagnosis(ERROR, stopped, values)
+        if silence is not Silence.FRESH:
+            return Diagnosis(WARN, f'cmd_vel is {silence.value}', values)
+        return Diagnosis(OK, 'driving', values)
+
+    def rates(self, twist: Twist) -> Sequence[float]:
+        """Return the rates of the wheels [rad/s], left and right."""
+        speeds = self._wheels.command(twist, self.parameters.max_wheel_speed).speed
+        return self._wheels.rates(speeds)
+
+    def carry(self, stamp: float, angles: Sequence[float | None]) -> Step:
+        """Carry the odometry on; it needs both wheels."""
+        known = [angle for angle in angles if angle is not None]
+        if len(known) < len(angles):
+            lost = self.joints.names[list(angles).index(None)]
+            msg = f'{lost} is missing: the odometry of two wheels needs both'
+            raise SignalError(msg)
+        return self._odometry.update(stamp, known)
+
+
+def main() -> None:
+    """Run the node."""
+    run(DifferentialKinematics)
+
+
+if __name__ == '__main__':
+    main()

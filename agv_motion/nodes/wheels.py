@@ -1,0 +1,209 @@
+"""What nodes share that drive fixed wheels: `cmd_vel` and encoders in, motors and `odom` out.
+
+Silence of `cmd_vel`, silence of the encoders once they have spoken, `~/stop` and the end of the
+node all end in an explicit zero.
+"""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from nav_msgs.srv import SetMap
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import SignalError
+from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
+from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.parameters import OdometryParameters
+from agv_motion.odometry.rate_encoder import RateEncoder
+from agv_motion.parameters import Spec
+from agv_motion.planar import REST, Twist
+from agv_motion.ros.covariances import covariance_of, fill_covariance
+from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, seconds_of, twist_of
+from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.wheel_joints import WheelJoints
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.odometry.wheel_odometry import WheelOdometry
+
+
+@dataclass(frozen=True)
+class WheelsParameters:
+    """The limits of the wheels, what makes them stop, and how far their encoders are trusted."""
+
+    max_wheel_speed: Annotated[
+        float, Spec('limit of every rim; above it the whole twist is scaled', 'm/s', (1e-4, 50.0))
+    ] = 1.0
+    report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 0.3
+    stop_after: Annotated[
+        float, Spec('silence of cmd_vel, or of wheels/state, to stop', 's', (0.01, 3600))
+    ] = 0.5
+    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    base_frame: Annotated[str, Spec('frame of the twist and of the wheels')] = 'base_link'
+    odom_frame: Annotated[str, Spec('frame in which the wheels carry the base')] = 'odom'
+    odometry: OdometryParameters = field(default_factory=OdometryParameters)
+
+
+P = TypeVar('P', bound=WheelsParameters)
+
+
+class WheelsNode(ManagedNode[P]):
+    """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`.
+
+    A node opens with `open_wheels`, and overrides `rates` and `carry`.
+    """
+
+    # What a node overrides
+
+    def rates(self, twist: Twist) -> Sequence[float]:
+        """Return the rate of each wheel [rad/s] for ``twist``, within the limit of the wheels."""
+        raise NotImplementedError
+
+    def carry(self, stamp: float, angles: Sequence[float | None]) -> Step:
+        """Carry the odometry on to ``angles`` [rad], None where a wheel tells nothing."""
+        raise NotImplementedError
+
+    def tell_more(self, stamp: Any) -> None:
+        """Publish what there is beside the odometry."""
+
+    # What a node uses
+
+    def open_wheels(self, joint_names: Sequence[str], reckoning: WheelOdometry) -> None:
+        """Open the topics and services of wheels with these names, whose odometry this is."""
+        given = self.parameters
+        self.joints = WheelJoints(joint_names)
+        self.stopped = self.blind = False
+        self.last_step = Step.FIRST
+        self._reckoning = reckoning
+        self._rate_encoder = RateEncoder(len(joint_names))
+        self._watchdog = Watchdog(given.report_after, given.stop_after)
+        self._state_watchdog = Watchdog(given.report_after, given.stop_after)
+        self._extras_wanted = False
+        self._command = self.publisher(JointState, 'wheels/command', COMMAND)
+        self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
+        self._odom = self.publisher(Odometry, 'odom', SENSOR)
+        if given.stamped:
+            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND)
+        else:
+            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND)
+        self.listen(JointState, 'wheels/state', self._on_state, SENSOR)
+        self.serve(SetBool, '~/stop', self._on_stop)
+        self.serve(SetMap, '~/set_odometry', self._on_set_odometry)
+        self.every(min(0.1, given.stop_after / 4.0), self._watch)
+
+    def halt(self) -> None:
+        """Send the last word: no wheel turns."""
+        self._send(REST, self.get_clock().now().to_msg())
+
+    def silence(self) -> Silence:
+        """Return how silent `cmd_vel` is."""
+        return self._watchdog.judge(self.seconds())
+
+    def why_stopped(self) -> str:
+        """Return why the wheels are held; empty if they are not."""
+        if self.stopped:
+            return 'stopped: by request'
+        return 'stopped: wheels/state is lost' if self.blind else ''
+
+    # cmd_vel -> wheels/command
+
+    def _on_stamped_twist(self, message: TwistStamped) -> None:
+        self._drive(twist_of(message.twist), message.header.stamp)
+
+    def _on_twist(self, message: TwistMessage) -> None:
+        self._drive(twist_of(message), self.get_clock().now().to_msg())
+
+    def _drive(self, twist: Twist, stamp: Any) -> None:
+        self._send(REST if self.stopped or self.blind else twist, stamp)
+        self._watchdog.feed()
+
+    def _send(self, twist: Twist, stamp: Any) -> None:
+        """Command the wheels; the plain array only where someone listens."""
+        rates = self.rates(twist)
+        message = self.joints.message(rates)
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
+        self._command.publish(message)
+        if self._extras_wanted:
+            self._rates.publish(Float64MultiArray(data=array('d', rates)))
+
+    def _watch(self) -> None:
+        """Stop when `cmd_vel` falls silent, or encoders that have spoken do."""
+        now = self.seconds()
+        self._extras_wanted = bool(self._rates.get_subscription_count())
+        silence = self._watchdog.judge(now)
+        eyes = self._state_watchdog.judge(now)
+        self.blind = eyes is Silence.LOST and self._state_watchdog.age(now) is not None
+        if self.blind:
+            self.get_logger().error(
+                f'no wheels/state for {self._state_watchdog.age(now):.1f} s: stopped; '
+                'look at the encoders', throttle_duration_sec=5.0,
+            )  # fmt: skip
+        elif silence is not Silence.FRESH and self._watchdog.age(now) is not None:
+            told = 'stopped' if silence is Silence.LOST else 'still driving'
+            self.get_logger().warning(
+                f'no cmd_vel for {self._watchdog.age(now):.1f} s: {told}',
+                throttle_duration_sec=5.0,
+            )
+        if self.blind or silence is Silence.LOST:
+            self._send(REST, self.get_clock().now().to_msg())
+
+    def _on_stop(self, request: Any) -> str:
+        self.stopped = request.data
+        if request.data:
+            self._send(REST, self.get_clock().now().to_msg())
+            return 'stopped; call again with data: false to drive on'
+        return 'free to drive'
+
+    # wheels/state -> odom
+
+    def _on_state(self, message: JointState) -> None:
+        """Carry the odometry on with angles, or rates where there are none, and tell of it."""
+        state, stamp = self.joints.read(message), seconds_of(message.header.stamp)
+        angles = state.angles or self._rate_encoder.add(stamp, state.rates)
+        self.last_step = self.carry(stamp, angles)
+        if self.last_step is Step.DUPLICATE or self.last_step is Step.LATE:
+            return
+        self._state_watchdog.feed()
+        if self.last_step is Step.RESET:
+            self.get_logger().warning(
+                f'{Step.RESET.value}; odometry goes on from where it was, less sure',
+                throttle_duration_sec=1.0,
+            )
+        self._publish_odometry(message.header.stamp)
+        self.tell_more(message.header.stamp)
+
+    def _publish_odometry(self, stamp: Any) -> None:
+        given, reckoning = self.parameters, self._reckoning
+        message = Odometry(child_frame_id=given.base_frame)
+        message.header.stamp, message.header.frame_id = stamp, given.odom_frame
+        fill_pose(message.pose.pose, reckoning.pose)
+        fill_twist(message.twist.twist, reckoning.twist)
+        fill_covariance(message.pose.covariance, reckoning.covariance())
+        fill_covariance(message.twist.covariance, reckoning.twist_covariance())
+        self._odom.publish(message)
+
+    def _on_set_odometry(self, request: Any) -> str:
+        """Go on from the pose of the request; its map is not looked at."""
+        given, asked = self.parameters, request.initial_pose
+        if asked.header.frame_id not in {'', given.odom_frame}:
+            msg = f"frame '{asked.header.frame_id}': expected '{given.odom_frame}'"
+            raise SignalError(msg)
+        pose, covariance = pose_of(asked.pose.pose), covariance_of(asked.pose.covariance)
+        if covariance != CERTAIN and not is_positive_definite(covariance):
+            msg = (
+                f'covariance {tuple(covariance)} (xx, xy, xt, yy, yt, tt) is not positive definite'
+            )
+            raise SignalError(msg)
+        self._reckoning.set_odometry(pose, covariance)
+        return f'odometry goes on from ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad)'

@@ -1,0 +1,149 @@
+"""Node `differential_kinematics` over a real graph: wheels, odometry, and every way to stop."""
+
+from __future__ import annotations
+
+from math import nan, pi
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from nav_msgs.srv import SetMap
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.differential_kinematics import DifferentialKinematics
+from agv_motion.ros.qos import SENSOR
+
+BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0}
+NAMES = ['left_wheel', 'right_wheel']
+
+
+class Robot:
+    """The node, its outputs, and hands to move its wheels."""
+
+    def __init__(self, tester, **parameters):
+        self.tester = tester
+        self.commands = tester.listen(JointState, 'wheels/command')
+        self.odometry = tester.listen(Odometry, 'odom', SENSOR)
+        self.node = tester.start(DifferentialKinematics, **(BASE | parameters))
+        self.cmd_vel = tester.publisher(TwistStamped, 'cmd_vel')
+        self.encoders = tester.publisher(JointState, 'wheels/state', SENSOR)
+
+    def send(self, vx=0.0, vy=0.0, wz=0.0):
+        message = TwistStamped()
+        message.header.stamp.sec = 42
+        message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = vx, vy, wz
+        self.commands.clear()
+        self.cmd_vel.publish(message)
+
+    def drive(self, **components):
+        self.send(**components)
+        return self.tester.wait(self.commands, lambda m: m.header.stamp.sec == 42)
+
+    def tell(self, angles, stamp, names=NAMES):
+        message = JointState(name=names, position=angles)
+        message.header.stamp.sec, rest = divmod(round(stamp * 1e9), 1_000_000_000)
+        message.header.stamp.nanosec = rest
+        self.odometry.clear()
+        self.encoders.publish(message)
+
+
+def test_a_twist_becomes_the_rates_of_both_wheels(tester):
+    """0.5 m/s and 1 rad/s, track 0.4 m: 0.3 and 0.7 m/s; radii 5 and 4 cm: 6 and 17.5 rad/s."""
+    command = Robot(tester).drive(vx=0.5, wz=1.0)
+    assert list(command.name) == NAMES
+    assert list(command.velocity) == pytest.approx([6.0, 17.5])
+    assert command.header.frame_id == 'base_link'
+
+
+def test_beyond_the_limit_the_arc_stays(tester):
+    command = Robot(tester, max_wheel_speed=0.35).drive(vx=0.5, wz=1.0)
+    assert list(command.velocity) == pytest.approx([3.0, 8.75])
+
+
+def test_a_quarter_circle_is_told_exactly(tester):
+    """0.5 m and 0.9 m about the left: the middle goes a quarter round 0.7 m."""
+    robot = Robot(tester)
+    robot.tell([0.0, 0.0], 1.0)
+    tester.wait(robot.odometry)
+    robot.tell([0.5 * pi / 2 / 0.05, 0.9 * pi / 2 / 0.04], 1.4)
+    told = tester.wait(robot.odometry)
+    assert told.pose.pose.position.x == pytest.approx(0.7)
+    assert told.pose.pose.position.y == pytest.approx(0.7)
+    assert told.twist.twist.angular.z == pytest.approx(pi / 2 / 0.4)
+    assert told.pose.covariance[0] > 0.0
+    assert told.pose.covariance[35] > 0.0
+
+
+@pytest.mark.parametrize(
+    ('twist', 'word'), [({'vx': nan}, 'must be finite'), ({'vy': 0.2}, 'cannot go sideways')]
+)
+def test_what_it_cannot_do_is_refused_and_is_no_sign_of_life(tester, twist, word):
+    robot = Robot(tester, report_after=0.1, stop_after=0.2)
+    assert any(robot.drive(vx=0.3).velocity)
+    for _ in range(5):
+        robot.send(**twist)
+        tester.graph.spin_for(0.1)
+    assert word in robot.node.complaint
+    assert list(robot.commands[-1].velocity) == [0.0, 0.0]
+
+
+def test_silence_stop_and_the_end_are_explicit_zeros(tester):
+    robot = Robot(tester, report_after=0.1, stop_after=0.2)
+    assert any(robot.drive(vx=0.3).velocity)
+    robot.commands.clear()
+    tester.wait(robot.commands, lambda m: not any(m.velocity))
+    ask = lambda data: tester.ask(  # noqa: E731
+        SetBool, 'differential_kinematics/stop', SetBool.Request(data=data)
+    )
+    assert ask(data=True).success
+    assert not any(robot.drive(vx=0.3).velocity)
+    assert 'by request' in robot.node.diagnose().message
+    assert ask(data=False).success
+    assert any(robot.drive(vx=0.3).velocity)
+    robot.commands.clear()
+    robot.node.trigger_deactivate()
+    tester.graph.spin_for(0.1)
+    assert list(robot.commands[-1].velocity) == [0.0, 0.0]
+
+
+def test_encoders_that_fall_silent_stop_the_robot(tester):
+    robot = Robot(tester, report_after=0.1, stop_after=0.2)
+    robot.tell([0.0, 0.0], 1.0)
+    tester.wait(robot.odometry)
+    for _ in range(4):
+        robot.send(vx=0.3)
+        tester.graph.spin_for(0.1)
+    assert list(robot.commands[-1].velocity) == [0.0, 0.0]
+    assert 'wheels/state is lost' in robot.node.diagnose().message
+
+
+def test_one_encoder_alone_is_refused(tester):
+    robot = Robot(tester)
+    robot.tell([0.0], 1.0, names=['left_wheel'])
+    tester.graph.spin_until(lambda: 'right_wheel is missing' in robot.node.complaint)
+
+
+def test_set_odometry_goes_on_from_there(tester):
+    robot = Robot(tester)
+    robot.tell([0.0, 0.0], 1.0)
+    tester.wait(robot.odometry)
+    request = SetMap.Request()
+    request.initial_pose.pose.pose.position.x = 5.0
+    request.initial_pose.pose.pose.orientation.w = 1.0
+    assert tester.ask(SetMap, 'differential_kinematics/set_odometry', request).success
+    robot.tell([2.0, 2.5], 1.1)
+    assert tester.wait(robot.odometry).pose.pose.position.x == pytest.approx(5.1)
+
+
+@pytest.mark.parametrize(
+    ('change', 'word'),
+    [({'wheel_radii': [0.05]}, 'give two'), ({'joint_names': ['a', 'a']}, 'the same name')],
+)
+def test_a_base_that_cannot_be_is_refused(tester, change, word):
+    with pytest.raises(ConfigurationError, match=word):
+        tester.start(DifferentialKinematics, **(BASE | change))
