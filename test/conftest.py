@@ -75,3 +75,116 @@ def spruce():
             return Path(folder) / SPRUCE
     pytest.skip(f'{SPRUCE} is not here: set AGV_MOTION_DATA to its folder')
     return None
+
+
+class DrivenRobot:
+    """An ideal robot on the graph: each `cmd_vel` moves it by one step, and it tells its `odom`.
+
+    As fast as the node under test commands; see `RealTimeRobot` for nodes that look at the clock.
+    """
+
+    def __init__(self, graph, step=0.1):
+        """Stand at the origin and listen; `find` it when the node is there."""
+        import rclpy
+        from geometry_msgs.msg import TwistStamped
+
+        from agv_motion.planar import REST, Pose
+
+        self.graph = graph
+        self.node = graph.add(rclpy.create_node('robot', context=graph.context))
+        self.pose = Pose(0.0, 0.0, 0.0)
+        self.twist = REST
+        self.commands = []
+        self.silent = False
+        self._step = step
+        self.node.create_subscription(TwistStamped, 'cmd_vel', self._on_command, 50)
+
+    def find(self):
+        """Wait until the node listens, and say where the robot is."""
+        from nav_msgs.msg import Odometry
+
+        from agv_motion.ros.qos import SENSOR
+
+        self.odometry = self.node.create_publisher(Odometry, 'odom', SENSOR)
+        self.graph.spin_until(lambda: self.odometry.get_subscription_count() >= 1)
+        self.report()
+
+    def report(self, frame='odom'):
+        """Tell where the robot is."""
+        from nav_msgs.msg import Odometry
+
+        from agv_motion.ros.messages import fill_pose
+
+        message = Odometry()
+        message.header.frame_id = frame
+        message.header.stamp = self.node.get_clock().now().to_msg()
+        fill_pose(message.pose.pose, self.pose)
+        self.odometry.publish(message)
+
+    def moves(self):
+        """Wait for a command that is not zero."""
+        self.commands.clear()
+        self.graph.spin_until(lambda: any(map(any, self.commands)))
+
+    def stands(self):
+        """Wait for an explicit zero, and no other command after it."""
+        self.commands.clear()
+        self.graph.spin_until(lambda: self.commands and not any(self.commands[-1]))
+
+    def _on_command(self, message):
+        self._take(message)
+        self._carry(self._step)
+        if not self.silent:
+            self.report()
+
+    def _take(self, message):
+        from agv_motion.planar import Twist
+
+        twist = message.twist
+        self.twist = Twist(twist.linear.x, twist.linear.y, twist.angular.z)
+        self.commands.append(self.twist)
+
+    def _carry(self, seconds):
+        from agv_motion.planar import integrate
+
+        self.pose = integrate(self.pose, self.twist, seconds)
+
+
+class RealTimeRobot(DrivenRobot):
+    """The same, but it moves as time passes."""
+
+    def __init__(self, graph):
+        super().__init__(graph)
+        self.stuck = False
+        self._last = time.monotonic()
+
+    def find(self):
+        super().find()
+        self.node.create_timer(0.02, self._on_timer)
+
+    def _on_command(self, message):
+        self._pass()
+        self._take(message)
+
+    def _on_timer(self):
+        self._pass()
+        if not self.silent:
+            self.report()
+
+    def _pass(self):
+        now = time.monotonic()
+        if not self.stuck:
+            self._carry(now - self._last)
+        self._last = now
+
+
+@pytest.fixture
+def driven_robot(graph):
+    """Return what makes a robot that moves with each command."""
+    return lambda: DrivenRobot(graph)
+
+
+@pytest.fixture
+def real_time_robot(graph):
+    """Return what makes a robot that moves as time passes."""
+    return lambda: RealTimeRobot(graph)

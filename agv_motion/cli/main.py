@@ -7,7 +7,9 @@ import sys
 
 import typer
 
-from agv_motion.cli import demo, doctor, nodes, parameters, record, replay, route, topic
+from agv_motion.cli import (
+    demo, doctor, nodes, parameters, record, replay, route, sequence, topic,
+)  # fmt: skip
 from agv_motion.errors import AgvMotionError
 
 app = typer.Typer(
@@ -25,6 +27,9 @@ app.command(
 )(nodes.run)
 app.command()(parameters.parameters)
 app.command()(route.route)
+app.command(
+    context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
+)(sequence.sequence)
 app.command()(demo.demo)
 app.command()(record.record)
 app.command()(replay.replay)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import isinf, radians
+from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.cli.pose_text import parse_pose
 from agv_motion.planar import Pose
 
 if TYPE_CHECKING:
@@ -85,12 +85,7 @@ def _start(text: str, found: Route) -> Pose:
     first = found.segments[0]
     if not text:
         return Pose(*first.start, atan2(first.uy, first.ux))
-    try:
-        x, y, degrees = map(float, text.split(','))
-    except ValueError as error:
-        msg = f'--start {text}: give X,Y,DEGREES, such as 0,0.5,90'
-        raise ConfigurationError(msg) from error
-    return Pose(x, y, radians(degrees))
+    return parse_pose('--start', text)
 
 
 def _unfinished(found: Route, run: Prediction) -> str:

@@ -180,6 +180,24 @@ class Ghost:
         arc = Arc(angle, diameter, self._planner.parameters.track, cruising_speed, speed_ramps)
         return self._depart(lambda start, present: self._planner.arc(start, arc, present))
 
+    def compute_turn(self, angle: float, speed_ramps: float, cruising_speed: float) -> Trajectory:
+        """Turn on the spot by ``angle`` [rad], of any size, left positive.
+
+        Args:
+            angle: How far to turn.
+            speed_ramps: [rad/s2]
+            cruising_speed: [rad/s]
+
+        Raises:
+            SignalError: ``angle`` is not finite.
+            ConfigurationError: A speed or ramp is not positive.
+
+        """
+        request = Request(speed_ramps, cruising_speed)
+        return self._depart(
+            lambda start, present: self._planner.turn(start, angle, request, present)
+        )
+
     def report(self) -> Feasibility:
         """Return what the trajectory asks of the robot, before it moves."""
         return examine(self._trajectory)

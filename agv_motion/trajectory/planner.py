@@ -55,6 +55,21 @@ class Planner:
         turns = self._turn(start, end, request, present)
         return self._trajectory(start, end, turns, request, present)
 
+    def turn(
+        self, start: Pose, angle: float, request: Request, present: Speeds = STILL
+    ) -> Trajectory:
+        """Return the turn on the spot by ``angle`` [rad], of any size, left positive.
+
+        Raises:
+            SignalError: A number is not finite.
+            GeometryError: The present motion cannot go over into this turn.
+
+        """
+        require_finite('turn (start, angle)', (*start, angle))
+        end = start._replace(theta=wrap(start.theta + angle))
+        turns = self._spin(start, end, angle, request, present)
+        return self._trajectory(start, end, turns, request, present)
+
     def arc(self, start: Pose, arc: Arc, present: Speeds = STILL) -> Trajectory:
         """Return the drive along ``arc`` from ``start``, within the limits of the robot.
 
@@ -158,13 +173,18 @@ class Planner:
         return Drive(course, ends, profile, request.speed_ramps, backward=request.backward)
 
     def _turn(self, start: Pose, end: Pose, request: Request, present: Speeds) -> list[Motion]:
-        """Return the turn on the spot; none where the robot looks there already.
+        """Return the turn on the spot, the shorter way round, as :meth:`_spin`."""
+        return self._spin(start, end, wrap(end.theta - start.theta), request, present)
+
+    def _spin(
+        self, start: Pose, end: Pose, angle: float, request: Request, present: Speeds
+    ) -> list[Motion]:
+        """Return the turn on the spot by ``angle``; none where there is nothing to turn.
 
         Raises:
             GeometryError: The robot drives, or turns the other way, or too fast.
 
         """
-        angle = wrap(end.theta - start.theta)
         if abs(angle) <= NOTHING:
             return []
         sign = copysign(1.0, angle)

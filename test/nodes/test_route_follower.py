@@ -18,7 +18,6 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.nodes.route_follower import RouteFollowerNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import StartError
-from test.nodes.driven_robot import DrivenRobot
 
 FAST = {'rate': 100.0, 'follow__speed_coupling_ms': 0.0, 'follow__turn_coupling_ms': 0.0}
 
@@ -26,10 +25,10 @@ FAST = {'rate': 100.0, 'follow__speed_coupling_ms': 0.0, 'follow__turn_coupling_
 class Course:
     """A robot, the node that drives it, and its route."""
 
-    def __init__(self, tester, *, remap=(), **parameters):
+    def __init__(self, tester, robot, *, remap=(), **parameters):
         self.tester = tester
         self.states = tester.listen(String, 'state', LATCHED)
-        self.robot = DrivenRobot(tester)
+        self.robot = robot
         self.node = tester.start(RouteFollowerNode, remap=remap, **(FAST | parameters))
         self.route = tester.publisher(Path, 'route')
 
@@ -52,8 +51,13 @@ class Course:
 
 
 @pytest.fixture
-def course(tester):
-    found = Course(tester)
+def start(tester, driven_robot):
+    return lambda **parameters: Course(tester, driven_robot(), **parameters)
+
+
+@pytest.fixture
+def course(start):
+    found = start()
     found.robot.find()
     return found
 
@@ -81,18 +85,18 @@ def test_virtual_point_path_and_limiter_are_told(course):
     assert {'to_go', 'v_dphi', 'limiter'} <= {pair.key for pair in told.values}
 
 
-def test_a_route_and_its_laps_from_a_file(tester, tmp_path):
+def test_a_route_and_its_laps_from_a_file(start, tmp_path):
     path = tmp_path / 'square.yaml'
     path.write_text('waypoints: [[0, 0], [1.5, 0], [1.5, 1.5], [0, 1.5]]\nlaps: 2')
-    course = Course(tester, route_file=str(path))
+    course = start(route_file=str(path))
     course.says('stopped: no odom yet')
     course.robot.find()
     course.says('segment 3 of 4, lap 2 of 2')
     course.says('arrived')
 
 
-def test_silence_of_odom_is_an_explicit_stop(tester):
-    course = Course(tester, report_after=0.1, stop_after=0.3)
+def test_silence_of_odom_is_an_explicit_stop(start):
+    course = start(report_after=0.1, stop_after=0.3)
     course.robot.find()
     course.send((0, 0), (30, 0))
     course.robot.moves()
@@ -166,10 +170,11 @@ def test_odometry_in_another_frame_is_refused(course):
     course.tester.graph.spin_until(lambda: "frame 'map'" in course.node.complaint)
 
 
-def test_the_pose_of_a_localisation_drives_it_as_well(tester):
+def test_the_pose_of_a_localisation_drives_it_as_well(start, tester):
     """With position = pose, and the topic remapped."""
     remap = ['pose:=localised']
-    course = Course(tester, remap=remap, position='pose', frame='map')
+    course = start(remap=remap, position='pose', frame='map')
+    course.robot.silent = True
     pose = tester.publisher(PoseWithCovarianceStamped, 'localised', SENSOR)
     course.send((0, 0), (5, 0), frame='map')
     message = PoseWithCovarianceStamped()

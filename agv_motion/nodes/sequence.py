@@ -1,0 +1,238 @@
+"""Node `sequence`: actions from a file and the pose in, the twist that performs them out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from nav_msgs.msg import Path
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
+
+from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
+from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.parameters import Spec
+from agv_motion.ros.config import find_config
+from agv_motion.ros.messages import fill_path
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
+from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.run import run
+from agv_motion.route.parameters import FollowParameters
+from agv_motion.sequence.prediction import predict
+from agv_motion.sequence.runner import Running, SequenceRunner
+from agv_motion.sequence.sequence_file import load_sequence
+from agv_motion.trajectory.follower_parameters import FollowerParameters
+
+if TYPE_CHECKING:
+    from agv_motion.sequence.prediction import Predicted
+
+LONGEST_STEP = 5
+"""Cycles that pass at once at most: nothing runs away from a node that slept."""
+
+TOLD_EVERY = 0.2
+"""[s] between two words on progress."""
+
+
+@dataclass(frozen=True)
+class SequenceParameters(DrivingParameters):
+    """Which sequence, and how the robot follows Ghosts and routes."""
+
+    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 50.0
+    file: Annotated[
+        str, Spec('the sequence: a path, or a file of config/; read at each start', dynamic=True)
+    ] = ''
+    autorun: Annotated[bool, Spec('start it as soon as the pose is known')] = False
+    tracking: FollowerParameters = field(default_factory=FollowerParameters)
+    follow: FollowParameters = field(default_factory=FollowParameters)
+
+
+class SequenceNode(DrivingNode[SequenceParameters]):
+    """`odom` -> `cmd_vel`, `sequence/status`, `sequence/progress`, `sequence/path`, `state`.
+
+    Pause, abort, time-outs, failures, silence of the pose and every end are explicit zeros.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Declare the parameters."""
+        super().__init__('sequence', SequenceParameters, **kwargs)
+
+    def open(self) -> None:
+        """Open the topics; look at the file, if there is one."""
+        super().open()
+        self.runner: SequenceRunner | None = None
+        """What is running, or has run"""
+        self.predicted: list[Predicted] = []
+        """What it was to take"""
+        self.refusal = ''
+        """Why it did not start by itself"""
+        self._armed = self.parameters.autorun
+        self._untold = 0.0
+        self._status = self.publisher(DiagnosticStatus, 'sequence/status', LATCHED)
+        self._progress = self.publisher(Float64, 'sequence/progress', SENSOR)
+        self._path = self.publisher(Path, 'sequence/path', LATCHED)
+        self.serve(Trigger, '~/start', self._on_start)
+        self.serve(SetBool, '~/pause', self._on_pause)
+        self.serve(Trigger, '~/abort', self._on_abort)
+        if self.parameters.file:
+            load_sequence(find_config(self.parameters.file))
+        elif self._armed:
+            msg = 'autorun without a file: give the parameter file'
+            raise ConfigurationError(msg)
+
+    def begin(self) -> None:
+        """Say that a start may come."""
+        self.tell('waiting for ~/start')
+
+    def halt(self) -> None:
+        """Forget the sequence, and send the last word: no motion."""
+        self.runner = None
+        super().halt()
+
+    def accept(self, parameters: SequenceParameters) -> None:
+        """Look at another file; it counts from the next start on."""
+        if parameters.file and parameters.file != self.parameters.file:
+            load_sequence(find_config(parameters.file))
+
+    def diagnose(self) -> Diagnosis:
+        """Tell what it does, and why it failed."""
+        failed = self.runner is not None and self.runner.status.state is Running.FAILED
+        blind = bool(self.lost) and self.runner is not None and not self.runner.ended
+        return Diagnosis(ERROR if failed else WARN if blind else OK, self.told, {})
+
+    def cycle(self, dt: float) -> None:
+        """Command one step of the sequence, or none."""
+        if self._armed and not self.lost:
+            self._armed = False
+            self._start_by_itself()
+        runner = self.runner
+        if runner is None or runner.ended:
+            self.leave(dt)
+            return
+        step = min(dt, LONGEST_STEP / self.parameters.rate)
+        number = runner.status.number
+        reason = runner.status.reason
+        self.drive(runner.update(None if self.lost else self.pose, step))
+        if runner.status.reason != reason:
+            self.get_logger().error(runner.status.reason)
+        self.tell(self._words(runner))
+        self._untold += dt
+        if runner.ended or runner.status.number != number or self._untold >= TOLD_EVERY:
+            self._report(runner)
+        if runner.ended:
+            self.stand()
+            self.get_logger().info(self.told)
+
+    def _start_by_itself(self) -> None:
+        try:
+            self.get_logger().info(self._on_start(None))
+        except AgvMotionError as error:
+            self.refusal = str(error)
+            self.get_logger().error(f'cannot start: {error}')
+            self.tell(f'cannot start: {error}')
+
+    def share_done(self) -> float:
+        """Return how much of the sequence is behind, in [0, 1], by the times predicted."""
+        if self.runner is None or not self.predicted:
+            return 0.0
+        status = self.runner.status
+        if status.state is Running.DONE:
+            return 1.0
+        present = self.predicted[status.number]
+        total = sum(each.duration for each in self.predicted)
+        behind = present.begin + status.progress * present.duration
+        return behind / total if total > 0.0 else 0.0
+
+    def _words(self, runner: SequenceRunner) -> str:
+        status, count = runner.status, len(runner.sequence.steps)
+        where = f'{status.number + 1} of {count}: {runner.step.name}'
+        if status.state is Running.RUNNING:
+            again = f', attempt {status.attempt}' if status.attempt > 1 else ''
+            return f'{where}{again}'
+        if status.state is Running.BLIND:
+            return f'stopped: {self.lost} ({where})'
+        if status.state is Running.FAILED:
+            return f'failed: {status.reason}'
+        return status.state.value if runner.ended else f'{status.state.value}, {where}'
+
+    def _report(self, runner: SequenceRunner) -> None:
+        self._untold = 0.0
+        share = self.share_done()
+        self._progress.publish(Float64(data=share))
+        status = runner.status
+        pairs = {
+            'sequence': runner.sequence.name,
+            'state': status.state.value,
+            'action': runner.step.name,
+            'number': f'{status.number + 1}',
+            'of': f'{len(runner.sequence.steps)}',
+            'attempt': f'{status.attempt}',
+            'elapsed [s]': f'{status.elapsed:.1f}',
+            'timeout [s]': f'{runner.step.timeout:g}',
+            'action done': f'{status.progress:.3f}',
+            'sequence done': f'{share:.3f}',
+            'last failure': status.reason,
+        }
+        self._status.publish(
+            DiagnosticStatus(
+                level=ERROR if status.state is Running.FAILED else OK,
+                name=self.get_name(),
+                message=self.told,
+                values=[KeyValue(key=key, value=value) for key, value in pairs.items()],
+            )
+        )
+
+    def _on_start(self, _: Any) -> str:
+        if self.runner is not None and not self.runner.ended:
+            msg = f'running already ({self.told}): call ~/abort first'
+            raise SignalError(msg)
+        given = self.parameters
+        if not given.file:
+            msg = 'no sequence: give the parameter file'
+            raise ConfigurationError(msg)
+        if self.pose is None or self.lost:
+            msg = f'{self.lost}: where the robot is must be known before it can move'
+            raise SignalError(msg)
+        sequence = load_sequence(find_config(given.file))
+        predicted = predict(sequence, self.pose, given.tracking.ghost, given.follow)
+        self.runner = SequenceRunner(sequence, given.tracking, given.follow)
+        self.predicted = predicted
+        for warning in filter(None, (each.warning for each in predicted)):
+            self.get_logger().warning(warning)
+        self._show(predicted)
+        total = sum(each.duration for each in predicted)
+        return f'{sequence.name}: {len(sequence.steps)} actions, about {total:.0f} s'
+
+    def _show(self, predicted: list[Predicted]) -> None:
+        message = Path()
+        self.stamp(message)
+        message.header.frame_id = self.parameters.frame
+        fill_path(message, [(p.x, p.y) for each in predicted for p in each.poses])
+        self._path.publish(message)
+
+    def _on_pause(self, request: Any) -> str:
+        runner = self._running()
+        if request.data:
+            runner.pause()
+            return 'easing to a halt; call again with data: false to go on'
+        runner.resume()
+        return 'going on'
+
+    def _on_abort(self, _: Any) -> str:
+        self._running().abort()
+        return 'braking'
+
+    def _running(self) -> SequenceRunner:
+        if self.runner is None or self.runner.ended:
+            msg = f'nothing is running: {self.told}'
+            raise SignalError(msg)
+        return self.runner
+
+
+def main() -> None:
+    """Run the node."""
+    run(SequenceNode)
+
+
+if __name__ == '__main__':
+    main()

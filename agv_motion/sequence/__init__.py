@@ -1,0 +1,1 @@
+"""Sequences of actions: read, predicted, performed."""

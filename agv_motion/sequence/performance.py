@@ -1,0 +1,213 @@
+"""Actions while they are performed: one cycle after another, from the pose to the twist."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from agv_motion.errors import AgvMotionError
+from agv_motion.planar import REST, Pose, Twist
+from agv_motion.route.follower import RouteFollower
+from agv_motion.trajectory.follower import Follower, Following
+
+if TYPE_CHECKING:
+    from agv_motion.route.parameters import FollowParameters
+    from agv_motion.route.route import Route
+    from agv_motion.sequence.actions import GhostAction
+
+EASE = 0.5
+"""[s] In which a robot on a route comes from full speed to a pause."""
+
+
+class Performance(Protocol):
+    """One action on its way."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it has been performed."""
+
+    @property
+    def failure(self) -> str:
+        """Why it cannot be performed; empty if it can."""
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the robot stands."""
+
+    @property
+    def progress(self) -> float:
+        """Share of the action that is behind, in [0, 1]."""
+
+    def begin(self, pose: Pose) -> None:
+        """Start, or try again, from ``pose``."""
+
+    def step(self, dt: float, pose: Pose) -> Twist:
+        """Return the twist for the next cycle."""
+
+    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
+        """Ease to a halt, or go on."""
+
+    def abort(self) -> None:
+        """Brake; at rest after some steps."""
+
+    def halt(self) -> None:
+        """Stand at once, as long as the pose is lost; `step` goes on."""
+
+
+class GhostPerformance:
+    """Go to, rotate, arc: the robot follows a Ghost."""
+
+    def __init__(self, action: GhostAction, follower: Follower) -> None:
+        """Perform ``action`` with ``follower``, which serves one action after another."""
+        self._action = action
+        self._follower = follower
+        self.failure = ''
+        self.end: Pose | None = None
+        """Where it is to end; known once it has begun"""
+
+    @property
+    def done(self) -> bool:
+        """Whether the robot has come to its end."""
+        return self._follower.state is Following.ARRIVED
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the robot stands."""
+        return self._follower.at_rest
+
+    @property
+    def progress(self) -> float:
+        """Share of the Ghost's time that has passed."""
+        ghost = self._follower.ghost
+        if self.end is None:
+            return 0.0
+        return 1.0 if ghost.finished else ghost.time / ghost.trajectory.duration
+
+    def begin(self, pose: Pose) -> None:
+        """Send the Ghost out; again, to the same end."""
+        action, end = self._action, self.end
+        self.failure = ''
+        try:
+            if end is None:
+                self.end = self._follower.depart(pose, action.plan).end
+            else:
+                self._follower.depart(pose, lambda ghost: action.plan_again(ghost, end))
+        except AgvMotionError as error:
+            self.failure = str(error)
+
+    def step(self, dt: float, pose: Pose) -> Twist:
+        """Follow the Ghost."""
+        twist = self._follower.step(dt, pose)
+        if self._follower.state is Following.LOST:
+            limit = self._follower.parameters.leash.lost_beyond
+            self.failure = f'{self._follower.separation:.2f} m off its way, limit {limit:g} m'
+        return twist
+
+    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
+        """Ease the Ghost to a halt, or let it go on."""
+        self._follower.hold(state)
+
+    def abort(self) -> None:
+        """Brake with the ramps of the trajectory."""
+        self._follower.abort()
+
+    def halt(self) -> None:
+        """Stand at once."""
+        self._follower.halt()
+
+
+class RoutePerformance:
+    """Follow route; tried again, it goes on from where the virtual point waits."""
+
+    failure = ''
+
+    def __init__(self, route: Route, parameters: FollowParameters) -> None:
+        """Stand before the start of ``route``."""
+        self._follower = RouteFollower(route, parameters)
+        self._length = route.length
+        self._pace = self._wanted = 1.0
+        self._to_go = route.length
+        self._aborting = False
+        self.done = False
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the robot stands."""
+        return self.done or self._pace == 0.0
+
+    @property
+    def progress(self) -> float:
+        """Share of the route that is behind; of one without end, 0."""
+        share = 1.0 - self._to_go / self._length if self._to_go < self._length else 0.0
+        return 1.0 if self.done else max(share, 0.0)
+
+    def begin(self, _: Pose) -> None:
+        """Go on from rest."""
+        self._follower.rest()
+        self._aborting = False
+        self._pace = self._wanted
+
+    def step(self, dt: float, pose: Pose) -> Twist:
+        """Follow the virtual point, slower while it eases to a halt."""
+        wanted = 0.0 if self._aborting else self._wanted
+        self._pace += min(max(wanted - self._pace, -dt / EASE), dt / EASE)
+        if self._pace == 0.0:
+            self._follower.rest()
+            return REST
+        found = self._follower.update(pose, dt)
+        self._to_go = found.limits.to_go
+        self.done = found.arrived
+        return Twist(*(self._pace * part for part in found.twist))
+
+    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
+        """Ease to a halt, or go on."""
+        self._wanted = 0.0 if state else 1.0
+
+    def abort(self) -> None:
+        """Ease to a halt for good."""
+        self._aborting = True
+
+    def halt(self) -> None:
+        """Stand at once."""
+        self._follower.rest()
+        self._pace = 0.0
+
+
+class WaitPerformance:
+    """Stand still for a while."""
+
+    at_rest = True
+    failure = ''
+
+    def __init__(self, seconds: float) -> None:
+        """Wait for ``seconds``."""
+        self._seconds = seconds
+        self._waited = 0.0
+        self._held = False
+
+    @property
+    def done(self) -> bool:
+        """Whether it is over."""
+        return self._waited >= self._seconds
+
+    @property
+    def progress(self) -> float:
+        """Share of it that is over."""
+        return 1.0 if self.done else self._waited / self._seconds
+
+    def begin(self, _: Pose) -> None:
+        """Begin; again, go on."""
+
+    def step(self, dt: float, _: Pose) -> Twist:
+        """Let time pass."""
+        self._waited += 0.0 if self._held else dt
+        return REST
+
+    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
+        """Let no time pass."""
+        self._held = state
+
+    def abort(self) -> None:
+        """Nothing moves."""
+
+    def halt(self) -> None:
+        """Nothing moves."""

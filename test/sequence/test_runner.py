@@ -1,0 +1,237 @@
+"""Sequences while they run, with an ideal robot: ends, time-outs, failures, pause and abort."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import hypot, nan, radians
+
+import pytest
+
+from agv_motion.errors import SignalError
+from agv_motion.planar import REST, Pose, integrate, wrap
+from agv_motion.route.parameters import FollowParameters
+from agv_motion.route.route import Route
+from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
+from agv_motion.sequence.runner import Running, SequenceRunner
+from agv_motion.sequence.sequence import OnFailure, Sequence, Step
+from agv_motion.trajectory.follower_parameters import FollowerParameters
+
+ROUTE = Route([(0, 0), (2, 0), (2, 2)])
+STOP, SKIP = OnFailure(), OnFailure(skip=True)
+
+
+class Drive:
+    """A robot that does at once what it is told, and the sequence that tells it."""
+
+    def __init__(self, *actions, timeout=60.0, on_failure=STOP):
+        steps = tuple(
+            Step(type(action).__name__, action, timeout, on_failure, f'm.yaml:{i}:1')
+            for i, action in enumerate(actions)
+        )
+        self.runner = SequenceRunner(
+            Sequence('test', steps), FollowerParameters(), FollowParameters()
+        )
+        self.pose = Pose(0.0, 0.0, 0.0)
+        self.time = 0.0
+        self.twist = REST
+        self.ends = []
+
+    def tick(self, dt=0.05, *, seen=True, stuck=False):
+        number = self.runner.status.number
+        self.twist = self.runner.update(self.pose if seen else None, dt)
+        if self.runner.status.number != number or self.runner.ended:
+            self.ends.append(self.pose)
+        if not stuck:
+            self.pose = integrate(self.pose, self.twist, dt)
+        self.time += dt
+
+    def run(self, seconds=1000.0, dt=0.05, **options):
+        """Go on for ``seconds``, or until it is over; return the state."""
+        end = self.time + seconds
+        while not self.runner.ended and self.time < end - 1e-9:
+            self.tick(dt, **options)
+        return self.runner.status.state
+
+
+@pytest.mark.parametrize('dt', [0.01, 0.05, 0.1])
+def test_all_actions_end_where_they_should_whatever_the_rate(dt):
+    drive = Drive(
+        GoTo(2.0, 1.0, 90.0), Rotate(by=270.0), DriveArc(-180.0, 0.7), Wait(0.5),
+        GoTo(0.0, 0.0, 180.0), FollowRoute(ROUTE), Rotate(to=45.0),
+    )  # fmt: skip
+    assert drive.run(dt=dt) is Running.DONE
+    assert drive.twist == REST
+    wanted = [(2.0, 1.0, 90.0), (2.0, 1.0, 0.0), (2.0, 0.0, -180.0), (2.0, 0.0, -180.0),
+              (0.0, 0.0, 180.0)]  # fmt: skip
+    for end, (x, y, heading) in zip(drive.ends, wanted, strict=False):
+        assert hypot(end.x - x, end.y - y) < 0.01
+        assert abs(wrap(end.theta - radians(heading))) < 0.02
+    assert hypot(drive.pose.x - 2.0, drive.pose.y - 2.0) < 0.03
+    assert drive.pose.theta == pytest.approx(radians(45.0), abs=0.02)
+
+
+def test_small_errors_do_not_add_up():
+    """Sixty turns of 90 deg end at the heading of the start, within the error of one."""
+    drive = Drive(*[Rotate(by=90.0, speed=180.0, acceleration=720.0)] * 60)
+    assert drive.run() is Running.DONE
+    assert abs(drive.pose.theta) < 0.02
+
+
+def test_the_same_sequence_runs_the_same_twice():
+    first, second = (Drive(GoTo(1.0, 1.0, 0.0), FollowRoute(ROUTE)) for _ in range(2))
+    first.run()
+    second.run()
+    assert first.pose == second.pose
+    assert first.time == second.time
+
+
+def test_progress_counts_up():
+    drive = Drive(GoTo(2.0, 0.0, 0.0), Wait(1.0))
+    shares = []
+    while not drive.runner.ended:
+        drive.tick()
+        status = drive.runner.status
+        shares.append(status.number + status.progress)
+    assert all(a <= b for a, b in pairwise(shares))
+    assert shares[0] < 0.1
+    assert shares[-1] == 2.0
+
+
+def test_a_timeout_stops_the_robot_with_a_ramp_and_ends_it():
+    drive = Drive(GoTo(9.0, 0.0, 0.0), Wait(1.0), timeout=5.0)
+    drive.run(5.0)
+    assert drive.twist.vx == pytest.approx(0.4, abs=0.02)
+    speeds = []
+    while not drive.runner.ended:
+        drive.tick()
+        speeds.append(drive.twist.vx)
+    assert drive.runner.status.state is Running.FAILED
+    assert drive.runner.status.number == 0
+    assert 'm.yaml:0:1: GoTo: not done within 5 s' in drive.runner.status.reason
+    assert 0.8 < 0.05 * len(speeds) < 2.0
+    assert drive.runner.update(drive.pose, 0.05) == REST
+
+
+def test_a_failure_may_be_skipped():
+    drive = Drive(GoTo(9.0, 0.0, 0.0), Rotate(by=90.0), timeout=5.0, on_failure=SKIP)
+    assert drive.run() is Running.DONE
+    assert 1.0 < drive.pose.x < 4.0
+    assert drive.pose.theta == pytest.approx(radians(90.0), abs=0.02)
+    assert 'not done within' in drive.runner.status.reason
+
+
+def test_a_retry_goes_on_to_the_same_end():
+    """9 m take 24 s; three times 10 s are enough, two are not."""
+    enough = Drive(GoTo(9.0, 0.0, 0.0), timeout=10.0, on_failure=OnFailure(2))
+    assert enough.run() is Running.DONE
+    assert enough.runner.status.attempt == 3
+    assert enough.pose.x == pytest.approx(9.0, abs=0.01)
+    too_few = Drive(GoTo(9.0, 0.0, 0.0), timeout=10.0, on_failure=OnFailure(1))
+    assert too_few.run() is Running.FAILED
+
+
+@pytest.mark.parametrize(
+    ('action', 'end'),
+    [
+        (Rotate(by=350.0), (0.0, 0.0, -10.0)),
+        (DriveArc(180.0, 2.0), (0.0, 2.3, 180.0)),
+        (FollowRoute(ROUTE), (2.0, 2.0, 90.0)),
+        (Wait(6.0), (0.0, 0.0, 0.0)),
+    ],
+)
+def test_every_action_may_be_tried_again(action, end):
+    drive = Drive(action, timeout=4.0, on_failure=OnFailure(5))
+    assert drive.run() is Running.DONE
+    assert drive.runner.status.attempt > 1
+    assert hypot(drive.pose.x - end[0], drive.pose.y - end[1]) < 0.03
+    assert abs(wrap(drive.pose.theta - radians(end[2]))) < 0.1
+
+
+def test_a_robot_that_is_stuck_has_failed():
+    """The Ghost waits for it, until the time is over."""
+    drive = Drive(GoTo(2.0, 0.0, 0.0), timeout=5.0)
+    assert drive.run(stuck=True) is Running.FAILED
+    assert drive.time < 8.0
+
+
+def test_a_robot_carried_away_has_failed_at_once():
+    drive = Drive(GoTo(2.0, 0.0, 0.0))
+    drive.run(2.0)
+    drive.pose = Pose(0.0, 3.0, 0.0)
+    drive.tick()
+    assert drive.twist == REST
+    assert drive.runner.status.state is Running.FAILED
+    assert 'off its way' in drive.runner.status.reason
+
+
+@pytest.mark.parametrize('action', [GoTo(4.0, 0.0, 0.0), FollowRoute(ROUTE), Wait(4.0)])
+def test_pause_eases_to_a_halt_and_its_time_does_not_count(action):
+    drive = Drive(action, timeout=20.0)
+    drive.run(2.0)
+    drive.runner.pause()
+    drive.run(1.0)
+    assert drive.runner.status.state is Running.PAUSED
+    assert drive.twist == REST
+    place = drive.pose
+    drive.run(100.0)
+    assert drive.pose == place
+    drive.runner.resume()
+    assert drive.run() is Running.DONE
+
+
+def test_pause_changes_the_speed_without_a_jump():
+    drive = Drive(GoTo(4.0, 0.0, 0.0))
+    drive.run(3.0)
+    drive.runner.pause()
+    speeds = [drive.twist.vx]
+    for _ in range(12):
+        drive.tick()
+        speeds.append(drive.twist.vx)
+    assert max(a - b for a, b in pairwise(speeds)) < 0.1
+    assert speeds[-1] == 0.0
+
+
+@pytest.mark.parametrize('action', [GoTo(4.0, 0.0, 0.0), FollowRoute(ROUTE), Wait(4.0)])
+@pytest.mark.parametrize('paused', [False, True])
+def test_abort_ends_it_at_rest(action, paused):
+    drive = Drive(action, Wait(1.0))
+    drive.run(2.0)
+    if paused:
+        drive.runner.pause()
+        drive.run(1.0)
+    drive.runner.abort()
+    assert drive.run(3.0) is Running.ABORTED
+    assert drive.twist == REST
+    assert drive.runner.status.number == 0
+
+
+@pytest.mark.parametrize('action', [GoTo(4.0, 0.0, 0.0), FollowRoute(ROUTE)])
+def test_without_a_pose_it_stands_at_once_and_goes_on_when_it_comes_back(action):
+    drive = Drive(action)
+    drive.run(2.0)
+    drive.tick(seen=False)
+    assert drive.twist == REST
+    assert drive.runner.status.state is Running.BLIND
+    drive.run(2.0, seen=False)
+    drive.tick()
+    assert drive.twist.vx < 0.1
+    assert drive.run() is Running.DONE
+
+
+@pytest.mark.parametrize('action', [GoTo(4.0, 0.0, 0.0), FollowRoute(ROUTE), Wait(9.0)])
+def test_a_pose_that_never_comes_is_a_timeout(action):
+    drive = Drive(action, timeout=5.0)
+    assert drive.run(seen=False) is Running.FAILED
+    assert drive.time == pytest.approx(5.1, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ('pose', 'dt'), [(Pose(nan, 0.0, 0.0), 0.1), (Pose(0.0, 0.0, 0.0), -1.0), (None, nan)]
+)
+def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
+    drive = Drive(GoTo(1.0, 0.0, 0.0))
+    drive.run(1.0)
+    before = drive.runner.status
+    with pytest.raises(SignalError):
+        drive.runner.update(pose, dt)
+    assert drive.runner.status == before
