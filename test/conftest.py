@@ -95,7 +95,7 @@ class DrivenRobot:
         self.pose = Pose(0.0, 0.0, 0.0)
         self.twist = REST
         self.commands = []
-        self.silent = False
+        self.silent = True
         self._step = step
         self.node.create_subscription(TwistStamped, 'cmd_vel', self._on_command, 50)
 
@@ -107,6 +107,7 @@ class DrivenRobot:
 
         self.odometry = self.node.create_publisher(Odometry, 'odom', SENSOR)
         self.graph.spin_until(lambda: self.odometry.get_subscription_count() >= 1)
+        self.silent = False
         self.report()
 
     def report(self, frame='odom'):
@@ -181,7 +182,7 @@ class RealTimeRobot(DrivenRobot):
 @pytest.fixture
 def driven_robot(graph):
     """Return what makes a robot that moves with each command."""
-    return lambda: DrivenRobot(graph)
+    return lambda **options: DrivenRobot(graph, **options)
 
 
 @pytest.fixture

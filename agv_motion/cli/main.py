@@ -8,7 +8,15 @@ import sys
 import typer
 
 from agv_motion.cli import (
-    demo, doctor, nodes, parameters, record, replay, route, sequence, topic,
+    demo,
+    doctor,
+    nodes,
+    parameters,
+    record,
+    replay,
+    route,
+    sequence,
+    topic,
 )  # fmt: skip
 from agv_motion.errors import AgvMotionError
 

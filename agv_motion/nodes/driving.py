@@ -10,16 +10,23 @@ from geometry_msgs.msg import Twist as TwistMessage
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import REST, Pose, Twist
+from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.messages import fill_twist, pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 
 FAREWELL = 1.0
 """[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
+
+
+LONGEST_STEP = 5
+"""Cycles that pass at once at most: nothing runs away from a node that slept."""
+
+OLDEST_POSE = 0.3
+"""[s] An older pose, or one from another clock, is taken as of now."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +55,7 @@ class DrivingNode(ManagedNode[P]):
     """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`."""
 
     state_topic = 'state'
+    """Where it says what the robot does"""
 
     def open(self) -> None:
         """Open the topics."""
@@ -55,8 +63,8 @@ class DrivingNode(ManagedNode[P]):
         self.pose: Pose | None = None
         self.lost = f'no {given.position} yet'
         """Why the pose cannot be used; empty if it can"""
-        self.pose_time = 0.0
-        """[s] by the stamp of the pose"""
+        self._pose_time = 0.0
+        self._twist = REST
         self.told = ''
         """The state told last"""
         self._watchdog = Watchdog(given.report_after, given.stop_after)
@@ -102,6 +110,26 @@ class DrivingNode(ManagedNode[P]):
             self._farewell -= dt
             self._send(REST)
 
+    def pose_now(self) -> Pose | None:
+        """Return the pose, carried on to now by what was commanded since; None while it is lost."""
+        if self.pose is None or self.lost:
+            return None
+        age = self.seconds() - self._pose_time
+        return integrate(self.pose, self._twist, age) if 0.0 < age < OLDEST_POSE else self.pose
+
+    def require_pose(self) -> Pose:
+        """Return where the robot is now.
+
+        Raises:
+            SignalError: Nobody knows.
+
+        """
+        pose = self.pose_now()
+        if pose is None:
+            msg = f'{self.lost}: where the robot is must be known before it can go anywhere'
+            raise SignalError(msg)
+        return pose
+
     def require_frame(self, frame: str) -> None:
         """Raise unless ``frame`` is the one in which this node drives.
 
@@ -119,13 +147,14 @@ class DrivingNode(ManagedNode[P]):
     def _on_pose(self, message: Any) -> None:
         self.require_frame(message.header.frame_id)
         self.pose = pose_of(message.pose.pose)
-        self.pose_time = seconds_of(message.header.stamp)
+        self._pose_time = seconds_of(message.header.stamp)
         self.lost = ''
         self._watchdog.feed()
 
     def _on_cycle(self) -> None:
         now = self.seconds()
         dt = 0.0 if self._last_cycle is None else max(now - self._last_cycle, 0.0)
+        dt = min(dt, LONGEST_STEP / self.parameters.rate)
         self._last_cycle = now
         self._watch(now)
         self.cycle(dt)
@@ -143,6 +172,7 @@ class DrivingNode(ManagedNode[P]):
             )
 
     def _send(self, twist: Twist) -> None:
+        self._twist = twist
         if self.parameters.stamped:
             self.stamp(self._message)
             fill_twist(self._message.twist, twist)

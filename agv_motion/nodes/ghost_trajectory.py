@@ -13,7 +13,6 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
-from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.messages import fill_pose, pose_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED
@@ -24,14 +23,9 @@ from agv_motion.trajectory.follower_parameters import FollowerParameters
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.planar import Pose
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
-
-LONGEST_STEP = 5
-"""Cycles that pass for the Ghost at once at most: it does not run away from a node that slept."""
-
-OLDEST_POSE = 0.3
-"""[s] An older pose, or one from another clock, is taken as of now."""
 
 DRAWN = 0.05
 """[s] between two poses of the path that is shown."""
@@ -88,7 +82,6 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         """Open the topics."""
         super().open()
         self._follower = Follower(self.parameters.follow)
-        self._twist = REST
         self._ghost_pose = PoseStamped()
         self._ghost_pose.header.frame_id = self.parameters.frame
         self._pose_publisher = self.publisher(PoseStamped, 'ghost/pose', COMMAND)
@@ -132,28 +125,18 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def cycle(self, dt: float) -> None:
         """Command the robot to stay with its Ghost, or not at all."""
-        follower = self._follower
+        follower, pose = self._follower, self.pose_now()
         if follower.at_rest:
             self.leave(dt)
-        elif self.lost or self.pose is None:
+        elif pose is None:
             follower.halt()
-            self._command_twist(REST)
+            self.stand()
             self.tell(f'stopped: {self.lost}')
             return
         else:
-            step = min(dt, LONGEST_STEP / self.parameters.rate)
-            self._command_twist(follower.step(step, self._pose_now(self.pose)))
+            self.drive(follower.step(dt, pose))
             self._show_ghost()
         self.tell(self._words())
-
-    def _command_twist(self, twist: Twist) -> None:
-        self._twist = twist
-        self.drive(twist)
-
-    def _pose_now(self, pose: Pose) -> Pose:
-        """Return ``pose`` carried on to now by what was commanded since it was measured."""
-        age = self.seconds() - self.pose_time
-        return integrate(pose, self._twist, age) if 0.0 < age < OLDEST_POSE else pose
 
     def _words(self) -> str:
         follower = self._follower
@@ -194,13 +177,10 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         self._depart(lambda ghost: ghost.compute_arc(angle, diameter, ramps, speed))
 
     def _depart(self, plan: Callable[[Ghost], Trajectory]) -> None:
-        if self.lost or self.pose is None:
-            msg = f'{self.lost}: where the robot is must be known before it can go anywhere'
-            raise SignalError(msg)
-        follower = self._follower
+        follower, pose = self._follower, self.require_pose()
         if self.parameters.lock_goals:
             follower.hold(True)  # noqa: FBT003 - the name says what the flag is
-        trajectory = follower.depart(self._pose_now(self.pose), plan)
+        trajectory = follower.depart(pose, plan)
         lines = follower.ghost.report().lines()
         self._report.publish(String(data='\n'.join(lines)))
         self.get_logger().info('; '.join(lines))

@@ -46,10 +46,12 @@ class RouteFollowerParameters(DrivingParameters):
 
 
 class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
-    """`route` and `odom` -> `cmd_vel`, `route/virtual_point`, `route/limits`, `state`.
+    """`route` and `odom` -> `cmd_vel`, `route/virtual_point`, `route/limits`, `route/state`.
 
     Silence of `odom`, `~/pause`, `~/abort`, arrival and the end of the node are explicit zeros.
     """
+
+    state_topic = 'route/state'
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -96,16 +98,16 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def cycle(self, dt: float) -> None:
         """Command one step along the route, or none."""
-        follower = self._follower
+        follower, pose = self._follower, self.pose_now()
         if follower is None:
             self.leave(dt)
             self.tell(self._ended)
-        elif self._paused or self.lost or self.pose is None:
+        elif self._paused or pose is None:
             follower.rest()
             self.stand()
             self.tell('paused' if self._paused else f'stopped: {self.lost}')
         else:
-            self._step(follower, self.pose, dt)
+            self._step(follower, pose, dt)
 
     def _step(self, follower: RouteFollower, pose: Pose, dt: float) -> None:
         twist, point, limits, arrived = follower.update(pose, dt)

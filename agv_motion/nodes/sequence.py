@@ -27,9 +27,6 @@ from agv_motion.trajectory.follower_parameters import FollowerParameters
 if TYPE_CHECKING:
     from agv_motion.sequence.prediction import Predicted
 
-LONGEST_STEP = 5
-"""Cycles that pass at once at most: nothing runs away from a node that slept."""
-
 TOLD_EVERY = 0.2
 """[s] between two words on progress."""
 
@@ -48,10 +45,12 @@ class SequenceParameters(DrivingParameters):
 
 
 class SequenceNode(DrivingNode[SequenceParameters]):
-    """`odom` -> `cmd_vel`, `sequence/status`, `sequence/progress`, `sequence/path`, `state`.
+    """`odom` -> `cmd_vel`, `sequence/status`, `sequence/progress`, `sequence/path`, `.../state`.
 
     Pause, abort, time-outs, failures, silence of the pose and every end are explicit zeros.
     """
+
+    state_topic = 'sequence/state'
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -109,10 +108,9 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         if runner is None or runner.ended:
             self.leave(dt)
             return
-        step = min(dt, LONGEST_STEP / self.parameters.rate)
         number = runner.status.number
         reason = runner.status.reason
-        self.drive(runner.update(None if self.lost else self.pose, step))
+        self.drive(runner.update(self.pose_now(), dt))
         if runner.status.reason != reason:
             self.get_logger().error(runner.status.reason)
         self.tell(self._words(runner))
@@ -190,11 +188,9 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         if not given.file:
             msg = 'no sequence: give the parameter file'
             raise ConfigurationError(msg)
-        if self.pose is None or self.lost:
-            msg = f'{self.lost}: where the robot is must be known before it can move'
-            raise SignalError(msg)
+        pose = self.require_pose()
         sequence = load_sequence(find_config(given.file))
-        predicted = predict(sequence, self.pose, given.tracking.ghost, given.follow)
+        predicted = predict(sequence, pose, given.tracking.ghost, given.follow)
         self.runner = SequenceRunner(sequence, given.tracking, given.follow)
         self.predicted = predicted
         for warning in filter(None, (each.warning for each in predicted)):

@@ -59,9 +59,11 @@ class Tester:
 
 
 @pytest.fixture
-def tester(graph):
-    """Return a tester on the graph of this test."""
-    return Tester(graph)
+def tester(graph, driven_robot):
+    """Return a tester on the graph of this test, that can make a robot to be driven."""
+    found = Tester(graph)
+    found.driven_robot = driven_robot
+    return found
 
 
 @pytest.fixture

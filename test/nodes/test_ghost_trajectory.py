@@ -19,7 +19,6 @@ from agv_motion.planar import Pose
 from agv_motion.ros.messages import pose_of
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.trajectory.arc import Arc
-from test.nodes.driven_robot import DrivenRobot
 
 SWIFT = {
     'rate': 50.0, 'cruising_speed': 1.0, 'speed_ramps': 2.0, 'follow__ghost__wheel_speed': 5.0,
@@ -44,7 +43,7 @@ class Course:
         self.tester = tester
         self.states = tester.listen(String, 'ghost/state', LATCHED)
         self.paths = tester.listen(Path, 'ghost/path', LATCHED)
-        self.robot = DrivenRobot(tester, step=0.02)
+        self.robot = tester.driven_robot(step=0.02)
         self.node = tester.start(GhostTrajectory, **(SWIFT | parameters))
         self.goal = tester.publisher(PoseStamped, 'goal_pose')
 

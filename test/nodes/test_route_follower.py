@@ -27,7 +27,7 @@ class Course:
 
     def __init__(self, tester, robot, *, remap=(), **parameters):
         self.tester = tester
-        self.states = tester.listen(String, 'state', LATCHED)
+        self.states = tester.listen(String, 'route/state', LATCHED)
         self.robot = robot
         self.node = tester.start(RouteFollowerNode, remap=remap, **(FAST | parameters))
         self.route = tester.publisher(Path, 'route')
@@ -51,8 +51,8 @@ class Course:
 
 
 @pytest.fixture
-def start(tester, driven_robot):
-    return lambda **parameters: Course(tester, driven_robot(), **parameters)
+def start(tester):
+    return lambda **parameters: Course(tester, tester.driven_robot(), **parameters)
 
 
 @pytest.fixture
@@ -174,7 +174,6 @@ def test_the_pose_of_a_localisation_drives_it_as_well(start, tester):
     """With position = pose, and the topic remapped."""
     remap = ['pose:=localised']
     course = start(remap=remap, position='pose', frame='map')
-    course.robot.silent = True
     pose = tester.publisher(PoseWithCovarianceStamped, 'localised', SENSOR)
     course.send((0, 0), (5, 0), frame='map')
     message = PoseWithCovarianceStamped()

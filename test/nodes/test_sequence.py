@@ -39,7 +39,7 @@ class Mission:
 
     def __init__(self, tester, robot, file, *, find=True, **parameters):
         self.tester = tester
-        self.states = tester.listen(String, 'state', LATCHED)
+        self.states = tester.listen(String, 'sequence/state', LATCHED)
         self.robot = robot
         self.node = tester.start(SequenceNode, **({'file': str(file)} | parameters))
         if find:
