@@ -1,8 +1,10 @@
-"""Launch a differential drive behind its Ghost, and a simulated robot unless there is a real one.
+"""Launch a differential drive: Ghost, routes, sequences; a robot is simulated unless one is real.
 
 ros2 launch agv_motion differential.launch.py namespace:=hare
 ros2 topic pub --once /hare/goal_pose geometry_msgs/msg/PoseStamped \
     '{header: {frame_id: map}, pose: {position: {x: 2.0, y: 1.0}}}'
+ros2 launch agv_motion differential.launch.py sequence:=sequence_example.yaml
+ros2 service call /sequence/start std_srvs/srv/Trigger
 """
 
 from launch import LaunchDescription
@@ -19,6 +21,8 @@ ARGUMENTS = (
     ('namespace', '', 'name of this robot: its topics are /NAME/cmd_vel and so on'),
     ('config', DEFAULT_CONFIG, 'YAML file with the parameters of all nodes'),
     ('pose', 'fix', 'topic that tells where the robot is: fix, or pose of a localization'),
+    ('route', '', 'file of a route to follow at once; empty: one may come on the topic route'),
+    ('sequence', '', 'file of a sequence of actions, for the service sequence/start'),
     ('simulate', 'true', 'whether to simulate the robot, its encoders and a camera over it'),
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
@@ -42,11 +46,19 @@ def generate_launch_description() -> LaunchDescription:
         )
 
     time_factor = ParameterValue(value['time_factor'], value_type=float)
+    drivers = {
+        'ghost_trajectory': [],
+        'route_follower': [{'route_file': value['route']}],
+        'sequence': [{'file': value['sequence']}],
+    }  # each is silent until it is asked to drive: by a goal, a route, or ~/start
     return LaunchDescription(
         [
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('differential_kinematics', sim_time),
-            node('ghost_trajectory', sim_time, remappings=[('pose', value['pose'])]),
+            *(
+                node(driver, sim_time, *own, remappings=[('pose', value['pose'])])
+                for driver, own in drivers.items()
+            ),
             node(
                 'differential_simulator',
                 {'time_factor': time_factor},
