@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import statistics
 import subprocess
@@ -21,9 +22,12 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 from sensor_msgs.msg import JointState
-from wpimath.geometry import Translation2d
+from wpimath.geometry import Rotation2d, Translation2d
 from wpimath.kinematics import ChassisSpeeds, SwerveDrive3Kinematics
 
+from agv_motion.kinematics.steering import SteeringPlanner
+from agv_motion.kinematics.steering_limits import SteeringLimits
+from agv_motion.kinematics.steering_state import SteeringState
 from agv_motion.kinematics.turret_columns import polar_to_cartesian, turret_columns
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -64,6 +68,40 @@ def turret_rows() -> list[Row]:
         Row('turret command, 3 turrets', scalar, 'robotpy-wpimath', wpimath, '1.5 us'),
         Row('turret by columns, memory reused', batch / n / 3, 'scalar / 3', scalar / 3, '6 ns'),
         Row('turret by columns, fresh memory', fresh / n / 3, 'scalar / 3', scalar / 3),
+    ]
+
+
+def steering_rows() -> list[Row]:
+    """One step of the steering planner, beside all that WPILib does for one command."""
+    tree = Turrets(POSITIONS)
+    planner, state = SteeringPlanner(tree, SteeringLimits()), SteeringState([0.0] * 3)
+    peer = SwerveDrive3Kinematics(*(Translation2d(x, y) for x, y in POSITIONS))
+    angles = [Rotation2d(0.3 * i) for i in range(3)]
+    twists = [
+        Twist(0.012 * cos(0.002 * k), 0.012 * sin(0.002 * k), 0.004 * sin(0.01 * k))
+        for k in range(2000)
+    ]
+    for _ in range(400):
+        planner.step(state, twists[0], 0.1)
+    wandering = itertools.cycle(twists + twists[::-1])
+
+    def theirs() -> list[tuple[float, float]]:
+        states = peer.toSwerveModuleStates(ChassisSpeeds(*next(wandering)))
+        states = peer.desaturateWheelSpeeds(states, LIMIT)
+        for each, angle in zip(states, angles, strict=True):
+            each.optimize(angle)
+        return [(each.angle.radians(), each.speed) for each in states]
+
+    turning = per_call(lambda: planner.step(state, next(wandering), 0.1))
+    steady = Twist(0.01, 0.004, 0.003)
+    for _ in range(400):
+        planner.step(state, steady, 0.1)
+    resting = per_call(lambda: planner.step(state, steady, 0.1))
+    wpimath = per_call(theirs)
+    peer_name = 'robotpy-wpimath, no limits'
+    return [
+        Row('steering planner, twist wanders', turning, peer_name, wpimath, '10 us'),
+        Row('steering planner, twist is made', resting, peer_name, wpimath, '10 us'),
     ]
 
 
@@ -184,7 +222,8 @@ def main() -> None:
     for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
         table.add_column(column)
     sections = (
-        turret_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows, process_rows,
+        turret_rows, steering_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows,
+        process_rows,
     )  # fmt: skip
     for section in track(sections, 'Measuring'):
         for row in section():

@@ -29,15 +29,17 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.steering_course import START_ERROR
+from agv_motion.kinematics.steering_limits import SteeringLimits
 from agv_motion.kinematics.steering_rest import choose_goals, turn_at_rest
 from agv_motion.kinematics.steering_roll import roll
 from agv_motion.kinematics.steering_state import POINT, STILL, Limiter, SteeringState
 from agv_motion.planar import Twist, require_finite, wrap
 
 if TYPE_CHECKING:
-    from agv_motion.kinematics.steering_limits import SteeringLimits
     from agv_motion.kinematics.steering_state import Direction
     from agv_motion.kinematics.turrets import Turrets
+
+__all__ = ['Limiter', 'SteeringLimits', 'SteeringPlanner', 'SteeringState']
 
 NEGLIGIBLE = 1e-9
 """[m/s] A slower twist is none."""
@@ -104,9 +106,11 @@ class SteeringPlanner:
 
     def stop(self, state: SteeringState) -> None:
         """Zero every wheel at once, angles held: for an emergency, not for a smooth stop."""
-        state.speed = 0.0
-        state.speeds[:] = [0.0] * len(state.speeds)
-        state.limiter = Limiter.NONE
+        n = len(state.speeds)
+        state.speed, state.velocity = 0.0, STILL
+        state.speeds[:], state.rates[:] = [0.0] * n, [0.0] * n
+        state.aligned = state.aligned and state.free_turret < 0
+        state.goals, state.free_turret, state.limiter = None, -1, Limiter.NONE
 
     def unwind(self, state: SteeringState, period: float) -> bool:
         """At rest, turn each turret for one step along its line to the angle nearest to zero.
@@ -121,17 +125,14 @@ class SteeringPlanner:
         if state.speed > 0.0:
             msg = f'the platform rolls at {state.speed:.4f} m/s: stop it before unwinding'
             raise SignalError(msg)
-        halves = [round(angle / pi) for angle in state.angles]
         if state.goals is None or any(abs(goal) > pi / 2.0 + 1e-9 for goal in state.goals):
-            state.goals = [a - pi * k for a, k in zip(state.angles, halves, strict=True)]
-            state.goal_signs = [
-                s if k % 2 == 0 else -s for s, k in zip(state.signs, halves, strict=True)
-            ]
-            state.goal_direction = state.direction
+            state.goals = [angle - pi * round(angle / pi) for angle in state.angles]
+        state.aligned = False
         there = turn_at_rest(state, self.limits, period)
-        state.period = period
         if there:
-            self._arrive(state)
+            state.goals = None
+        state.limiter = Limiter.NONE if there else Limiter.UNWINDING
+        state.period = period
         return there
 
     # At rest
@@ -152,7 +153,7 @@ class SteeringPlanner:
         """Turn all turrets to where ``wanted`` needs them, the wheels at rest."""
         aim = state.goal_direction
         turned = aim[0] * wanted[0] + aim[1] * wanted[1] + aim[2] * wanted[2] < cos(START_ERROR)
-        if state.goals is None or turned:
+        if state.goals is None or turned or state.limiter is Limiter.UNWINDING:
             self._set_goals(state, wanted)
         state.aligned = False
         state.limiter = Limiter.ALIGNING

@@ -33,6 +33,15 @@ POINT_SQUARED = POINT * POINT
 GROWTH = 0.4
 """Share of the wheel acceleration that turning may use; as much is left to slow down meanwhile."""
 
+PLANNED = 0.125
+"""Share of the acceleration up to which a course is planned, see :func:`can_brake`."""
+
+CERTAIN = 0.25
+"""Share of it up to which braking is certain to hold all limits."""
+
+FARTHEST = 0.5
+"""[rad] most that the direction turns in one step, and [-] that a wheel velocity shrinks by."""
+
 WIDEST = 1.2
 """[rad] most that a turret turns in one step, however long the step."""
 
@@ -50,7 +59,7 @@ TURNING: Course = (STILL, False, Limiter.STEERING_RATE)
 TOO_FAR: Course = (STILL, False, Limiter.STOPPING)
 
 
-def course(  # noqa: C901, PLR0912 - one loop over the turrets: calls would double its time
+def course(  # noqa: C901, PLR0912, PLR0915 - one loop: calls double its time
     arms: Arms, state: SteeringState, limits: SteeringLimits, wanted: Direction, period: float
 ) -> Course:
     """Return how to go on towards ``wanted``.
@@ -75,7 +84,7 @@ def course(  # noqa: C901, PLR0912 - one loop over the turrets: calls would doub
     edge = limits.turn_limit * tau - pi
     turning, nearing, receding, growing = 1e-9, 0.0, 0.0, 0.0
     free: list[tuple[int, float]] = []
-    lands_turning = False
+    lands_turning, landing = False, 0.0
     for i, (x, y) in enumerate(arms):
         wx, wy = a - c * y, b + c * x
         tx, ty = ta - tc * y, tb + tc * x
@@ -93,7 +102,7 @@ def course(  # noqa: C901, PLR0912 - one loop over the turrets: calls would doub
             aside = sine * across
             if there * there + aside * aside < POINT_SQUARED:
                 lands_turning = lands_turning or not slow(state, limits, i, period)
-                along = 0.0  # the way leads straight to the turret: it need not turn on it
+                landing = max(landing, -along)
             elif _too_far(state, limits, i, atan2(aside, there), distance):
                 return TOO_FAR
         if across < 0.0:
@@ -107,15 +116,18 @@ def course(  # noqa: C901, PLR0912 - one loop over the turrets: calls would doub
             receding = along * across
     if free and not _turned(state, limits, free, period):
         return TURNING
-    most = 0.5 * distance / period if lands_turning else distance / period
     limit, limiter = _fastest(state, limits, (turning, nearing, receding, growing))
     braking = braking_rate(distance, BRAKING * limits.steering_acceleration / turning, period)
     if braking < limit:
         limit, limiter = braking, Limiter.STEERING_ACCELERATION
-    if limit < most:
-        return (ta * limit, tb * limit, tc * limit), False, limiter
-    limit = tan(most * period if distance < WIDEST else WIDEST) / period
-    return (ta * limit, tb * limit, tc * limit), not lands_turning, Limiter.NONE
+    step = limit * period
+    if step > FARTHEST or step * nearing > FARTHEST > step * landing:
+        step = FARTHEST / nearing if nearing > 1.0 else FARTHEST
+    if step >= distance and not lands_turning:
+        limit = tan(distance) / period
+        return (ta * limit, tb * limit, tc * limit), True, Limiter.NONE
+    limit = (step if step < distance else 0.5 * distance) / period
+    return (ta * limit, tb * limit, tc * limit), False, limiter
 
 
 def _turned(
@@ -161,9 +173,9 @@ def _fastest(
     turning, nearing, receding, growing = moves
     rate, acceleration = limits.steering_rate, limits.steering_acceleration
     limit, limiter = rate / turning, Limiter.STEERING_RATE
-    if limit * nearing > acceleration / (8.0 * rate) or limit > acceleration / (8.0 * rate):
-        limit = acceleration / (8.0 * rate * max(nearing, 1.0))
-        limiter = Limiter.STEERING_ACCELERATION
+    risk = turning * (nearing if nearing > 1.0 else 1.0)
+    if limit * limit * risk > PLANNED * acceleration:
+        limit, limiter = sqrt(PLANNED * acceleration / risk), Limiter.STEERING_ACCELERATION
     if limit * limit * receding > 0.25 * acceleration:
         limit, limiter = sqrt(0.25 * acceleration / receding), Limiter.STEERING_ACCELERATION
     spare, speed = GROWTH * limits.wheel_acceleration, state.speed
@@ -229,3 +241,23 @@ def longest_share(  # noqa: C901, PLR0912 - likewise
         elif room < 0.0:
             return None
     return high if low <= high else None
+
+
+def can_brake(
+    arms: Arms, state: SteeringState, limits: SteeringLimits, velocity: Direction
+) -> bool:
+    """Return whether braking from ``velocity`` is certain to keep every turret within its limits.
+
+    It is where ``4 X max |y_i|`` is at most the acceleration.
+    """
+    a, b, c = state.direction
+    va, vb, vc = velocity
+    turning, nearing = 0.0, sqrt(va * va + vb * vb + vc * vc)
+    for x, y in arms:
+        wx, wy = a - c * y, b + c * x
+        mx, my = va - vc * y, vb + vc * x
+        square = wx * wx + wy * wy
+        if square > POINT_SQUARED:
+            nearing = max(nearing, -(wx * mx + wy * my) / square)
+            turning = max(turning, abs(wx * my - wy * mx) / square)
+    return turning * nearing <= CERTAIN * limits.steering_acceleration

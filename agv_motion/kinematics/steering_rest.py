@@ -22,7 +22,8 @@ def braking_rate(distance: float, acceleration: float, period: float) -> float:
     """Return the highest rate over the next step from which a stop after ``distance`` is possible.
 
     The rate of each later step is lower by ``acceleration * period``, so the way is
-    ``v**2 / (2 a) + v period / 2``; within one step the distance itself is the limit.
+    ``v**2 / (2 a) + v period / 2``, to within ``a period**2 / 8``; within one step the distance
+    itself is the limit.
 
     Args:
         distance: Way to the stop, zero or more [rad].

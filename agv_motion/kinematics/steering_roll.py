@@ -9,6 +9,7 @@ from agv_motion.kinematics.steering_course import (
     GROWTH,
     HERE,
     TURNING,
+    can_brake,
     course,
     longest_share,
 )
@@ -84,15 +85,22 @@ def _change_velocity(
     if share == 1.0:
         state.velocity = target
         return 1.0
-    taken = 0.0 if share is None else share
-    if share is None:
-        target = STILL
-        share = longest_share(arms, state, limits, target, period)
-        share = 1.0 if share is None else share
-    va, vb, vc = state.velocity
-    da, db, dc = target
-    state.velocity = (va + share * (da - va), vb + share * (db - vb), vc + share * (dc - vc))
-    return taken
+    if share is not None:
+        mixed = _between(state.velocity, target, share)
+        if can_brake(arms, state, limits, mixed):
+            state.velocity = mixed
+            return share
+    share = longest_share(arms, state, limits, STILL, period)
+    state.velocity = _between(state.velocity, STILL, 1.0 if share is None else share)
+    return 0.0
+
+
+def _between(first: Direction, second: Direction, share: float) -> Direction:
+    return (
+        first[0] + share * (second[0] - first[0]),
+        first[1] + share * (second[1] - first[1]),
+        first[2] + share * (second[2] - first[2]),
+    )
 
 
 def _turn(arms: Arms, state: SteeringState, arrived: Direction | None, period: float) -> float:
@@ -169,15 +177,14 @@ def _drive(  # noqa: C901 - one loop over the wheels
             low = (before - change) / length
         if before + change < high * length:
             high = (before + change) / length
-    if high < wanted and state.limiter is Limiter.NONE:
-        state.limiter = Limiter.WHEEL_ACCELERATION
+    held = Limiter.WHEEL_ACCELERATION if high < wanted or low > high else Limiter.NONE
     if high * fastest > limits.max_wheel_speed:
-        high = limits.max_wheel_speed / fastest
-        if state.limiter is Limiter.NONE:
-            state.limiter = Limiter.WHEEL_SPEED
+        high, held = limits.max_wheel_speed / fastest, Limiter.WHEEL_SPEED
     if high * growth > GROWTH * limits.wheel_acceleration:
         high = GROWTH * limits.wheel_acceleration / growth
     state.speed = speed = low if high < low else high
+    if state.limiter is Limiter.NONE:
+        state.limiter = held
     if speed == 0.0:
         state.aligned = state.velocity is STILL and not any(state.rates)
         state.free_turret = -1

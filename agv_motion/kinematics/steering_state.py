@@ -29,6 +29,7 @@ class Limiter(Enum):
 
     NONE = ''
     ALIGNING = 'turning the turrets before rolling'
+    UNWINDING = 'unwinding the cables'
     STOPPING = 'stopping: from rest the turrets turn less far'
     STEERING_RATE = 'steering rate'
     STEERING_ACCELERATION = 'steering acceleration'

@@ -1,28 +1,14 @@
-"""From the angles that a twist asks for to angles that real turrets can follow."""
+"""How far a platform may roll while its turrets are not yet where they should be."""
 
 from __future__ import annotations
 
-from math import cos, pi
+from math import cos
 from typing import TYPE_CHECKING
 
 from agv_motion.planar import wrap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-
-def nearest_turns(angles: Sequence[float], held: Sequence[float]) -> list[float]:
-    """Return each angle in the turn nearest to where its turret stands: no jump across pi.
-
-    Args:
-        angles: (n,) wanted steering angles [rad].
-        held: (n,) present steering angles, in any turn [rad].
-
-    """
-    return [
-        angle if -pi <= angle - now < pi else now + wrap(angle - now)
-        for angle, now in zip(angles, held)  # noqa: B905 - measured: strict costs
-    ]
 
 
 def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:

@@ -4,34 +4,48 @@ from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass
+from math import degrees, pi
 from typing import Annotated, Any
 
 from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray
-from std_srvs.srv import SetBool
+from std_msgs.msg import Float64, Float64MultiArray, String
+from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.turret_motion import alignment, nearest_turns
+from agv_motion.kinematics.steering import SteeringPlanner
+from agv_motion.kinematics.steering_limits import SteeringLimits
+from agv_motion.kinematics.steering_state import Limiter, SteeringState
+from agv_motion.kinematics.turret_motion import alignment
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.nodes.platform_parameters import PlatformParameters
 from agv_motion.parameters import Spec
-from agv_motion.planar import REST, Pose, Twist, integrate
+from agv_motion.planar import REST, Pose, Twist, integrate, wrap
 from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
-from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
+
+SOONEST = 0.4
+"""[-] A step shorter than this share of the last one waits: limits of acceleration want even steps.
+"""
+
+LOST_TURRET = 0.35
+"""[rad] At rest, a turret so far from its command was turned by hand or did not follow: the
+planner goes on from where it is."""
 
 
 @dataclass(frozen=True)
-class WheelKinematicsParameters(PlatformParameters):
+class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
     """The platform, its limits, and what makes it stop."""
 
-    max_wheel_speed: Annotated[
-        float, Spec('limit of every wheel; above it the whole twist is scaled', 'm/s', (1e-4, 10.0))
-    ] = 2.0 / 60.0
+    rate: Annotated[float, Spec('commands per second, at least', 'Hz', (1.0, 1000.0))] = 20.0
+    unwind_after: Annotated[
+        float,
+        Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),
+    ] = 60.0
     report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 3.0
     stop_after: Annotated[float, Spec('silence of cmd_vel to stop', 's', (0.01, 3600))] = 5.0
     residual_warning: Annotated[
@@ -58,8 +72,9 @@ class WheelKinematicsParameters(PlatformParameters):
 class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     """`cmd_vel` -> `turrets/command`; `turrets/state` -> `turrets/residual`, `odom`.
 
-    Where `turrets/state` tells how far the turrets have turned, the wheels roll no faster than the
-    cosine of the worst error: from rest the platform steers first.
+    The steering planner brings the wheels to the wanted twist with one centre of rotation at every
+    step. Where `turrets/state` tells how far the turrets have turned, the wheels roll no faster
+    than the cosine of the worst error.
 
     Silence of `cmd_vel`, turrets that fight, `~/stop` and the end of the node all end in an
     explicit zero speed with the steering angles held.
@@ -73,22 +88,29 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         """Build the kinematics and open the topics."""
         given = self.parameters
         self._turrets = given.turrets()
+        self._planner = SteeringPlanner(self._turrets, given)
+        self._plan: SteeringState | None = None
+        self._planned_at: float | None = None
+        self._wanted = REST
+        self._unwinding = False
+        self._rested = 0.0
         self._watchdog = Watchdog(given.report_after, given.stop_after)
         self._state_watchdog = Watchdog(given.report_after, given.stop_after)
         self._blind = False
         self._joints = TurretJoints(len(self._turrets))
-        self._angles: list[float] | None = None
         self._measured: list[float] | None = None
         self._stopped_by = ''
         self._residual = 0.0
         self._pose = Pose(0.0, 0.0, 0.0)
         self._pose_time: float | None = None
         self._arrays_wanted = False
+        self._limiter = Limiter.NONE
         self._message = self._joints.message()
         self._message.header.frame_id = given.base_frame
         self._command = self.publisher(JointState, 'turrets/command', COMMAND)
         self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
+        self._limits = self.publisher(String, 'turrets/limiter', LATCHED)
         self._fight = self.publisher(Float64, 'turrets/residual', SENSOR)
         self._odometry = self.publisher(Odometry, 'odom', SENSOR)
         if given.stamped:
@@ -97,16 +119,29 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND)
         self.listen(JointState, 'turrets/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
+        self.serve(Trigger, '~/unwind', self._on_unwind)
+        self.every(1.0 / given.rate, self._go_on)
         self.every(0.1, self._watch)
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
         self._stand_still()
 
+    def accept(self, parameters: WheelKinematicsParameters) -> None:
+        """Take over new limits; the next step holds them."""
+        self._planner.limits = parameters
+
     def diagnose(self) -> Diagnosis:
-        """Tell of a stop, of silence and of turrets that fight."""
+        """Tell of a stop, of silence, of turrets that fight, and of what limits the motion."""
         silence = self._watchdog.judge(self.seconds())
-        values = {'residual [m/s]': f'{self._residual:.5f}', 'cmd_vel': silence.value}
+        values = {
+            'residual [m/s]': f'{self._residual:.5f}',
+            'cmd_vel': silence.value,
+            'limited by': self._limiter.value,
+        }
+        if self._plan is not None:
+            turns = max(self._plan.angles, key=abs) / (2.0 * pi)
+            values['furthest turn of a turret'] = f'{turns:.2f}'
         if self._stopped_by:
             return Diagnosis(ERROR, f'stopped: {self._stopped_by}', values)
         if self._blind:
@@ -118,32 +153,85 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         return Diagnosis(OK, 'driving', values)
 
     def _on_stamped_twist(self, message: TwistStamped) -> None:
-        self._drive(twist_of(message.twist), message.header.stamp)
+        self._drive(twist_of(message.twist))
 
     def _on_twist(self, message: TwistMessage) -> None:
-        self._drive(twist_of(message), self.get_clock().now().to_msg())
+        self._drive(twist_of(message))
 
-    def _drive(self, twist: Twist, stamp: Any) -> None:
+    def _drive(self, twist: Twist) -> None:
+        """Answer a twist with a command at once."""
         self._watchdog.feed()
-        if self._stopped_by or self._blind or not any(twist):
+        self._wanted = twist
+        if any(twist):
+            self._unwinding = False
+            if self._plan is None:  # nothing is known of the turrets: they are taken for straight
+                self._plan = SteeringState(self._measured or [0.0] * len(self._turrets))
+        if self._stopped_by or self._blind or self._plan is None:
             self._stand_still()
-        else:
-            self._send(twist, stamp)
+            return
+        self._step(SOONEST * self._plan.period)
+        self._send()
 
-    def _send(self, twist: Twist, stamp: Any) -> None:
+    def _go_on(self) -> None:
+        """Bring the wheels nearer to the wanted twist, also between two messages."""
+        if self._plan is None or self._stopped_by or self._blind:
+            return
+        lost = self._watchdog.judge(self.seconds()) is Silence.LOST
+        if lost and not self._unwinding:
+            return  # _watch has stopped the wheels
+        if self._step(0.5 / self.parameters.rate):
+            self._send()
+
+    def _step(self, soonest: float) -> bool:
+        """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
+        now, plan, period = self.seconds(), self._plan, 1.0 / self.parameters.rate
+        elapsed = period if self._planned_at is None else now - self._planned_at
+        if plan is None or 0.0 <= elapsed <= soonest:
+            return False
+        self._planned_at = now
+        if not 0.0 < elapsed < 2.0 * period:  # the clock jumped, or there was nothing to do
+            elapsed = period
+        if plan.speed == 0.0 and self._is_lost(plan):
+            self._plan = plan = SteeringState(self._seen(plan))
+        self._rested = 0.0 if any(self._wanted) else self._rested + elapsed
+        if self._unwinding or self._wants_unwinding(plan):
+            self._unwinding = plan.speed > 0.0 or not self._planner.unwind(plan, elapsed)
+        if plan.speed > 0.0 or not self._unwinding:
+            self._planner.step(plan, self._wanted, elapsed)
+        if plan.limiter is not self._limiter:
+            self._limiter = plan.limiter
+            self._limits.publish(String(data=plan.limiter.value))
+        return True
+
+    def _seen(self, plan: SteeringState) -> list[float]:
+        """Return the measured angles, the turns of encoders that wrap counted on [rad]."""
+        measured = self._measured or plan.angles
+        return [told + wrap(seen - told) for told, seen in zip(plan.angles, measured, strict=True)]
+
+    def _is_lost(self, plan: SteeringState) -> bool:
+        """Return whether a turret stands elsewhere than the plan has it, and nothing moves."""
+        return not any(plan.rates) and any(
+            abs(told - seen) > LOST_TURRET
+            for told, seen in zip(plan.angles, self._seen(plan), strict=True)
+        )
+
+    def _wants_unwinding(self, plan: SteeringState) -> bool:
+        after = self.parameters.unwind_after
+        return 0.0 < after < self._rested and any(abs(angle) > pi / 2.0 for angle in plan.angles)
+
+    def _send(self) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
-        given = self.parameters
-        held = self._angles or [0.0] * len(self._turrets)
-        command = self._turrets.command(twist, held, given.max_wheel_speed)
-        self._angles = angles = nearest_turns(command.angle, held)
-        share = alignment(angles, self._measured) if self._measured else 1.0
-        factor = share / given.wheel_radius
-        rates = [factor * speed for speed in command.speed]
-        self._message.header.stamp = stamp
-        self._joints.fill(self._message, angles, rates)
+        plan = self._plan
+        if plan is None:
+            return
+        share = alignment(plan.angles, self._measured) if self._measured else 1.0
+        factor = share / self.parameters.wheel_radius
+        rates = [factor * speed for speed in plan.speeds]
+        self.stamp(self._message)
+        self._joints.fill(self._message, plan.angles, rates)
         self._command.publish(self._message)
         if self._arrays_wanted:
-            self._steering.publish(Float64MultiArray(data=array('d', angles)))
+            self._steering.publish(Float64MultiArray(data=array('d', plan.angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
 
     def _watch(self) -> None:
@@ -162,7 +250,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self.get_logger().warning(
                 f'no cmd_vel for {age:.1f} s: {told}', throttle_duration_sec=5.0
             )
-        if silence is Silence.LOST:
+        if silence is Silence.LOST and not self._unwinding:
             self._stand_still()
 
     def _watch_state(self, now: float) -> None:
@@ -178,26 +266,45 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _stand_still(self) -> None:
         """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
-        if self._angles is None:
+        self._wanted, self._unwinding = REST, False
+        if self._plan is None:
             message = self._joints.standstill()
             message.header.frame_id = self.parameters.base_frame
             self.stamp(message)
             self._command.publish(message)
         else:
-            self._send(REST, self.get_clock().now().to_msg())
+            self._planner.stop(self._plan)
+            self._send()
 
     def _on_stop(self, request: Any) -> str:
         self._stopped_by = 'by request' if request.data else ''
         if request.data:
             self._stand_still()
             return 'stopped; call again with data: false to drive on'
+        if self._plan is not None:  # from where they were left, whatever was commanded before
+            self._plan = SteeringState(self._seen(self._plan))
         return 'free to drive'
+
+    def _on_unwind(self, _: Any) -> str:
+        plan = self._plan
+        if self._stopped_by or self._blind:
+            msg = f'stopped ({self._stopped_by or "turrets/state is lost"}): release it first'
+            raise ConfigurationError(msg)
+        if plan is None or all(abs(angle) <= pi / 2.0 for angle in plan.angles):
+            return 'nothing to unwind: every turret is within a quarter turn of straight'
+        if plan.speed > 0.0 or any(self._wanted):
+            msg = 'the platform is driving: send a zero cmd_vel before unwinding'
+            raise ConfigurationError(msg)
+        self._unwinding = True
+        furthest = max(plan.angles, key=abs)
+        return f'unwinding, the furthest turret by {degrees(pi * round(furthest / pi)):.0f} deg'
 
     def _on_state(self, message: JointState) -> None:
         """Fit the twist that the turrets really make, and carry the odometry on."""
         angles, rates = self._joints.read(message)
         self._state_watchdog.feed()
-        self._angles = self._angles or angles
+        if self._measured is None:
+            self._plan = SteeringState(angles)
         self._measured = angles
         speeds = [rate * self.parameters.wheel_radius for rate in rates]
         fit = self._turrets.twist(angles, speeds)

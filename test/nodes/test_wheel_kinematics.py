@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from itertools import pairwise
 from math import cos, inf, nan, pi, sin
 
 import pytest
@@ -13,22 +15,27 @@ from nav_msgs.msg import Odometry
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.lifecycle import TransitionCallbackReturn
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray
-from std_srvs.srv import SetBool
+from std_msgs.msg import Float64, Float64MultiArray, String
+from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.steering_limits import SteeringLimits
+from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.ros.messages import TurretJoints
-from agv_motion.ros.qos import SENSOR
+from agv_motion.planar import Twist as Twist2D
+from agv_motion.ros.messages import TurretJoints, seconds_of
+from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import StartError
 
 PAIR = {'turret_x': [0.5, -0.5], 'turret_y': [0.0, 0.0]}
-FAST = {**PAIR, 'max_wheel_speed': 5.0}
+QUICK = {
+    **PAIR, 'steering_rate': 100.0, 'steering_acceleration': 1e4, 'wheel_acceleration': 100.0,
+}  # fmt: skip
+FAST = {**QUICK, 'max_wheel_speed': 5.0}
 
 
 def twist(vx=0.0, vy=0.0, wz=0.0):
     message = TwistStamped()
-    message.header.stamp.sec = 42
     message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = vx, vy, wz
     return message
 
@@ -38,7 +45,7 @@ def rates(command):
 
 
 def angles(command):
-    return [a for name, a in zip(command.name, command.position, strict=True) if 'steer' in name]
+    return list(command.position[: len(command.name) // 2])  # none where turrets are left alone
 
 
 @pytest.fixture
@@ -58,7 +65,7 @@ def test_a_twist_becomes_angle_and_rate_of_each_turret(tester, drive):
     _, commands, cmd_vel = drive(**FAST)
     cmd_vel.publish(twist(wz=1.0))
     command = tester.wait(commands, lambda m: any(m.velocity))
-    assert command.header.stamp.sec == 42
+    assert abs(seconds_of(command.header.stamp) - time.time()) < 10.0
     assert command.header.frame_id == 'base_link'
     assert list(command.name) == [
         'turret_0_steering', 'turret_1_steering', 'turret_0_wheel', 'turret_1_wheel',
@@ -78,7 +85,7 @@ def test_the_plain_arrays_for_ros2_control_say_the_same(tester, drive):
 
 
 def test_too_fast_a_twist_is_scaled_as_a_whole(tester, drive):
-    _, commands, cmd_vel = drive(**PAIR)
+    _, commands, cmd_vel = drive(**QUICK)
     cmd_vel.publish(twist(vx=1.0))
     command = tester.wait(commands, lambda m: any(m.velocity))
     assert rates(command) == pytest.approx([2.0 / 60.0 / 0.1] * 2)
@@ -107,10 +114,11 @@ def test_silence_stops_the_wheels_and_holds_the_angles(tester, drive):
     _, commands, cmd_vel = drive(report_after=0.2, stop_after=0.4, **FAST)
     cmd_vel.publish(twist(vy=0.3))
     tester.wait(commands, lambda m: any(m.velocity))
+    tester.graph.spin_until(lambda: not any(commands[-1].velocity))
+    assert angles(commands[-1]) == [pi / 2] * 2
     commands.clear()
-    stop = tester.wait(commands)
-    assert rates(stop) == [0.0, 0.0]
-    assert angles(stop) == [pi / 2] * 2
+    tester.graph.spin_for(0.3)
+    assert not any(any(rates(command)) for command in commands)
 
 
 def test_the_last_word_of_a_deactivated_node_is_zero(tester, drive):
@@ -259,10 +267,76 @@ def test_from_rest_the_turrets_steer_before_the_wheels_roll(tester, drive):
 def test_a_turret_never_goes_the_long_way_round(tester, drive):
     _, commands, cmd_vel = drive(**FAST)
     for heading in (3.0, 3.3):
-        commands.clear()
         cmd_vel.publish(twist(0.3 * cos(heading), 0.3 * sin(heading)))
-        command = tester.wait(commands, lambda m: any(m.velocity))
-    assert angles(command) == pytest.approx([3.3] * 2)
+        wanted = pytest.approx([heading - pi] * 2)  # both wheels reversed
+        tester.wait(commands, lambda m: any(rates(m)) and angles(m) == wanted)  # noqa: B023
+    assert all(abs(a) < 0.16 for command in commands if command.position for a in angles(command))
+
+
+def test_on_the_way_to_another_twist_all_axes_meet_and_no_limit_is_exceeded(tester, drive):
+    """From driving forward to sideways with a turn: every command on the way has one ICR."""
+    slow = {'steering_rate': 1.0, 'steering_acceleration': 10.0, 'wheel_acceleration': 1.0}
+    limits = SteeringLimits(max_wheel_speed=0.5, **slow)
+    _, commands, cmd_vel = drive(**PAIR, max_wheel_speed=0.5, rate=50.0, **slow)
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: rates(m) == pytest.approx([3.0] * 2))
+    commands.clear()
+    cmd_vel.publish(twist(vx=0.2, vy=0.2, wz=0.3))
+    pair = Turrets([(0.5, 0.0), (-0.5, 0.0)])
+    wanted = pair.command(Twist2D(0.2, 0.2, 0.3), [0.0] * 2)
+    end = pytest.approx([*wanted.angle, *(speed / 0.1 for speed in wanted.speed)])
+    tester.wait(commands, lambda m: [*angles(m), *rates(m)] == end)
+    for before, after in pairwise(commands):
+        speeds = [rate * 0.1 for rate in rates(after)]
+        assert pair.twist(angles(after), speeds).residual < 1e-12
+        passed = seconds_of(after.header.stamp) - seconds_of(before.header.stamp)
+        for old, new in zip(angles(before), angles(after), strict=True):
+            assert abs(new - old) <= limits.steering_rate * passed + 2e-4  # stamps are taken later
+    assert len(commands) > 20
+
+
+def test_a_turret_that_was_turned_by_hand_is_taken_from_where_it_stands(tester, drive):
+    _, commands, cmd_vel = drive(**FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.1))
+    cmd_vel.publish(twist())
+    tester.wait(commands, lambda m: list(m.position) == [0.0] * 4)
+    commands.clear()
+    joint_states.publish(state([0.0, 1.0], [0.0, 0.0], 0.2))
+    tester.wait(commands, lambda m: angles(m) == [0.0, 1.0])
+
+
+def test_cables_are_unwound_at_rest_and_only_there(tester, drive):
+    """A turret a turn and a tenth away goes back by one turn, along the same line."""
+    _, commands, cmd_vel = drive(turn_limit=2.0, **FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([2.2 * pi, 0.1], [0.0, 0.0], 0.1))
+    cmd_vel.publish(twist(vx=0.3))
+    tester.wait(commands, lambda m: any(rates(m)))
+    refused = tester.ask(Trigger, 'wheel_kinematics/unwind', Trigger.Request())
+    assert not refused.success
+    assert 'zero cmd_vel' in refused.message
+    cmd_vel.publish(twist())
+    tester.graph.spin_until(lambda: not any(rates(commands[-1])))
+    answer = tester.ask(Trigger, 'wheel_kinematics/unwind', Trigger.Request())
+    assert answer.success
+    assert '360 deg' in answer.message
+    tester.wait(commands, lambda m: angles(m) == pytest.approx([0.0, 0.0], abs=1e-9))
+
+
+def test_what_limits_the_motion_is_told(tester, drive):
+    limiters = tester.listen(String, 'turrets/limiter', LATCHED)
+    node, _, cmd_vel = drive(max_wheel_speed=0.1, **QUICK)
+    cmd_vel.publish(twist(vy=0.3))
+    tester.wait(limiters, lambda m: m.data == 'wheel speed')
+    assert node.diagnose().values['limited by'] == 'wheel speed'
+    assert limiters[0].data == 'turning the turrets before rolling'
+    (taken,) = node.set_parameters([rclpy.Parameter('wheel_acceleration', value=0.01)])
+    assert taken.successful
+    cmd_vel.publish(twist(vy=0.01))
+    tester.wait(limiters, lambda m: m.data == 'wheel acceleration')
 
 
 def test_turrets_that_fall_silent_stop_the_platform(tester, drive):
