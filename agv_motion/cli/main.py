@@ -10,6 +10,7 @@ import typer
 from agv_motion.cli import (
     demo,
     doctor,
+    drive,
     nodes,
     parameters,
     record,
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 app.add_typer(topic.app, name='topic')
 app.add_typer(nodes.app, name='nodes')
+app.add_typer(drive.app, name='drive')
 app.command(
     context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
 )(nodes.run)
