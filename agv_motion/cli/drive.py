@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import typer
 from rich.console import Console
 
+from agv_motion.cli.pose_text import parse_pose
 from agv_motion.errors import ConfigurationError
-from agv_motion.planar import Pose
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from agv_motion.nodes.ghost_trajectory import GhostTrajectoryParameters
+    from agv_motion.planar import Pose
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
 
@@ -152,7 +153,7 @@ def _tell(goal: Goal, start: str, config: str, plot: Path | None) -> None:
 
     given = load_parameters(find_config(config), 'ghost_trajectory', GhostTrajectoryParameters)
     given = replace(given, **goal.changes)  # type: ignore[arg-type]
-    ghost = Ghost(_poses(start.split(','))[0], given.follow.ghost)
+    ghost = Ghost(parse_pose('--start', start), given.follow.ghost)
     trajectory = goal.plan(ghost, given)
     for line in ghost.report().lines():
         typer.echo(line)
@@ -167,12 +168,7 @@ def _tell(goal: Goal, start: str, config: str, plot: Path | None) -> None:
 
 def _poses(numbers: list[str]) -> list[Pose]:
     """Return poses from x, y [m] and degrees, one after another."""
-    try:
-        values = [float(number) for number in numbers]
-    except ValueError as error:
-        msg = f'{" ".join(numbers)}: give X Y DEGREES of each pose ({error})'
-        raise ConfigurationError(msg) from error
-    if not values or len(values) % 3:
-        msg = f'{len(values)} numbers: a pose is three, X Y DEGREES'
+    if len(numbers) % 3:
+        msg = f'{" ".join(numbers)}: a pose is three numbers, X Y DEGREES'
         raise ConfigurationError(msg)
-    return [Pose(*values[i : i + 2], radians(values[i + 2])) for i in range(0, len(values), 3)]
+    return [parse_pose('pose', ','.join(numbers[i : i + 3])) for i in range(0, len(numbers), 3)]

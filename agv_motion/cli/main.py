@@ -13,6 +13,7 @@ from agv_motion.cli import (
     drive,
     nodes,
     parameters,
+    plot,
     record,
     replay,
     route,
@@ -42,6 +43,7 @@ app.command(
 )(sequence.sequence)
 app.command()(demo.demo)
 app.command()(record.record)
+app.command()(plot.plot)
 app.command()(replay.replay)
 app.command()(doctor.doctor)
 

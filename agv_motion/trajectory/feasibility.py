@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from agv_motion.trajectory.trajectory import Trajectory
 
-STRAIGHT = 1e-6
+STRAIGHT = 1e-3
 """[1/m] A bend of less is not worth a word."""
 
 

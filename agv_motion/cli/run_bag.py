@@ -1,0 +1,125 @@
+"""A run in a bag as columns: where the robot was to be, where it was, and the ways it was shown."""
+
+from __future__ import annotations
+
+from math import atan2
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from rosbags.highlevel import AnyReader, AnyReaderError
+
+from agv_motion.errors import ConfigurationError, SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    Column = NDArray[np.float64]
+
+PLANNED = ('ghost/pose',)
+DRIVEN = ('ground_truth', 'pose', 'odom/filtered', 'odom', 'fix')
+"""Topics that tell a pose, by the ends of their names, the most trusted first."""
+
+POSES = {
+    'geometry_msgs/msg/PoseStamped': lambda message: message.pose,
+    'geometry_msgs/msg/PoseWithCovarianceStamped': lambda message: message.pose.pose,
+    'nav_msgs/msg/Odometry': lambda message: message.pose.pose,
+}
+"""Where the pose stands in each type that has one."""
+
+
+class Poses(NamedTuple):
+    """A topic that tells poses, by the stamps of its messages."""
+
+    topic: str
+    frame: str
+    time: Column
+    """(n,) [s], rising"""
+    pose: Column
+    """(n, 3) x [m], y [m], heading [rad]"""
+
+
+class RunBag(NamedTuple):
+    """What a bag tells of a run."""
+
+    planned: Poses | None
+    """Of the Ghost"""
+    driven: Poses
+    ways: dict[str, list[Column]]
+    """(n, 2) places of each path that was shown [m], by topic"""
+
+
+def read_run(bag: Path, planned: str = '', driven: str = '') -> RunBag:
+    """Read a run.
+
+    Args:
+        bag: Folder or file.
+        planned: Topic of the Ghost; empty: found by its name, if there is one.
+        driven: Topic of the robot; empty: found by name, in the frame of the Ghost where it can.
+
+    Raises:
+        SourceError: The bag cannot be read.
+        ConfigurationError: It has no such topic, or nothing that tells where the robot was.
+
+    """
+    try:
+        with AnyReader([bag]) as reader:
+            kinds = {c.topic: c.msgtype for c in reader.connections}
+            told = _tell(reader, [topic for topic, kind in kinds.items() if kind in POSES])
+            shown = [topic for topic, kind in kinds.items() if kind == 'nav_msgs/msg/Path']
+            ways = {topic: _ways(reader, topic) for topic in shown}
+    except (AnyReaderError, OSError, ValueError) as error:
+        msg = f"cannot read the bag '{bag}': {error}"
+        raise SourceError(msg) from error
+    ghost = _pick(told, planned, PLANNED, '')
+    robot = _pick(told, driven, DRIVEN, ghost.frame if ghost else '')
+    if robot is None:
+        msg = f'{bag} does not tell where the robot was; it has {", ".join(sorted(kinds))}'
+        raise ConfigurationError(msg)
+    return RunBag(ghost, robot, ways)
+
+
+def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -> Poses | None:
+    """Return the topic that is named, or the first whose name ends so; in ``frame`` if one is."""
+    if named:
+        topic = f'/{named.lstrip("/")}'
+        if topic not in told:
+            msg = f'no poses on {topic}: there are {", ".join(sorted(told)) or "none at all"}'
+            raise ConfigurationError(msg)
+        return told[topic]
+    found = [poses for end in ends for name, poses in told.items() if name.endswith(f'/{end}')]
+    inside = [poses for poses in found if poses.frame == frame]
+    return next(iter([*inside, *found]), None)
+
+
+def _tell(reader: AnyReader, topics: list[str]) -> dict[str, Poses]:
+    rows: dict[str, list[tuple[float, ...]]] = {topic: [] for topic in topics}
+    frames: dict[str, str] = {}
+    wanted = [c for c in reader.connections if c.topic in rows]
+    for connection, _, data in reader.messages(wanted):
+        message: Any = reader.deserialize(data, connection.msgtype)
+        pose = POSES[connection.msgtype](message)
+        q, p, stamp = pose.orientation, pose.position, message.header.stamp
+        heading = atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+        rows[connection.topic].append((stamp.sec + 1e-9 * stamp.nanosec, p.x, p.y, heading))
+        frames[connection.topic] = message.header.frame_id
+    told = {}
+    for topic, found in rows.items():
+        if found:
+            table = np.array(found)
+            _, first = np.unique(table[:, 0], return_index=True)
+            told[topic] = Poses(topic, frames[topic], table[first, 0], table[first, 1:])
+    return told
+
+
+def _ways(reader: AnyReader, topic: str) -> list[Column]:
+    wanted = [c for c in reader.connections if c.topic == topic]
+    ways = []
+    for connection, _, data in reader.messages(wanted):
+        message: Any = reader.deserialize(data, connection.msgtype)
+        places = [(p.pose.position.x, p.pose.position.y) for p in message.poses]
+        if len(places) > 1:
+            ways.append(np.array(places))
+    return ways
