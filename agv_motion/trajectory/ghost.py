@@ -7,7 +7,7 @@ never on the steps in which it passed.
 
 from __future__ import annotations
 
-from math import isfinite
+from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import ConfigurationError, GeometryError, SignalError
@@ -250,16 +250,17 @@ class Ghost:
     def controller_kinetics(self, delay: float = 0.0) -> Kinetics:
         """Return the pose now and the speeds ``delay`` [s] ahead; zero speeds while locked."""
         linear, angular = self._speeds(delay)
-        return Kinetics(self.pose, linear, angular)
+        return Kinetics(self._trajectory.pose(self._time), linear, angular)
 
     def _speeds(self, delay: float) -> Speeds:
         if self._locked:
             return STILL
-        if not isfinite(delay) or delay < 0.0:
+        if not 0.0 <= delay < float_info.max:
             msg = f'delay = {delay} s: must be finite and not negative'
             raise ConfigurationError(msg)
-        linear, angular = self._trajectory.speeds(self._time + self._rate * delay)
-        return Speeds(self._rate * linear, self._rate * angular)
+        rate = self._rate
+        speeds = self._trajectory.speeds(self._time + rate * delay)
+        return speeds if rate == 1.0 else Speeds(rate * speeds.linear, rate * speeds.angular)
 
     def _depart(self, plan: Callable[[Pose, Speeds], Trajectory]) -> Trajectory:
         """Follow ``plan`` from now, or after as little braking as it needs, by quarters."""

@@ -172,7 +172,7 @@ class Drive:
         """Return the pose at ``time`` [s]."""
         if time >= self.duration:
             return self.end
-        return self.start if time <= 0.0 else self.at_way(self.profile.at(time).way)
+        return self.start if time <= 0.0 else self.at_way(self.profile.way(time))
 
     def at_way(self, way: float) -> Pose:
         """Return the pose at ``way`` [m] from the start."""

@@ -51,6 +51,9 @@ class Profile(Protocol):
     def at(self, time: float) -> Progress:
         """Return the progress at ``time`` [s]."""
 
+    def way(self, time: float) -> float:
+        """Return the way of that alone [m], which is quicker."""
+
     def stopped(self, time: float, braking: float) -> Profile:
         """Return the same profile until ``time`` [s], then ``braking`` [m/s2] until rest."""
 
@@ -112,6 +115,16 @@ class SharpProfile:
             acceleration,
         )
 
+    def way(self, time: float) -> float:
+        """Return the way at ``time`` [s] alone."""
+        piece = bisect_right(self._times, time) - 1
+        if piece < 0:
+            return self._ways[0] + time * self._speeds[0]
+        tau = time - self._times[piece]
+        return self._ways[piece] + tau * (
+            self._speeds[piece] + 0.5 * self._accelerations[piece] * tau
+        )
+
     def stopped(self, time: float, braking: float) -> SharpProfile:
         """Return the same profile until ``time`` [s], then ``braking`` [m/s2] until rest."""
         if time >= self.duration:
@@ -131,6 +144,15 @@ class SharpProfile:
         s, v, a = (np.array(c[:-1]) for c in (self._ways, self._speeds, self._accelerations))
         tau = np.diff(self._times)
         return [0.0, *np.cumsum(tau * (s + tau * (v / 2.0 + tau * a / 6.0))).tolist()]
+
+    def area(self, time: float, integrals: list[float]) -> float:
+        """Return the integral of the way up to ``time`` [s], the first of :meth:`moment`."""
+        piece = bisect_right(self._times, time) - 1
+        if piece < 0:
+            return time * (self._ways[0] + 0.5 * time * self._speeds[0])
+        tau = time - self._times[piece]
+        s, v, a = self._ways[piece], self._speeds[piece], self._accelerations[piece]
+        return integrals[piece] + tau * (s + tau * (v / 2.0 + tau * a / 6.0))
 
     def moment(self, time: float, integrals: list[float]) -> tuple[float, float, float]:
         """Return integral of the way [m s], way and speed at ``time`` [s].
@@ -184,6 +206,13 @@ class RoundedProfile:
             (way - way_before) / width,
             (speed - speed_before) / width,
         )
+
+    def way(self, time: float) -> float:
+        """Return the way at ``time`` [s] alone."""
+        if time >= self.duration:
+            return self._sharp.way(time)
+        sharp, width, integrals = self._sharp, self._rounding, self._integrals
+        return (sharp.area(time, integrals) - sharp.area(time - width, integrals)) / width
 
     def stopped(self, time: float, braking: float) -> RoundedProfile:
         """Return the same profile until ``time`` [s], then ``braking`` [m/s2], rounded too."""

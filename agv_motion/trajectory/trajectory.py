@@ -47,6 +47,8 @@ class Trajectory:
         """Return the pose at ``time`` [s]; before the start and after the end, those."""
         if time >= self.duration or not self.motions:
             return self.end
+        if len(self.motions) == 1:
+            return self.motions[0].pose(time)
         motion, begin = self._at(time)
         return motion.pose(time - begin)
 
@@ -54,6 +56,8 @@ class Trajectory:
         """Return linear and angular speed at ``time`` [s]; zero when it has ended."""
         if time >= self.duration or not self.motions:
             return STILL
+        if len(self.motions) == 1:
+            return self.motions[0].speeds(time)
         motion, begin = self._at(time)
         return motion.speeds(time - begin)
 
@@ -84,7 +88,5 @@ class Trajectory:
         return [*(self.pose(k * step) for k in range(count + 1)), self.end]
 
     def _at(self, time: float) -> tuple[Motion, float]:
-        if len(self._starts) == 1:
-            return self.motions[0], 0.0
         number = max(bisect_right(self._starts, time) - 1, 0)
         return self.motions[number], self._starts[number]
