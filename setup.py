@@ -67,6 +67,7 @@ setup(
             'catkin_pkg',
             'colcon-common-extensions',
             'colcon-ros',
+            'distributed>=2024.5',
             'hypothesis>=6.100',
             'matplotlib>=3.8',
             'mcap-ros2-support>=0.5',
@@ -79,6 +80,7 @@ setup(
             'types-pyyaml',
         ],
         'benchmark': ['robotpy-wpimath'],
+        'cluster': ['distributed>=2024.5'],
     },
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),

@@ -8,6 +8,7 @@ import sys
 import typer
 
 from agv_motion.cli import (
+    bag,
     demo,
     doctor,
     drive,
@@ -16,6 +17,7 @@ from agv_motion.cli import (
     plot,
     record,
     replay,
+    reprocess,
     route,
     sequence,
     topic,
@@ -45,6 +47,8 @@ app.command()(demo.demo)
 app.command()(record.record)
 app.command()(plot.plot)
 app.command()(replay.replay)
+app.command()(reprocess.reprocess)
+app.add_typer(bag.app, name='bag')
 app.command()(doctor.doctor)
 
 

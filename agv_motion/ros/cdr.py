@@ -29,7 +29,7 @@ class Codec(NamedTuple):
 
 
 @cache
-def codec(kind: type[Any]) -> Codec:
+def codec(kind: Any) -> Codec:
     """Return the functions for a message class.
 
     Raises:

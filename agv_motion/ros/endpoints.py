@@ -39,10 +39,11 @@ def message_class(name: str) -> Any:
 
 def offered(publishers: Sequence[TopicEndpointInfo]) -> list[OfferedQos]:
     """Return the quality of service of each publisher, as a bag keeps it."""
-    return [_offered(publisher.qos_profile) for publisher in publishers]
+    return [offer(publisher.qos_profile) for publisher in publishers]
 
 
-def _offered(qos: QoSProfile) -> OfferedQos:
+def offer(qos: QoSProfile) -> OfferedQos:
+    """Return a profile as a bag keeps it."""
     return OfferedQos(
         depth=qos.depth,
         reliability=qos.reliability.name.lower(),

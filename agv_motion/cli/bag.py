@@ -1,0 +1,10 @@
+"""`agv bag`: look into bags."""
+
+from __future__ import annotations
+
+import typer
+
+from agv_motion.cli import bag_diff
+
+app = typer.Typer(no_args_is_help=True, help='Look into bags.')
+app.command()(bag_diff.diff)

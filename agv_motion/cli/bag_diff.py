@@ -1,0 +1,100 @@
+"""`agv bag diff`: what sets two bags apart."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from agv_motion.bag.diff import Difference, TopicDiff
+
+
+def diff(
+    first: Annotated[Path, typer.Argument(help='Bag with what should be.')],
+    second: Annotated[Path, typer.Argument(help='Bag with what is.')],
+    *,
+    topics: Annotated[
+        list[str] | None, typer.Option(help='Compare only this; one per option.')
+    ] = None,
+    common: Annotated[
+        bool, typer.Option('--common', help='Compare only the topics that both bags have.')
+    ] = False,
+    tolerance: Annotated[
+        float, typer.Option('-t', '--tolerance', min=0, help='By which numbers may differ.')
+    ] = 0.0,
+    relative: Annotated[
+        float, typer.Option(min=0, help='... plus this share of the larger number.')
+    ] = 0.0,
+) -> None:
+    """Compare two bags topic by topic; the exit status is 0 if they are the same, 1 if not.
+
+    Messages are paired by the stamp in their header, else by their place. Of each field that
+    differs, the two values furthest apart are told. Examples:
+    agv bag diff before after
+    agv bag diff recorded reprocessed --common -t 1e-9
+    """
+    from agv_motion.bag import diff as comparison
+    from agv_motion.bag.reader import BagReader
+
+    console = Console()
+    with BagReader(first) as one, BagReader(second) as other:
+        chosen = topics or sorted(
+            set(one.topics) & set(other.topics) if common else {*one.topics, *other.topics}
+        )
+        limits = comparison.Tolerance(tolerance, relative)
+        found = [
+            topic
+            for name in track(chosen, 'Comparing', console=Console(stderr=True), transient=True)
+            for topic in comparison.diff(one, other, [name], limits)
+        ]
+        start = one.start
+    console.print(_overview(found))
+    for topic in found:
+        _details(console, topic, start)
+    if not all(topic.same for topic in found):
+        raise typer.Exit(1)
+
+
+def _overview(found: list[TopicDiff]) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for title in ('topic', 'first', 'second', 'differ', 'unpaired', ''):
+        table.add_column(
+            title, justify='right' if title in {'first', 'second', 'differ', 'unpaired'} else 'left'
+        )
+    for topic in found:
+        verdict = 'same' if topic.same else topic.note or 'DIFFERENT'
+        table.add_row(
+            topic.topic, *map(str, topic.counts), str(topic.differing), str(topic.unpaired),
+            verdict, style='' if topic.same else 'red',
+        )  # fmt: skip
+    return table
+
+
+def _details(console: Console, topic: TopicDiff, start: int) -> None:
+    """Print the fields of a topic that differ, the worst first."""
+    from agv_motion.bag.diff import distance
+
+    if topic.since is None:
+        return
+    since = (topic.since - start) * 1e-9
+    console.print(f'\n{topic.topic}, from {since:.3f} s on', highlight=False)
+
+    def size(difference: Difference) -> float:
+        return distance(difference.first, difference.second)
+
+    worst = sorted(topic.worst.values(), key=size, reverse=True)
+    for path, stamp, a, b in worst[:MOST_FIELDS]:
+        console.print(
+            f'  {path}: {a} against {b} at {(stamp - start) * 1e-9:.3f} s', highlight=False
+        )
+    if len(worst) > MOST_FIELDS:
+        console.print(f'  and {len(worst) - MOST_FIELDS} fields more')
+
+
+MOST_FIELDS = 10
+"""of a topic that are told"""

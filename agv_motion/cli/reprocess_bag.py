@@ -1,0 +1,180 @@
+"""The nodes of a vehicle over one recorded bag, without middleware."""
+
+from __future__ import annotations
+
+import importlib
+import shutil
+import time
+from functools import partial
+from math import inf
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import yaml
+from sensor_msgs.msg import Temperature
+
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.nodes import require_node
+from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.probe.sources.recorded import RecordedSource
+from agv_motion.ros.config import find_config
+from agv_motion.ros.endpoints import offer
+from agv_motion.ros.in_process import add
+from agv_motion.ros.messages import seconds_of
+from agv_motion.ros.qos import SENSOR
+from agv_motion.ros.world import Publisher, World
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+
+class Plan(NamedTuple):
+    """What to run over each bag."""
+
+    config: str
+    """YAML file of parameters, as the nodes take it live"""
+    nodes: tuple[str, ...]
+    """in the order in which they start"""
+    remap: tuple[tuple[str, str], ...]
+    """full names of topics: as a node has it, as the bag has it"""
+    compression: str
+
+
+class Outcome(NamedTuple):
+    """What came of one bag."""
+
+    source: str
+    messages_in: int
+    messages_out: int
+    seconds: float
+    """time that passed in the bag [s]"""
+    took: float
+    """time that it took [s]"""
+    missing: tuple[str, ...]
+    """inputs that the bag does not have"""
+    complaints: dict[str, int]
+    """warnings of the nodes, and how often"""
+    failure: str
+    """why there is no result; empty if there is"""
+
+
+class RecordedProbe(GranierProbe):
+    """The probe node on its recorded readings; its source is asked only for what came before."""
+
+    def open(self) -> None:
+        """Open as live, then listen to the recording in place of the source."""
+        super().open()
+        probes = self.parameters.probes()
+        recorded = self._source = RecordedSource(self._source, probes)
+        for i in range(probes):
+            self.listen(
+                Temperature, f'granier/probe_{i + 1}/temperature_difference',
+                partial(_take, recorded, i), SENSOR,
+            )  # fmt: skip
+
+
+def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
+    recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
+
+
+def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
+    """Run the nodes of ``plan`` over ``source``; a failure is part of the outcome."""
+    begin = time.perf_counter()
+    try:
+        return _run(source, target, plan, begin)
+    except (AgvMotionError, OSError) as error:
+        failure = str(error)
+    except Exception as error:  # noqa: BLE001 - a defect in one bag must not stop the others
+        failure = f'{type(error).__name__}: {error}'
+    return Outcome(str(source), 0, 0, 0.0, time.perf_counter() - begin, (), {}, failure)
+
+
+def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
+    with BagReader(source) as bag:
+        writer = BagWriter(target, compression=plan.compression, chunk_duration=inf)
+        try:
+            handles: dict[Publisher, int] = {}
+            counts = [0, 0]
+
+            def record(publisher: Publisher, data: bytes) -> None:
+                handle = handles.get(publisher)
+                if handle is None:
+                    handle = handles[publisher] = writer.add_topic(
+                        publisher.topic, _type_name(publisher.kind), qos=[offer(publisher.qos)]
+                    )
+                counts[1] += 1
+                writer.write(handle, world.now, data)
+
+            world = World(record, bag.start)
+            world.recorded = bag.topics
+            for name in plan.nodes:
+                add(world, node_class(name), parameters(plan.config, name), dict(plan.remap))
+            world.start()
+            inputs = world.inputs()
+            feed = world.feed
+            for message in bag.messages(sorted(inputs & set(bag.topics))):
+                counts[0] += 1
+                feed(message.connection.topic, message.stamp, message.data)
+            world.run(bag.end)
+            world.stop()
+            writer.close()
+        except BaseException:
+            writer.close()
+            shutil.rmtree(target)
+            raise
+        missing = tuple(sorted(inputs - set(bag.topics)))
+        took = time.perf_counter() - begin
+        span = (bag.end - bag.start) * 1e-9
+        return Outcome(str(source), counts[0], counts[1], span, took, missing, world.complaints, '')
+
+
+def node_class(name: str) -> Any:
+    """Return the class of a node of this package, for a recording.
+
+    Raises:
+        ConfigurationError: There is none of this name.
+
+    """
+    if name == 'granier_probe':
+        return RecordedProbe
+    require_node(name)
+    module = importlib.import_module(f'agv_motion.nodes.{name}')
+    return getattr(module, ''.join(word.capitalize() for word in name.split('_')))
+
+
+def parameters(config: str, node: str) -> dict[str, Any]:
+    """Return the parameters of a node by dotted name, from a file as ROS takes it.
+
+    Raises:
+        ConfigurationError: The file is missing or no YAML.
+
+    """
+    if not config:
+        return {}
+    path = find_config(config)
+    try:
+        content = yaml.safe_load(path.read_text(encoding='utf-8')) or {}
+        values: dict[str, Any] = {}
+        for pattern, section in content.items():
+            if pattern == '/**' or pattern.rpartition('/')[2] == node:
+                values |= dict(_flat(section['ros__parameters'], ''))
+    except (yaml.YAMLError, AttributeError, KeyError, TypeError) as error:
+        msg = f'{path}: {error}; expected nodes, each with ros__parameters'
+        raise ConfigurationError(msg) from error
+    if node == 'granier_probe':
+        values['state_file'] = ''  # what the robot has learnt stays untouched
+    return values
+
+
+def _flat(values: dict[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
+    for name, value in values.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f'{prefix}{name}.')
+        else:
+            yield prefix + name, value
+
+
+def _type_name(kind: type[Any]) -> str:
+    return f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'

@@ -1,0 +1,192 @@
+"""`agv reprocess` over recordings: the decisions of the live nodes, the same bytes every time."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from agv_motion.bag.diff import Tolerance, diff
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.reprocess_bag import Plan, parameters, reprocess
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.nodes.simulator import Simulator
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.endpoints import offer
+from agv_motion.ros.in_process import add
+from agv_motion.ros.world import World
+
+SECOND = 1_000_000_000
+NOON = 1434366000 * SECOND
+PLAN = Plan(
+    'tree.yaml',
+    ('granier_probe', 'motion_generator', 'wheel_kinematics'),
+    (('/pose', '/fix'),),
+    'zstd',
+)
+
+
+def record(path, seconds, seed=1):
+    """Write what the whole tree says in ``seconds`` before a June noon."""
+    with BagWriter(path) as writer:
+        handles = {}
+
+        def keep(publisher, data):
+            if publisher.topic not in handles:
+                kind = publisher.kind
+                name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
+                handles[publisher.topic] = writer.add_topic(
+                    publisher.topic, name, qos=[offer(publisher.qos)]
+                )
+            writer.write(handles[publisher.topic], world.now, data)
+
+        world = World(keep, NOON)
+        for kind, name in (
+            (GranierProbe, 'granier_probe'),
+            (MotionGenerator, 'motion_generator'),
+            (WheelKinematics, 'wheel_kinematics'),
+            (Simulator, 'simulator'),
+        ):
+            given = parameters('tree.yaml', name)
+            if name == 'simulator':
+                given |= {'seed': seed, 'start_time': '2015-06-15T11:00:00'}
+            add(world, kind, given, {'/pose': '/fix'})
+        world.start()
+        world.run(NOON + seconds * SECOND)
+        world.stop()
+    return path
+
+
+@pytest.fixture(scope='module')
+def recorded(tmp_path_factory):
+    """Return a folder of three recordings, the second of them spoilt."""
+    folder = tmp_path_factory.mktemp('recorded')
+    record(folder / 'a', 60)
+    record(folder / 'c', 30, seed=2)
+    (folder / 'b').mkdir()
+    (folder / 'b' / 'b_0.mcap').write_bytes(b'no bag')
+    return folder
+
+
+def content(folder):
+    """Return the bytes of all files of a folder."""
+    return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob('*.mcap'))}
+
+
+def test_what_was_decided_is_decided_again(recorded, tmp_path):
+    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN)
+    assert not outcome.failure
+    with BagReader(recorded / 'a') as before, BagReader(tmp_path / 'out') as after:
+        after.require(['/cmd_vel', '/turrets/command', '/odom', '/granier/sap_flow'])
+        for topic in diff(before, after, sorted(after.topics), Tolerance()):
+            assert topic.same, topic
+        assert any(
+            m.data != next(after.messages(['/cmd_vel'])).data for m in after.messages(['/cmd_vel'])
+        )
+
+
+def test_another_configuration_decides_otherwise(recorded, tmp_path):
+    reprocess(recorded / 'a', tmp_path / 'one', PLAN)
+    tuned = tmp_path / 'tuned.yaml'
+    tuned.write_text('/**/wheel_kinematics:\n  ros__parameters: {wheel_radius: 0.2}\n')
+    only = PLAN._replace(config=str(tuned), nodes=('wheel_kinematics',))
+    outcome = reprocess(recorded / 'a', tmp_path / 'two', only)
+    assert not outcome.failure
+    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
+        assert '/cmd_vel' not in two.topics
+        (commands,) = diff(one, two, ['/turrets/command'], Tolerance(1e-9))
+    worst = commands.worst['velocity[4]']
+    assert worst.second == pytest.approx(worst.first / 2)
+
+
+def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_path):
+    for name, workers in (('one', 1), ('two', 2)):
+        status, out, errors = alone(
+            'reprocess', recorded, tmp_path / name / 'out', '-m', 'pose:=fix', '-j', workers
+        )
+        assert status == 1
+        assert f'error: {recorded / "b"}' in errors
+        assert str(recorded / 'a') in out
+        assert 'Traceback' not in errors
+    found = content(tmp_path / 'one')
+    assert len(found) == 2
+    assert found == content(tmp_path / 'two')
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Return the address of a real scheduler with a worker process."""
+    pytest.importorskip('distributed')
+    dask = [sys.executable, '-m', 'distributed.cli.dask_scheduler']
+    address_file = tmp_path / 'scheduler.json'
+    options = ['--no-dashboard', '--host', '127.0.0.1', '--port', '0']
+    quiet = {'stdout': subprocess.DEVNULL, 'stderr': subprocess.DEVNULL, 'cwd': tmp_path}
+    quiet['env'] = os.environ | {'PYTHONPATH': str(Path(__file__).parents[2])}
+    scheduler = subprocess.Popen(  # noqa: S603 - our own interpreter
+        [*dask, *options, '--scheduler-file', str(address_file)], **quiet
+    )
+    worker = subprocess.Popen(  # noqa: S603
+        [sys.executable, '-m', 'distributed.cli.dask_worker', '--scheduler-file',
+         str(address_file), '--nthreads', '1', '--no-dashboard'], **quiet,
+    )  # fmt: skip
+    end = time.monotonic() + 30.0
+    while not (address_file.exists() and address_file.stat().st_size):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    yield json.loads(address_file.read_text())['address']
+    for process in (worker, scheduler):
+        process.terminate()
+        process.wait(20)
+
+
+def test_a_cluster_gives_the_same_bytes(alone, recorded, tmp_path, cluster):
+    status, _, errors = alone(
+        'reprocess', recorded, tmp_path / 'far' / 'out', '-m', 'pose:=fix', '--scheduler', cluster,
+        timeout=60,
+    )  # fmt: skip
+    assert status == 1
+    assert f'error: {recorded / "b"}' in errors
+    for name in ('a', 'c'):
+        reprocess(recorded / name, tmp_path / 'near' / 'out' / name, PLAN)
+    assert content(tmp_path / 'far') == content(tmp_path / 'near')
+
+
+def test_a_failure_leaves_no_half_result(recorded, tmp_path):
+    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(remap=(('/way', '/way'),)))
+    assert not outcome.failure
+    shutil.rmtree(tmp_path / 'out')
+    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(nodes=('nothing',)))
+    assert "no node 'nothing'" in outcome.failure
+    assert not (tmp_path / 'out').exists()
+
+
+def test_errors_and_warnings_are_told(alone, recorded, tmp_path):
+    status, _, errors = alone('reprocess', tmp_path / 'nowhere', tmp_path / 'out')
+    assert status == 1
+    assert 'nowhere' in errors
+    status, out, _ = alone('reprocess', recorded / 'c', tmp_path / 'out')
+    assert status == 0
+    assert 'nobody says /pose' in out
+
+
+def test_diff_tells_by_its_status(alone, recorded, tmp_path):
+    reprocess(recorded / 'a', tmp_path / 'out', PLAN)
+    status, out, _ = alone('bag', 'diff', tmp_path / 'out', tmp_path / 'out')
+    assert (status, 'DIFFERENT' in out) == (0, False)
+    status, out, _ = alone('bag', 'diff', recorded / 'a', recorded / 'c', '--common')
+    assert status == 1
+    assert 'DIFFERENT' in out
+    status, out, _ = alone(
+        'bag', 'diff', recorded / 'a', tmp_path / 'out', '--topics', '/odom', '-t', '1e-9'
+    )
+    assert status == 0

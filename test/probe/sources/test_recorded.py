@@ -1,0 +1,40 @@
+"""Recorded readings, put together again."""
+
+from __future__ import annotations
+
+from math import isnan
+
+from agv_motion.probe.sources.recorded import RecordedSource
+from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+
+LIVE = SimulatedSource(SimulatedParameters(), 1.0)
+
+
+def test_readings_of_one_time_are_one_sample():
+    source = RecordedSource(LIVE, 3)
+    for probe in (2, 0, 1):
+        source.take(probe, 100.0, 20.0 + probe)
+    (sample,) = source.read(100.0)
+    assert sample == (100.0, (20.0, 21.0, 22.0))
+    assert source.read(101.0) == []
+
+
+def test_a_probe_that_says_nothing_is_missing_after_a_while():
+    source = RecordedSource(LIVE, 2)
+    source.take(1, 100.0, 21.0)
+    assert source.read(100.2) == []
+    (sample,) = source.read(101.0)
+    assert isnan(sample.values[0])
+    assert sample.values[1] == 21.0
+
+
+def test_samples_come_in_the_order_of_time():
+    source = RecordedSource(LIVE, 1)
+    source.take(0, 102.0, 2.0)
+    source.take(0, 101.0, 1.0)
+    assert [sample.time for sample in source.read(103.0)] == [101.0, 102.0]
+
+
+def test_history_is_that_of_the_live_source():
+    now = 1434326400.0
+    assert list(RecordedSource(LIVE, 3).history(now)) == list(LIVE.history(now))
