@@ -106,7 +106,7 @@ def test_another_configuration_decides_otherwise(recorded, tmp_path):
         assert '/cmd_vel' not in two.topics
         (commands,) = diff(one, two, ['/turrets/command'], Tolerance(1e-9))
     worst = commands.worst['velocity[4]']
-    assert 0.4 < worst.second / worst.first < 0.6
+    assert 0.0 < worst.second < 0.8 * worst.first  # a larger wheel turns more slowly
 
 
 def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_path):
