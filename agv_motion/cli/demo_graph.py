@@ -10,14 +10,15 @@ import rclpy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
-from nav_msgs.msg import Odometry, Path
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.signals import SignalHandlerOptions
 from rich.live import Live
 from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
+from agv_motion.cli.demo_figure import draw
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
-from agv_motion.cli.demo_report import Outcome, draw, read_run, summary
+from agv_motion.cli.demo_report import Outcome, read_run, summary
 from agv_motion.cli.demo_view import DemoView
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -47,6 +48,8 @@ TOPICS = [
     Topic('goal', PoseStamped, latched=True),
     Topic('state', String, latched=True),
     Topic('way', Path, latched=True),
+    Topic('memory/sap_flow', OccupancyGrid, latched=True),
+    Topic('memory/last_visit', OccupancyGrid, latched=True),
     Topic('turrets/command', JointState),
     Topic('turrets/state', JointState),
     Topic('turrets/residual', Float64),

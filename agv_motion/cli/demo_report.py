@@ -8,8 +8,6 @@ import numpy as np
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 
-from agv_motion.cli.figure import figure
-
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -20,6 +18,21 @@ if TYPE_CHECKING:
 
 READ = ('ground_truth', 'granier/sap_flow', 'turrets/command', 'turrets/residual', 'goal')
 """Topics of the bag that the report needs, in the order of the fields of `Run`."""
+
+
+WALKING = 'walking to '
+"""How the state begins that tells the reason of a goal."""
+
+
+class Remembered(NamedTuple):
+    """A map of the memory, as published."""
+
+    x: NDArray[np.float64]
+    """(columns + 1,) edges of the cells [m]"""
+    y: NDArray[np.float64]
+    """(rows + 1,) edges of the cells [m]"""
+    values: NDArray[np.float64]
+    """(rows, columns), NaN where unknown"""
 
 
 class Run(NamedTuple):
@@ -35,6 +48,12 @@ class Run(NamedTuple):
     """(k, 2) time, residual [m/s]"""
     goals: NDArray[np.float64]
     """(g, 3) time, x, y"""
+    reasons: list[str]
+    """of each goal, in words"""
+    felt: Remembered | None
+    """sap flow remembered at the end, 0 to 100; None without a memory"""
+    visited: Remembered | None
+    """time since the last visit"""
 
     def distance(self) -> float:
         """Return the length of the way [m]."""
@@ -50,14 +69,48 @@ class Run(NamedTuple):
 def read_run(bag: Path, wheel_radius: float) -> Run:
     """Read the bag back."""
     rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in READ}
+    states: list[tuple[float, str]] = []
+    maps: dict[str, Remembered] = {}
     with AnyReader([bag]) as reader:
         start = reader.start_time
-        wanted = [c for c in reader.connections if c.topic.lstrip('/') in rows]
+        names = {*rows, 'state', 'memory/sap_flow', 'memory/last_visit'}
+        wanted = [c for c in reader.connections if c.topic.lstrip('/') in names]
         for connection, stamp, data in reader.messages(wanted):
-            message = reader.deserialize(data, connection.msgtype)
-            name = connection.topic.lstrip('/')
-            rows[name].append(((stamp - start) * 1e-9, *_numbers(name, message, wheel_radius)))
-    return Run(*(np.array(rows[n], dtype=float).reshape(len(rows[n]), -1) for n in READ))
+            message: Any = reader.deserialize(data, connection.msgtype)
+            name, time = connection.topic.lstrip('/'), (stamp - start) * 1e-9
+            if name == 'state':
+                states.append((time, message.data))
+            elif name in rows:
+                rows[name].append((time, *_numbers(name, message, wheel_radius)))
+            else:
+                maps[name] = _remembered(message)
+    columns = (np.array(rows[n], dtype=float).reshape(len(rows[n]), -1) for n in READ)
+    path, flow, speeds, residual, goals = columns
+    return Run(
+        path, flow, speeds, residual, goals, _reasons(goals, states),
+        maps.get('memory/sap_flow'), maps.get('memory/last_visit'),
+    )  # fmt: skip
+
+
+def _reasons(goals: NDArray[np.float64], states: list[tuple[float, str]]) -> list[str]:
+    """Return the reason of each goal: the first word of walking there, before the next goal."""
+    walking = [(t, text.removeprefix(WALKING)) for t, text in states if text.startswith(WALKING)]
+    ends = [*(goal[0] for goal in goals[1:]), np.inf]
+    return [
+        next((text for t, text in walking if goal[0] - 1.0 < t < end), '')
+        for goal, end in zip(goals, ends, strict=True)
+    ]
+
+
+def _remembered(message: Any) -> Remembered:
+    info = message.info
+    values = np.array(message.data, dtype=float).reshape(info.height, info.width)
+    values[values < 0.0] = np.nan
+    return Remembered(
+        info.origin.position.x + info.resolution * np.arange(info.width + 1),
+        info.origin.position.y + info.resolution * np.arange(info.height + 1),
+        values,
+    )
 
 
 def _numbers(name: str, message: Any, wheel_radius: float) -> tuple[float, ...]:
@@ -105,63 +158,3 @@ def summary(run: Run, outcome: Outcome, zone: Zone, max_wheel_speed: float) -> T
     for i, (topic, count) in enumerate(outcome.counts.items()):
         table.add_row('' if i else 'messages per topic', f'{count:6d}  {topic}')
     return table
-
-
-def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
-    """Draw zone and trail, probes, wheel speeds and residual into one picture.
-
-    Raises:
-        ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
-        SourceError: The file cannot be written.
-
-    """
-    mosaic = [['map', 'flow'], ['map', 'speed'], ['map', 'residual']]
-    with figure(path, mosaic, figsize=(13, 7), width_ratios=[1.25, 1]) as axes:
-        _draw_map(axes['map'], run, zone)
-        _draw_signals(axes, run, max_wheel_speed)
-
-
-def _draw_signals(axes: dict[str, Any], run: Run, max_wheel_speed: float) -> None:
-    """Draw sap flow, wheel speeds and residual over time."""
-    minutes = run.flow[:, 0] / 60.0
-    for i, name in enumerate(('s1: speed', 's2: rotation', 's3: places')):
-        axes['flow'].plot(minutes, run.flow[:, 1 + i], label=name)
-    axes['flow'].set(ylabel='sap flow', ylim=(-0.02, 1.02))
-    axes['flow'].legend(loc='upper right', fontsize='small', ncols=3)
-    for i in range(run.speeds.shape[1] - 1):
-        axes['speed'].plot(
-            run.speeds[:, 0] / 60.0, 60 * run.speeds[:, 1 + i], lw=0.8, label=f'turret {i}'
-        )
-    for sign in (-1, 1):
-        axes['speed'].axhline(sign * 60 * max_wheel_speed, color='grey', ls=':')
-    axes['speed'].set(ylabel='wheel speed [m/min]')
-    axes['speed'].legend(loc='upper right', fontsize='small', ncols=3)
-    axes['residual'].plot(run.residual[:, 0] / 60.0, 1e3 * run.residual[:, 1], lw=0.8)
-    axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
-
-
-def _draw_map(axes: Any, run: Run, zone: Zone) -> None:
-    """Draw the floor, its margin, and the trail coloured by s3."""
-    import shapely
-
-    for part, style in ((zone.floor, 'k-'), *((p, 'k:') for p in zone.parts)):
-        for ring in (part.exterior, *part.interiors):
-            axes.plot(*np.array(ring.coords).T, style, lw=1)
-    for area in zone.translation_only:
-        axes.fill(*np.array(area.exterior.coords).T, color='orange', alpha=0.2)
-    if len(run.path):
-        felt = np.interp(run.path[:, 0], run.flow[:, 0], run.flow[:, 3]) if len(run.flow) else 0.0
-        trail = axes.scatter(
-            run.path[:, 1], run.path[:, 2], c=np.broadcast_to(felt, len(run.path)), s=4,
-            cmap='viridis', vmin=0, vmax=1,
-        )  # fmt: skip
-        axes.figure.colorbar(trail, ax=axes, label='s3 felt', shrink=0.7)
-        axes.plot(*run.path[0, 1:], 'o', color='tab:green', label='start')
-        axes.plot(*run.path[-1, 1:], '^', color='tab:green', label='end')
-    axes.plot(run.goals[:, 1], run.goals[:, 2], 'x', color='tab:red', label='goal')
-    west, south, east, north = shapely.total_bounds(zone.floor)
-    axes.set(
-        aspect='equal', xlabel='x [m]', ylabel='y [m]',
-        xlim=(west - 0.5, east + 0.5), ylim=(south - 0.5, north + 0.5),
-    )  # fmt: skip
-    axes.legend(loc='upper left', fontsize='small')
