@@ -258,11 +258,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if self._obstacle or self._sap_flow is None or self._pose is None:
             self._publish(self._limits.stop(), self._obstacle)
             return
-        now = self.seconds()
-        thought = self._mind.think(now, self._pose, self._sap_flow)
+        thought = self._mind.think(self.seconds(), self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
-        dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._commanded_at = now
+        dt = min(max(self.seconds() - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
         self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
         if thought.goal is not self._told_goal:
             self._tell_goal(thought.goal)
@@ -270,7 +268,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._tell_way(thought.way)
 
     def _publish(self, limited: Limited, state: str) -> None:
-        self._limited_by = limited.by
+        self._limited_by, self._commanded_at = limited.by, self.seconds()
         given = self.parameters
         twist = to_twist(limited.command, given.linear_speed, given.platform_radius)
         if given.stamped:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from math import cos, hypot, sin
+
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
 from rclpy.parameter import Parameter
+from std_msgs.msg import Bool, String
 
+from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import start
 
@@ -64,6 +69,53 @@ def tester(graph, driven_robot):
     found = Tester(graph)
     found.driven_robot = driven_robot
     return found
+
+
+class Senses:
+    """A `motion_generator` and what it hears: sap flow, validity and pose."""
+
+    def __init__(self, tester, **parameters):
+        self.tester = tester
+        self.commands = tester.listen(TwistStamped, 'cmd_vel')
+        self.states = tester.listen(String, 'state', LATCHED)
+        self.node = tester.start(MotionGenerator, **({'goal': [10.0, 5.0]} | parameters))
+        self.flow = tester.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
+        self.pose = tester.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
+        self.valid = tester.publisher(Bool, 'granier/valid', LATCHED)
+
+    def feel(self, s1, s2, s3):
+        message = Vector3Stamped()
+        message.vector.x, message.vector.y, message.vector.z = s1, s2, s3
+        self.flow.publish(message)
+
+    def stand(self, x, y, heading, frame='map'):
+        message = PoseWithCovarianceStamped()
+        message.header.frame_id = frame
+        message.pose.pose.position.x, message.pose.pose.position.y = x, y
+        message.pose.pose.orientation.z = sin(heading / 2)
+        message.pose.pose.orientation.w = cos(heading / 2)
+        self.pose.publish(message)
+
+    def moves(self):
+        """Return the first command that moves."""
+        return self.tester.wait(self.commands, self.moving)
+
+    def rests(self):
+        """Return the next command that does not move."""
+        self.commands.clear()
+        return self.tester.wait(self.commands, lambda m: not self.moving(m))
+
+    @staticmethod
+    def moving(message):
+        """Return whether a command moves."""
+        twist = message.twist
+        return hypot(twist.linear.x, twist.linear.y) + abs(twist.angular.z) > 0.0
+
+
+@pytest.fixture
+def make_senses(tester):
+    """Return what makes a `motion_generator` with parameters, and its senses."""
+    return lambda **parameters: Senses(tester, **parameters)
 
 
 @pytest.fixture

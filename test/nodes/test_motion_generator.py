@@ -2,64 +2,26 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, nan, pi, sin
+from math import atan2, hypot, nan, pi
 
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Path
-from std_msgs.msg import Bool, String
+from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.motion_generator import MotionGenerator
-from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.qos import LATCHED
 from agv_motion.ros.run import StartError
 
 
-class Senses:
-    """What the node hears: sap flow, validity and pose."""
-
-    def __init__(self, tester, **parameters):
-        self.tester = tester
-        self.commands = tester.listen(TwistStamped, 'cmd_vel')
-        self.states = tester.listen(String, 'state', LATCHED)
-        self.node = tester.start(MotionGenerator, **({'goal': [10.0, 5.0]} | parameters))
-        self.flow = tester.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
-        self.pose = tester.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
-        self.valid = tester.publisher(Bool, 'granier/valid', LATCHED)
-
-    def feel(self, s1, s2, s3):
-        message = Vector3Stamped()
-        message.vector.x, message.vector.y, message.vector.z = s1, s2, s3
-        self.flow.publish(message)
-
-    def stand(self, x, y, heading, frame='map'):
-        message = PoseWithCovarianceStamped()
-        message.header.frame_id = frame
-        message.pose.pose.position.x, message.pose.pose.position.y = x, y
-        message.pose.pose.orientation.z = sin(heading / 2)
-        message.pose.pose.orientation.w = cos(heading / 2)
-        self.pose.publish(message)
-
-    def moves(self):
-        return self.tester.wait(self.commands, moving)
-
-    def rests(self):
-        self.commands.clear()
-        return self.tester.wait(self.commands, lambda m: not moving(m))
-
-
-def moving(message):
-    twist = message.twist
-    return hypot(twist.linear.x, twist.linear.y) + abs(twist.angular.z) > 0.0
-
-
 @pytest.fixture
-def senses(tester):
-    return Senses(tester)
+def senses(make_senses):
+    return make_senses()
 
 
 def test_sap_flow_drives_the_tree_to_its_goal(senses):
@@ -101,8 +63,8 @@ def test_a_probe_not_to_be_believed_means_rest(senses):
 
 
 @pytest.mark.parametrize('silent', ['sap flow', 'pose'])
-def test_silence_of_an_input_means_an_explicit_stop(tester, silent):
-    senses = Senses(tester, report_after=0.2, stop_after=0.5)
+def test_silence_of_an_input_means_an_explicit_stop(tester, make_senses, silent):
+    senses = make_senses(report_after=0.2, stop_after=0.5)
     senses.stand(7.0, 1.0, 0.0)
     senses.feel(0.9, 0.9, 0.9)
     senses.moves()
@@ -112,7 +74,7 @@ def test_silence_of_an_input_means_an_explicit_stop(tester, silent):
         else:
             senses.stand(7.0, 1.0, 0.0)
         tester.graph.spin_for(0.1)
-    assert not moving(senses.commands[-1])
+    assert not senses.moving(senses.commands[-1])
     tester.wait(senses.states, lambda m: f'no {silent}' in m.data)
 
 
@@ -121,7 +83,7 @@ def test_a_sap_flow_out_of_its_range_is_refused(senses, flow):
     senses.stand(7.0, 1.0, 0.0)
     senses.feel(*flow)
     senses.tester.graph.spin_until(lambda: 'sap flow' in senses.node.complaint)
-    assert not any(moving(command) for command in senses.commands)
+    assert not any(senses.moving(command) for command in senses.commands)
 
 
 def test_a_pose_in_another_frame_or_without_orientation_is_refused(senses):
@@ -171,7 +133,7 @@ def test_the_last_word_is_zero(senses):
     senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     senses.node.trigger_shutdown()
-    senses.tester.graph.spin_until(lambda: not moving(senses.commands[-1]))
+    senses.tester.graph.spin_until(lambda: not senses.moving(senses.commands[-1]))
 
 
 def test_thresholds_that_contradict_each_other_are_refused(tester):
@@ -192,9 +154,9 @@ def zone(tmp_path):
     return str(path)
 
 
-def test_it_walks_round_what_stands_in_the_way(tester, zone):
+def test_it_walks_round_what_stands_in_the_way(tester, make_senses, zone):
     """From (5, 5) to (15, 5) past the column: the first heading is off the straight line."""
-    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+    senses = make_senses(zone_file=zone, goal=[15.0, 5.0])
     ways = tester.listen(Path, 'way', LATCHED)
     senses.stand(5.0, 5.0, 0.0)
     senses.feel(1.0, 0.5, 0.5)
@@ -203,16 +165,16 @@ def test_it_walks_round_what_stands_in_the_way(tester, zone):
     assert len(tester.wait(ways).poses) > 2
 
 
-def test_outside_its_zone_it_stops_and_says_so(tester, zone):
-    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+def test_outside_its_zone_it_stops_and_says_so(tester, make_senses, zone):
+    senses = make_senses(zone_file=zone, goal=[15.0, 5.0])
     senses.stand(10.0, 5.0, 0.0)
     senses.feel(1.0, 1.0, 1.0)
     tester.wait(senses.states, lambda m: 'lies in hole 1' in m.data)
-    assert not any(moving(command) for command in senses.commands)
+    assert not any(senses.moving(command) for command in senses.commands)
 
 
-def test_a_goal_outside_the_zone_is_refused_and_the_old_one_stays(tester, zone):
-    senses = Senses(tester, zone_file=zone, goal=[15.0, 5.0])
+def test_a_goal_outside_the_zone_is_refused_and_the_old_one_stays(tester, make_senses, zone):
+    senses = make_senses(zone_file=zone, goal=[15.0, 5.0])
     clicked = PoseStamped()
     clicked.pose.position.x = 30.0
     clicked.pose.orientation.w = 1.0
