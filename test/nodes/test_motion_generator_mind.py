@@ -52,7 +52,7 @@ class Maps:
     """Both maps of a tree, as they come."""
 
     def __init__(self, senses):
-        self.senses = senses
+        self.senses, self.felt = senses, 0.5
         self.flows = senses.tester.listen(OccupancyGrid, 'memory/sap_flow', LATCHED)
         self.visits = senses.tester.listen(OccupancyGrid, 'memory/last_visit', LATCHED)
 
@@ -60,8 +60,9 @@ class Maps:
         """Let the tree feel ``flow`` at (x, y), and wait until it remembers both."""
         cell = int(y / 0.25), int(x / 0.25)
         self.senses.stand(x, y, 0.0)
-        self.senses.feel(0.9, 0.5, 0.5)
+        self.senses.feel(0.9, 0.5, self.felt)  # as before: it may come before the pose does
         self.senses.tester.wait(self.flows, lambda m: cells(m)[cell] >= 0)
+        self.felt = flow
         self.senses.feel(0.9, 0.5, flow)
         self.senses.tester.wait(self.flows, lambda m: cells(m)[cell] == round(100.0 * flow))
 
