@@ -17,10 +17,14 @@ if TYPE_CHECKING:
 
 SAMPLES = 1000
 
+NEAR = 0.02
+"""[m] So far around a place where it is slow the way is marked, to be seen."""
+
 COLOURS = {
     'lateral acceleration': 'tab:red',
     'wheel speed': 'tab:orange',
     'turn rate': 'tab:purple',
+    'jump of curvature': 'tab:brown',
 }
 
 
@@ -41,7 +45,7 @@ def draw(trajectory: Trajectory, limits: GhostParameters, path: Path) -> None:
     ) as axes:
         held = {slow.reason: np.zeros(SAMPLES, dtype=bool) for slow in examine(trajectory).slow}
         for slow in examine(trajectory).slow:
-            held[slow.reason] |= (driven >= slow.start) & (driven <= slow.end)
+            held[slow.reason] |= (driven >= slow.start - NEAR) & (driven <= slow.end + NEAR)
         _draw_map(axes['map'], poses, held)
         _draw_speeds(axes['speed'], time, speeds, limits, held)
         axes['turn'].plot(time, speeds[:, 1], 'k', lw=1.2)

@@ -91,6 +91,11 @@ def _stretches(trajectory: Trajectory, drive: Drive, driven: float) -> Iterator[
     if not limits or request is None:
         return
     ceilings = np.stack([limit.ceiling(course.curvature) for limit in limits])
+    joints = np.flatnonzero(course.way[1:] <= course.way[:-1])  # their nodes stand twice
+    steps = course.curvature[joints + 1] - course.curvature[joints]
+    for ceiling, limit in zip(ceilings, limits, strict=True):
+        for side in (joints, joints + 1):
+            ceiling[side] = np.minimum(ceiling[side], limit.at_joints(steps))
     lowest = ceilings.min(axis=0)
     slow = lowest < request.cruising_speed * (1.0 - 1e-9)
     holder = np.where(slow, ceilings.argmin(axis=0), -1)

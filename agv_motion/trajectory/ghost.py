@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from agv_motion.trajectory.ghost_parameters import GhostParameters
 
-DEPARTURES = (0.0, 0.25, 0.5, 0.75)
+DEPARTURES = (0.0, 0.25, 0.5, 0.75, 0.9)
 """Shares of the way to a stop, in time, at which a new trajectory may leave the old one."""
 
 

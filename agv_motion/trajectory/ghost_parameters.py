@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from agv_motion.parameters import Spec, check
-from agv_motion.trajectory.limits import LateralAcceleration, Limit, TurnRate, WheelSpeed
+from agv_motion.trajectory.limits import LateralAcceleration, Limit, TurnRate, TurnStep, WheelSpeed
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,9 @@ class GhostParameters:
     turn_acceleration: Annotated[
         float, Spec('ramps of the turns at the corners of a way', 'rad/s2', (0.001, 1000.0))
     ] = 2.0
+    turn_step: Annotated[
+        float, Spec('largest jump of the turn rate, where curves meet', 'rad/s', (0.001, 100.0))
+    ] = 0.4
     s_curve: Annotated[
         float, Spec('time over which acceleration builds up; 0 for a trapezoid', 's', (0.0, 10.0))
     ] = 0.0
@@ -36,6 +39,7 @@ class GhostParameters:
             LateralAcceleration(self.lateral_acceleration),
             WheelSpeed(self.wheel_speed, self.track),
             TurnRate(self.turn_rate),
+            TurnStep(self.turn_step),
         )
 
     def spot_rate(self) -> float:

@@ -30,8 +30,19 @@ class Limit(Protocol):
     def ceiling(self, curvature: Column) -> Column:
         """Return the highest speed [m/s] where the way bends with ``curvature`` [1/m]."""
 
+    def at_joints(self, step: Column) -> Column:
+        """Return the highest speed [m/s] where the curvature jumps by ``step`` [1/m]."""
 
-class LateralAcceleration:
+
+class _BendLimit:
+    """A limit that looks at the curvature alone, however it changes."""
+
+    def at_joints(self, step: Column) -> Column:
+        """Return no limit."""
+        return np.full(len(step), np.inf)
+
+
+class LateralAcceleration(_BendLimit):
     r"""Nothing topples or slides: :math:`v^2 |\kappa| \le a`."""
 
     name = 'lateral acceleration'
@@ -50,7 +61,7 @@ class LateralAcceleration:
         return np.sqrt(self._acceleration / np.maximum(np.abs(curvature), STRAIGHT))
 
 
-class TurnRate:
+class TurnRate(_BendLimit):
     r"""The robot turns no faster than it may: :math:`v |\kappa| \le \omega`."""
 
     name = 'turn rate'
@@ -69,7 +80,7 @@ class TurnRate:
         return self._rate / np.maximum(np.abs(curvature), STRAIGHT)
 
 
-class WheelSpeed:
+class WheelSpeed(_BendLimit):
     r"""The outer wheel of a differential drive: :math:`v (1 + |\kappa| b / 2) \le v_w`."""
 
     name = 'wheel speed'
@@ -87,6 +98,29 @@ class WheelSpeed:
     def ceiling(self, curvature: Column) -> Column:
         """Return v_w / (1 + |curvature| b / 2)."""
         return self._speed / (1.0 + self._half_track * np.abs(curvature))
+
+
+class TurnStep:
+    r"""Where two curves meet, the turn rate jumps no further than :math:`v |\Delta\kappa|`."""
+
+    name = 'jump of curvature'
+
+    def __init__(self, step: float) -> None:
+        """Keep the largest jump of the turn rate [rad/s].
+
+        Raises:
+            ConfigurationError: It is not positive and finite.
+
+        """
+        self.step = require_positive('turn step', step, 'rad/s')
+
+    def ceiling(self, curvature: Column) -> Column:
+        """Return no limit: within a curve nothing jumps."""
+        return np.full(len(curvature), np.inf)
+
+    def at_joints(self, step: Column) -> Column:
+        """Return the jump allowed over that of the curvature."""
+        return self.step / np.maximum(np.abs(step), STRAIGHT)
 
 
 def require_positive(name: str, value: float, unit: str) -> float:
@@ -107,4 +141,12 @@ def lowest_ceiling(limits: Sequence[Limit], curvature: Column, cruising_speed: f
     ceiling = np.full(len(curvature), cruising_speed)
     for limit in limits:
         ceiling = np.minimum(ceiling, limit.ceiling(curvature))
+    return ceiling
+
+
+def joint_ceiling(limits: Sequence[Limit], step: Column) -> Column:
+    """Return the highest speed that all ``limits`` allow where the curvature jumps by ``step``."""
+    ceiling = np.full(len(step), np.inf)
+    for limit in limits:
+        ceiling = np.minimum(ceiling, limit.at_joints(step))
     return ceiling

@@ -15,7 +15,7 @@ from agv_motion.trajectory.arc_length import ArcLength
 from agv_motion.trajectory.bezier import connect
 from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.limits import lowest_ceiling
+from agv_motion.trajectory.limits import joint_ceiling, lowest_ceiling
 from agv_motion.trajectory.motions import STILL, Course, Drive, Motion, Speeds, Turn
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
@@ -157,11 +157,15 @@ class Planner:
         """Return the fastest drive along ``course``.
 
         Raises:
-            GeometryError: The robot moves the other way, or turns on the spot, or too fast.
+            GeometryError: The robot moves the other way, or turns on the spot, or too fast, or
+                its turn rate would jump.
 
         """
         speed = -present.linear if request.backward else present.linear
         if speed < -NOTHING or (abs(speed) <= NOTHING and abs(present.angular) > NOTHING):
+            raise GeometryError(_other_motion(present))
+        jump = speed * float(course.curvature[0]) - present.angular
+        if abs(jump) > self.parameters.turn_step:
             raise GeometryError(_other_motion(present))
         profile = plan_speed(
             course.way,
@@ -215,6 +219,10 @@ def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> 
     joint = length <= SHORTEST * course.length  # of two curves, where the curvature may step
     share = (course.middle_way - course.way[:-1]) / np.where(joint, 1.0, length)
     first, last = square[:-1], square[1:]
+    if joint.any():
+        most = joint_ceiling(limits, course.curvature[1:][joint] - course.curvature[:-1][joint])
+        first[joint] = np.minimum(first[joint], most * most)
+        last[joint] = np.minimum(last[joint], most * most)
     excess = np.where(joint, 0.0, np.maximum(first + share * (last - first) - middle, 0.0))
     either = np.zeros(len(square))
     either[:-1] = excess

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from math import atan2, hypot, inf, nan, pi, sin, sqrt
 
 import numpy as np
@@ -194,17 +195,21 @@ def test_the_servo_hears_of_the_speed_in_advance():
 @given(st.tuples(POSES, POSES), DELTAS, st.booleans(), ROUNDINGS, st.floats(0.05, 0.95))
 def test_a_new_goal_in_motion_makes_no_jump_of_speed(goals, delta, backward, rounding, share):
     """Whatever the second goal: if its curve cannot be gone at once, the Ghost brakes first."""
-    made = ghost(s_curve=rounding)
+    made = ghost(s_curve=rounding, turn_step=0.2)
     first, second = goals
     if not leave(made, first, 0.4):
         return
     made.advance(share * made.trajectory.duration)
-    pose, linear = made.pose, made.speeds.linear
+    pose, (linear, angular) = made.pose, made.speeds
     if not leave(made, second, delta, backward=backward):
         assert made.pose == pose
         return
     assert made.pose == pytest.approx(pose, abs=1e-9)
     assert made.speeds.linear == pytest.approx(linear, abs=1e-9)
+    assert made.speeds.angular == pytest.approx(angular, abs=0.2 + 1e-6)
+    for start in accumulate(motion.duration for motion in made.trajectory.motions[:-1]):
+        before, after = (made.trajectory.speeds(start + h).angular for h in (-1e-7, 1e-7))
+        assert abs(after - before) <= 0.2 + 1e-3
     times = np.linspace(0.0, made.trajectory.duration, 400)
     speeds = np.array([made.trajectory.speeds(float(time)).linear for time in times])
     assert np.abs(np.diff(speeds)).max() <= 0.5 * (times[1] - times[0]) * (1 + 1e-6) + 1e-9
@@ -254,6 +259,21 @@ def test_a_path_is_driven_through_without_a_stop():
     assert abs(poses[nearest].theta - via.theta) < 2e-3
     assert made.trajectory.speeds(float(times[nearest])).linear > 0.5
     assert made.trajectory.end == end
+
+
+def test_where_two_curves_meet_the_turn_rate_hardly_jumps():
+    """Two quarter-like bends, one left and one right: the curvature jumps where they meet."""
+    made = Ghost(ORIGIN, GhostParameters(turn_step=0.1))
+    made.compute_path([Pose(1.0, 1.0, pi / 2), Pose(2.0, 2.0, 0.0)], 0.5, 0.5, 0.8)
+    (drive,) = made.trajectory.motions
+    (joint,) = np.flatnonzero(np.diff(drive.course.way) == 0.0)
+    jump = np.diff(drive.course.curvature)[joint]
+    (slow,) = [s for s in made.report().slow if s.reason == 'jump of curvature']
+    assert slow.start == slow.end == pytest.approx(drive.course.way[joint])
+    assert slow.speed == pytest.approx(0.1 / abs(jump))
+    times = np.linspace(0.0, made.trajectory.duration, 20001)
+    rates = [made.trajectory.speeds(float(time)).angular for time in times]
+    assert np.abs(np.diff(rates)).max() < 0.1 + 1e-2
 
 
 def test_the_report_names_what_makes_it_slow():
