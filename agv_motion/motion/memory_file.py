@@ -34,7 +34,7 @@ def save(path: str | Path, grid: Grid) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     new = path.with_name(path.name + '.new')
     with new.open('wb') as file:
-        np.savez(file, version=VERSION, **grid._asdict())
+        np.savez_compressed(file, version=VERSION, **grid._asdict())
         file.flush()
         os.fsync(file.fileno())
     new.replace(path)

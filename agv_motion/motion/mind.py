@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import hypot, inf
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.motion.course import Course
 from agv_motion.motion.generator import RestParameters, SapFlow, Sleep, polar_command
 from agv_motion.motion.goals import Goal, GoalCycle, GoalParameters, Wish
+from agv_motion.motion.homing import HomeParameters, Homing
 from agv_motion.motion.limits import Place
 from agv_motion.motion.memory import Memory, MemoryParameters
-from agv_motion.motion.paths import Paths, Waypoints, length
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, PolarCommand
-from agv_motion.motion.schedule import ALWAYS, Hour, Phase, Schedule, ScheduleParameters
-from agv_motion.parameters import Spec, check
+from agv_motion.motion.schedule import ALWAYS, Phase, Schedule, ScheduleParameters
 
 if TYPE_CHECKING:
     import shapely
@@ -27,46 +27,9 @@ if TYPE_CHECKING:
     from agv_motion.motion.zone import Zone
     from agv_motion.planar import Pose
 
-PLAN_PERIOD = 1.0
-"""[s] between two looks for the way of a tree that is off it."""
-
-PLAN_LIFETIME = 60.0
-"""[s] after which the way is looked for anew in any case."""
-
-OFF_COURSE = 0.05
-"""[m] from the line to the next corner: the way from here is another."""
-
 LEAVE = 2.0
 """[-] A tree that has arrived for good sets out again only from so many times the distance of
 arrival, so that the noise of position fixes does not send it to and fro."""
-
-REST_OF_WAY = 1.25
-"""[-] How much longer the way home may turn out."""
-
-
-@dataclass(frozen=True)
-class HomeParameters:
-    """How the tree goes home, and back into its zone."""
-
-    speed: Annotated[
-        float, Spec('v on the way home at least, however little sap flows', '1', (0.01, 1.0))
-    ] = 0.5
-    arrival: Annotated[float, Spec('distance at which it is home', 'm', (0.02, 100.0))] = 0.3
-    spare: Annotated[
-        float, Spec('how long before closing it wants to be there', 'min', (0.0, 600.0))
-    ] = 10.0
-    outside: Annotated[
-        str,
-        Spec(
-            'outside the zone: refuse to move, or return slowly to the nearest walkable point',
-            choices=('refuse', 'return'),
-        ),
-    ] = 'refuse'
-    return_speed: Annotated[float, Spec('v on that return at most', '1', (0.01, 1.0))] = 0.25
-
-    def __post_init__(self) -> None:
-        """Check every row."""
-        check(self)
 
 
 @dataclass(frozen=True)
@@ -138,12 +101,15 @@ class Mind:
             msg = f"strategy '{given.goals.strategy}' remembers places of a zone: give zone_file"
             raise ConfigurationError(msg)
         self.memory = None if zone is None else Memory(zone, given.memory)
-        self._ways = None if zone is None else _Ways(zone, given)
+        self._course = (
+            None if zone is None else Course(zone, given.corner_reach, given.corner_slack)
+        )
+        home = None if zone is None else zone.home
+        self._homing = Homing(home, self._course, given.home, given.linear_speed)
         self._cycle = GoalCycle(given.goals)
         self._sleep = Sleep(given.rest)
         self._schedule = Schedule(given.schedule)
         self._hour, self._hour_from = ALWAYS, inf
-        self._homing = ''
         self._retry_at = -inf
         self._arrived = False
         self.refusals: list[str] = []
@@ -172,20 +138,20 @@ class Mind:
             msg = f'goal ({x:.2f}, {y:.2f}) {self.zone.why_not(x, y)}: choose another'
             raise ConfigurationError(msg)
         self._take(Goal(x, y, f'({x:.1f}, {y:.1f}), {why}'))
-        self._homing = ''
+        self._homing.why = ''
 
     def next_goal(self) -> None:
-        """Drop the present goal; the next thought chooses another.
+        """Drop the present goal, or the way home; the next thought chooses another.
 
         Raises:
             ConfigurationError: With the strategy `fixed` there is no other.
 
         """
-        if self._fixed:
+        if self._fixed and not self._homing.why:
             msg = "strategy 'fixed' has one goal: send another to goal_pose, or choose 'memory'"
             raise ConfigurationError(msg)
-        self._take(None)
-        self._homing, self._retry_at = '', -inf
+        self._take(self.goal if self._fixed else None)
+        self._homing.why, self._retry_at = '', -inf
 
     def go_home(self, why: str = 'asked to') -> None:
         """Go home and stay there.
@@ -194,10 +160,8 @@ class Mind:
             ConfigurationError: The zone has no home.
 
         """
-        if self.zone is None or self.zone.home is None:
-            msg = 'there is no home: give one in the zone file, such as home: [2.0, 2.0]'
-            raise ConfigurationError(msg)
-        self._homing = why
+        self._homing.send(why)
+        self._arrived = False
 
     def think(
         self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings = ALONE
@@ -216,7 +180,7 @@ class Mind:
             self._hour, self._hour_from = self._schedule.hour(time), time
         hour = self._hour
         if hour.phase is not Phase.OPEN:
-            self._homing = ''
+            self._homing.why = ''
             until = self._schedule.clock(hour.until)
             return self._stay(f'resting: {hour.phase.value} until {until}')
         here = pose.x, pose.y
@@ -224,7 +188,9 @@ class Mind:
             return self._outside(pose, flow, asleep=asleep)
         if self.memory is not None and not asleep:
             self.memory.feel(time, *here, flow.s3)
-        if self._goes_home(time, here, hour):
+        if not self._homing.why and self._homing.is_due(time, here, hour.until):
+            self.go_home(f'closing at {self._schedule.clock(hour.until)}')
+        if self._homing.why:
             return self._walk_home(time, pose, flow, surroundings)
         if asleep:
             return self._stay('resting: the sap stands')
@@ -248,31 +214,16 @@ class Mind:
         way = ((pose.x, pose.y), back)
         return Thought(wanted, f'returning slowly to the zone: {why}', place, self.goal, way)
 
-    def _goes_home(self, time: float, here: Point, hour: Hour) -> bool:
-        """Return whether it is time to go home, or the tree was sent."""
-        if self._homing:
-            return True
-        if hour.until == inf or self.zone is None or self.zone.home is None:
-            return False
-        home = self.parameters.home
-        assert self._ways is not None
-        distance = self._ways.distance_home(time, here)
-        needed = REST_OF_WAY * distance / (home.speed * self.parameters.linear_speed)
-        if hour.until - time <= needed + 60.0 * home.spare:
-            self._homing = f'closing at {self._schedule.clock(hour.until)}'
-        return bool(self._homing)
-
     def _walk_home(
         self, time: float, pose: Pose, flow: SapFlow, surroundings: Surroundings
     ) -> Thought:
         """Go home, even if little sap flows; stay there."""
-        assert self.zone is not None
-        assert self.zone.home is not None
-        home, given = self.zone.home, self.parameters.home
-        reason = f'home at ({home[0]:.1f}, {home[1]:.1f}), {self._homing}'
+        home, given, why = self._homing.home, self.parameters.home, self._homing.why
+        assert home is not None
+        reason = f'home at ({home[0]:.1f}, {home[1]:.1f}), {why}'
         goal = Goal(*home, reason)
         if self._near(pose, home, given.arrival):
-            return self._stay(f'at home: {self._homing}', goal)
+            return self._stay(f'at home: {why}', goal)
         flow = flow._replace(s1=max(flow.s1, given.speed), s2=0.5)
         return self._walk(time, pose, flow, goal, surroundings)
 
@@ -318,8 +269,8 @@ class Mind:
     def _choose(self, time: float, pose: Pose, surroundings: Surroundings) -> None:
         """Take the next goal of the cycle; if none can be reached, try again later."""
         assert self.memory is not None
-        assert self._ways is not None
-        paths = self._ways.free(surroundings)
+        assert self._course is not None
+        paths = self._course.free(surroundings.avoid)
         choice = self._cycle.next(time, (pose.x, pose.y), self.memory, paths, self._arrival)
         self.refusals = choice.failures
         self._take(choice.goal)
@@ -332,9 +283,9 @@ class Mind:
         """Head for the next corner of the way to ``goal``."""
         here = pose.x, pose.y
         way: tuple[Point, ...] = (here, goal.place)
-        if self._ways is not None:
+        if self._course is not None:
             try:
-                way = self._ways.to(time, here, goal.place, surroundings)
+                way = self._course.to(time, here, goal.place, surroundings.avoid)
             except GeometryError as error:
                 return self._stay(f'stopped: {error}', goal)
         if surroundings.wait:
@@ -356,72 +307,3 @@ class Mind:
 
     def _take(self, goal: Goal | None) -> None:
         self.goal, self._arrived = goal, False
-
-
-class _Ways:
-    """The way to the goal, looked for now and then; and the ways that others leave free."""
-
-    def __init__(self, zone: Zone, given: MindParameters) -> None:
-        self._zone = zone
-        self._all = Paths(zone)
-        self._taken: shapely.Geometry | None = None
-        self._free = self._all
-        self._waypoints = Waypoints(zone, given.corner_reach, given.corner_slack)
-        self._planned_at, self._planned_for = -inf, ((0.0, 0.0), self._all)
-        self._from: Point = (0.0, 0.0)
-        self._rest: tuple[Point, ...] = ()
-        self._home_at, self._home = -inf, 0.0
-
-    def free(self, surroundings: Surroundings) -> Paths:
-        """Return the ways off what others need; worked out once for each area."""
-        if surroundings.avoid is not self._taken:
-            self._taken = surroundings.avoid
-            self._free = self._all if self._taken is None else self._all.without(self._taken)
-        return self._free
-
-    def to(
-        self, time: float, here: Point, goal: Point, surroundings: Surroundings
-    ) -> tuple[Point, ...]:
-        """Return the corners of the way to ``goal``, the first to head for after ``here``.
-
-        It is looked for anew when the goal or what others leave free has changed, when the tree
-        is off it, and now and then.
-
-        Raises:
-            GeometryError: There is none.
-
-        """
-        wanted = goal, self.free(surroundings)
-        age = time - self._planned_at
-        if (
-            wanted != self._planned_for
-            or not 0.0 <= age < PLAN_LIFETIME
-            or (age >= PLAN_PERIOD and _off(here, self._from, self._rest[0]) > OFF_COURSE)
-        ):
-            self._planned_at = -inf
-            self._from, self._rest = here, tuple(wanted[1].way(here, goal)[1:])
-            self._planned_at, self._planned_for = time, wanted
-        target = self._waypoints.target((here, *self._rest))
-        if target != self._rest[0]:
-            self._from, self._rest = here, self._rest[self._rest.index(target) :]
-        return (here, *self._rest)
-
-    def distance_home(self, time: float, here: Point) -> float:
-        """Return the length of the way home [m], looked for once a minute; 0 if there is none."""
-        assert self._zone.home is not None
-        if not 0.0 <= time - self._home_at < 60.0:
-            self._home_at = time
-            try:
-                self._home = length(self._all.way(here, self._zone.home))
-            except GeometryError:
-                self._home = 0.0
-        return self._home
-
-
-def _off(here: Point, start: Point, end: Point) -> float:
-    """Return how far ``here`` is from the straight line from ``start`` to ``end`` [m]."""
-    x, y = end[0] - start[0], end[1] - start[1]
-    squared = x * x + y * y
-    along = (here[0] - start[0]) * x + (here[1] - start[1]) * y
-    share = min(max(along / squared, 0.0), 1.0) if squared > 0.0 else 0.0
-    return hypot(here[0] - start[0] - share * x, here[1] - start[1] - share * y)

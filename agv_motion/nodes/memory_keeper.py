@@ -50,6 +50,7 @@ class MemoryKeeper:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.every(node.parameters.map_period, self.publish, steady)
         self._writer: futures.ThreadPoolExecutor | None = None
+        self._saved = memory.newest
         self._writing: futures.Future[None] | None = None
         if file:
             complaint = restore(file, memory)
@@ -66,11 +67,14 @@ class MemoryKeeper:
         self._publish(self._visit, 100.0 * hours / self._span, memory.visited)
 
     def save(self) -> None:
-        """Let the thread write what is remembered now, unless it is still at the last."""
+        """Let the thread write what is remembered now, if that is new and the last is written."""
+        if self._memory.newest == self._saved:
+            return
         if self._writing is not None and not self._writing.done():
             self._node.refuse(f'the disk is slow: {self._file} is still being written')
         elif self._writer is not None:
             self._check(0.0)
+            self._saved = self._memory.newest
             self._writing = self._writer.submit(save, self._file, self._memory.grid())
 
     def save_at_last(self) -> None:

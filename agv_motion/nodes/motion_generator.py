@@ -14,9 +14,10 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import RestParameters, SapFlow, checked_sap_flow
 from agv_motion.motion.goals import Goal, GoalParameters
+from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.limits import Limited, LimitParameters, Limits
 from agv_motion.motion.memory import MemoryParameters
-from agv_motion.motion.mind import HomeParameters, Mind, MindParameters
+from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
 from agv_motion.motion.schedule import ScheduleParameters
 from agv_motion.motion.watchdog import Silence, Watchdog

@@ -10,7 +10,8 @@ import shapely
 from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import SapFlow
 from agv_motion.motion.goals import GoalParameters, Wish
-from agv_motion.motion.mind import HomeParameters, Mind, MindParameters, Surroundings
+from agv_motion.motion.homing import HomeParameters
+from agv_motion.motion.mind import Mind, MindParameters, Surroundings
 from agv_motion.motion.polar import STILL, to_twist
 from agv_motion.motion.schedule import ScheduleParameters
 from agv_motion.motion.zone import Zone
@@ -188,6 +189,14 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
 
 
 # Home and hours
+
+
+def test_a_fixed_goal_is_gone_to_again_after_home():
+    life = Life(mind(goals=GoalParameters(), goal=(10.0, 2.0)), 2.0, 2.0)
+    life.mind.go_home()
+    assert life.think().activity.startswith('walking to home')
+    life.mind.next_goal()
+    assert life.think().activity.startswith('walking to (10.0, 2.0)')
 
 
 def test_it_goes_home_when_asked_and_stays():
