@@ -12,6 +12,7 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import benchmark_odometry
+import benchmark_recording
 import benchmark_trajectory
 import numpy as np
 import rclpy
@@ -203,7 +204,7 @@ def process_rows() -> list[Row]:
     first, load = map(float, answer.stdout.split()[-2:])
     return [
         Row('start to first turret command', first, target='2 s'),
-        Row('idle load of the process, share of a core', load, target='0.05'),
+        Row('idle load of the process, share of a core', load, target='0.05', plain=True),
     ]
 
 
@@ -223,12 +224,11 @@ def main() -> None:
         table.add_column(column)
     sections = (
         turret_rows, steering_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows,
-        process_rows,
+        process_rows, benchmark_recording.rows,
     )  # fmt: skip
     for section in track(sections, 'Measuring'):
         for row in section():
-            load = row.what.startswith('idle')
-            ours = f'{row.ours:.3f}' if load else shown(row.ours)
+            ours = f'{row.ours:.3g}' if row.plain else shown(row.ours)
             theirs, ratio = ('', '') if not row.peer else (
                 shown(row.theirs), f'{row.ours / row.theirs:.2f}',
             )  # fmt: skip

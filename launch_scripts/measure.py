@@ -18,6 +18,8 @@ class Row(NamedTuple):
     peer: str = ''
     theirs: float = 0.0
     target: str = ''
+    plain: bool = False
+    """whether ``ours`` is a number and no time"""
 
 
 def per_call(act: Callable[[], Any], calls: int = 2000, rounds: int = 15) -> float:

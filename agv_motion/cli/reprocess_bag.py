@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import shutil
 import time
+from contextlib import suppress
 from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -79,6 +80,29 @@ def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
     recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
 
 
+class Transcript:
+    """What the nodes of a world say, in a bag; each topic begins with its first message."""
+
+    def __init__(self, writer: BagWriter) -> None:
+        """Start with no topic."""
+        self.messages = 0
+        self._writer = writer
+        self._topics: dict[str, int] = {}
+
+    def record(self, publisher: Publisher, stamp: int, data: bytes) -> None:
+        """Write a message of time ``stamp`` [ns]."""
+        topic = self._topics.get(publisher.topic)
+        if topic is None:
+            topic = self._topics[publisher.topic] = self._add(publisher)
+        self.messages += 1
+        self._writer.write(topic, stamp, data)
+
+    def _add(self, publisher: Publisher) -> int:
+        kind, qos = publisher.kind, [offer(publisher.qos)]
+        name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
+        return self._writer.add_topic(publisher.topic, name, qos=qos)
+
+
 def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
     """Run the nodes of ``plan`` over ``source``; a failure is part of the outcome."""
     begin = time.perf_counter()
@@ -95,39 +119,29 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
     with BagReader(source) as bag:
         writer = BagWriter(target, compression=plan.compression, chunk_duration=inf)
         try:
-            handles: dict[Publisher, int] = {}
-            counts = [0, 0]
-
-            def record(publisher: Publisher, data: bytes) -> None:
-                handle = handles.get(publisher)
-                if handle is None:
-                    handle = handles[publisher] = writer.add_topic(
-                        publisher.topic, _type_name(publisher.kind), qos=[offer(publisher.qos)]
-                    )
-                counts[1] += 1
-                writer.write(handle, world.now, data)
-
-            world = World(record, bag.start)
+            transcript = Transcript(writer)
+            world = World(transcript.record, bag.start)
             world.recorded = bag.topics
             for name in plan.nodes:
                 add(world, node_class(name), parameters(plan.config, name), dict(plan.remap))
             world.start()
-            inputs = world.inputs()
-            feed = world.feed
+            inputs, heard, feed = world.inputs(), 0, world.feed
             for message in bag.messages(sorted(inputs & set(bag.topics))):
-                counts[0] += 1
+                heard += 1
                 feed(message.connection.topic, message.stamp, message.data)
             world.run(bag.end)
             world.stop()
             writer.close()
         except BaseException:
-            writer.close()
+            with suppress(OSError):
+                writer.close()
             shutil.rmtree(target)
             raise
         missing = tuple(sorted(inputs - set(bag.topics)))
         took = time.perf_counter() - begin
         span = (bag.end - bag.start) * 1e-9
-        return Outcome(str(source), counts[0], counts[1], span, took, missing, world.complaints, '')
+        counts = heard, transcript.messages
+        return Outcome(str(source), *counts, span, took, missing, world.complaints, '')
 
 
 def node_class(name: str) -> Any:
@@ -174,7 +188,3 @@ def _flat(values: dict[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
             yield from _flat(value, f'{prefix}{name}.')
         else:
             yield prefix + name, value
-
-
-def _type_name(kind: type[Any]) -> str:
-    return f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'

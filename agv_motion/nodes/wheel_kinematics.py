@@ -107,6 +107,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._limiter = Limiter.NONE
         self._message = self._joints.message()
         self._message.header.frame_id = given.base_frame
+        self._odometry_message = Odometry(child_frame_id=given.base_frame)
+        self._odometry_message.header.frame_id = given.odom_frame
         self._command = self.publisher(JointState, 'turrets/command', COMMAND)
         self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
@@ -324,8 +326,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         if self._pose_time is not None and time > self._pose_time:
             self._pose = integrate(self._pose, twist, time - self._pose_time)
         self._pose_time = time
-        odometry = Odometry(child_frame_id=self.parameters.base_frame)
-        odometry.header.stamp, odometry.header.frame_id = stamp, self.parameters.odom_frame
+        odometry = self._odometry_message
+        odometry.header.stamp = stamp
         fill_pose(odometry.pose.pose, self._pose)
         fill_twist(odometry.twist.twist, twist)
         self._odometry.publish(odometry)

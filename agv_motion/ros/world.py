@@ -35,11 +35,11 @@ class Instant(NamedTuple):
 class World:
     """Topics by name, timers by time, and the clock of all nodes in it."""
 
-    def __init__(self, record: Callable[[Publisher, bytes], None], now: int) -> None:
+    def __init__(self, record: Callable[[Publisher, int, bytes], None], now: int) -> None:
         """Start at a time, with no node.
 
         Args:
-            record: Called with each message that a node publishes.
+            record: Called with each message that a node publishes, and its time [ns].
             now: [ns] of the clock.
 
         """
@@ -115,7 +115,7 @@ class World:
     def publish(self, publisher: Publisher, message: Any) -> None:
         """Record a message, and let the other nodes hear what its bytes say."""
         data = publisher.encode(message)
-        self.record(publisher, data)
+        self.record(publisher, self.now, data)
         for listener in self.listeners.get(publisher.topic, ()):
             if listener.node is not publisher.node:
                 self._waiting.append((listener, data))

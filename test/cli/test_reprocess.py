@@ -17,12 +17,11 @@ rclpy = pytest.importorskip('rclpy')
 from agv_motion.bag.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.cli.reprocess_bag import Plan, parameters, reprocess
+from agv_motion.cli.reprocess_bag import Plan, Transcript, parameters, reprocess
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process import add
 from agv_motion.ros.world import World
 
@@ -39,18 +38,7 @@ PLAN = Plan(
 def record(path, seconds, seed=1):
     """Write what the whole tree says in ``seconds`` before a June noon."""
     with BagWriter(path) as writer:
-        handles = {}
-
-        def keep(publisher, data):
-            if publisher.topic not in handles:
-                kind = publisher.kind
-                name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
-                handles[publisher.topic] = writer.add_topic(
-                    publisher.topic, name, qos=[offer(publisher.qos)]
-                )
-            writer.write(handles[publisher.topic], world.now, data)
-
-        world = World(keep, NOON)
+        world = World(Transcript(writer).record, NOON)
         for kind, name in (
             (GranierProbe, 'granier_probe'),
             (MotionGenerator, 'motion_generator'),

@@ -78,10 +78,10 @@ class Diary:
         self.said = []
         self.world = World(self.record, START)
 
-    def record(self, publisher, data):
+    def record(self, publisher, stamp, data):
         value = codec(publisher.kind).decode(data)
         content = value.data if publisher.kind is Float64 else value.header.stamp.sec
-        self.said.append(((self.world.now - START) / SECOND, publisher.topic, content))
+        self.said.append(((stamp - START) / SECOND, publisher.topic, content))
 
     def feed(self, topic, seconds, value):
         data = FLOAT.encode(Float64(data=value))
