@@ -217,7 +217,8 @@ def test_kill_9_loses_at_most_the_last_second(tmp_path):
     process = subprocess.Popen(  # noqa: S603 - our own code
         [sys.executable, '-c', RECORDER, str(tmp_path / 'bag'), str(Path(__file__).parent)]
     )
-    time.sleep(3.0)
+    wait((tmp_path / 'bag').exists)
+    time.sleep(1.6)
     process.send_signal(signal.SIGKILL)
     killed = time.time_ns()
     process.wait()

@@ -44,10 +44,7 @@ def test_the_disk_at_its_floor_is_an_error(agv, publisher, tmp_path):
     assert 'keep_free' in errors
 
 
-def test_nothing_to_record_and_a_folder_that_exists_are_told(alone, tmp_path):
-    status, _, errors = alone('record')
-    assert status == 1
-    assert 'topics or regex' in errors
+def test_a_folder_that_exists_is_told(alone, tmp_path):
     status, _, errors = alone('record', '-a', '-o', tmp_path)
     assert status == 1
     assert 'choose a new folder' in errors

@@ -66,42 +66,28 @@ def test_errors_are_told_in_a_line(alone, bag):
     assert status == 1
     assert 'nowhere' in errors
     assert 'Traceback' not in errors
-    status, _, errors = alone('replay', bag, '--topics', '/numbr')
-    assert status == 1
-    assert "did you mean '/number'" in errors
 
 
 def test_keys_in_a_terminal(graph, inbox, bag):
     main, other = pty.openpty()
-    command = ['replay', bag, '-p', '-m', '/number:=/other']
+    command = ['replay', bag, '-p', '-l', '-m', '/number:=/other']
     process = subprocess.Popen(  # noqa: S603 - our own command
         [sys.executable, '-m', 'agv_motion.cli.main', *map(str, command)],
         stdin=other, stdout=other, stderr=other,
     )  # fmt: skip
-    node = graph.nodes[0]
+    (node,) = graph.nodes
     graph.spin_until(lambda: node.count_publishers('/other'))
     graph.spin_for(0.5)
     os.write(main, b'\x1b[C\x1b[C\x1b[C')
     graph.spin_until(lambda: inbox == [0, 1, 2])
-    os.write(main, b'\x1b[A' * 30 + b' ')
+    os.write(main, b'\x1b[A' * 10 + b' ')
+    graph.spin_until(lambda: len(inbox) > 150)
+    os.write(main, b'q')
     graph.spin_until(lambda: process.poll() is not None)
-    assert inbox == list(range(100))
+    assert inbox[:120] == [*range(100), *range(20)]
     shown = os.read(main, 100_000).decode()
     assert 'paused' in shown
     assert 'late by' in shown
-    assert process.returncode == 0
-
-
-def test_q_ends(graph, inbox, bag):
-    main, other = pty.openpty()
-    process = subprocess.Popen(  # noqa: S603 - our own command
-        [sys.executable, '-m', 'agv_motion.cli.main', 'replay', str(bag), '-l'],
-        stdin=other, stdout=other, stderr=other,
-    )  # fmt: skip
-    node = graph.nodes[0]
-    graph.spin_until(lambda: node.count_publishers('/number'))
-    os.write(main, b'q')
-    graph.spin_until(lambda: process.poll() is not None)
     assert process.returncode == 0
 
 

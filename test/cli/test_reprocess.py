@@ -169,8 +169,6 @@ def test_errors_and_warnings_are_told(alone, recorded, tmp_path):
 
 def test_diff_tells_by_its_status(alone, recorded, tmp_path):
     reprocess(recorded / 'a', tmp_path / 'out', PLAN)
-    status, out, _ = alone('bag', 'diff', tmp_path / 'out', tmp_path / 'out')
-    assert (status, 'DIFFERENT' in out) == (0, False)
     status, out, _ = alone('bag', 'diff', recorded / 'a', recorded / 'c', '--common')
     assert status == 1
     assert 'DIFFERENT' in out

@@ -13,6 +13,7 @@ from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
 from agv_motion.nodes.bag_recorder import BagRecorder
+from agv_motion.ros.run import StartError
 
 RELIABLE = QoSProfile(depth=1000)
 
@@ -152,7 +153,10 @@ def test_a_disk_at_its_floor_ends_the_recording_with_an_error(tester, record, tm
 
 def test_an_existing_folder_keeps_the_node_inactive(tester, record, tmp_path):
     (tmp_path / 'bag').mkdir()
-    from agv_motion.ros.run import StartError
-
     with pytest.raises(StartError):
         record()
+
+
+def test_nothing_to_record_keeps_the_node_unconfigured(tester, record):
+    with pytest.raises(StartError):
+        record(regex='')
