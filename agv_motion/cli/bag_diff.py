@@ -36,7 +36,7 @@ def diff(
     Messages are paired by the stamp in their header, else by their place. Of each field that
     differs, the two values furthest apart are told. Examples:
     agv bag diff before after
-    agv bag diff recorded reprocessed --common -t 1e-9
+    agv bag diff before after --topics /cmd_vel -t 1e-9
     """
     from agv_motion.bag import diff as comparison
     from agv_motion.bag.reader import BagReader
@@ -64,7 +64,9 @@ def _overview(found: list[TopicDiff]) -> Table:
     table = Table(box=None, pad_edge=False)
     for title in ('topic', 'first', 'second', 'differ', 'unpaired', ''):
         table.add_column(
-            title, justify='right' if title in {'first', 'second', 'differ', 'unpaired'} else 'left'
+            title,
+            justify='left' if title in {'topic', ''} else 'right',
+            overflow='fold',
         )
     for topic in found:
         verdict = 'same' if topic.same else topic.note or 'DIFFERENT'

@@ -147,7 +147,7 @@ def _tell(console: Console, report: list[TopicReport]) -> None:
     """Print what became of each topic."""
     table = Table(box=None, pad_edge=False)
     for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'longest silence'):
-        table.add_column(title, justify='left' if title == 'topic' else 'right')
+        table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     for topic in sorted(report):
         bad = 'red' if topic.lost or topic.dropped else ''
         table.add_row(

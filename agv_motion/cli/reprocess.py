@@ -45,8 +45,9 @@ def reprocess(
 
     Nodes hear from the bag what no other node says; everything that they say goes into a new bag,
     stamped with the time of the recording. Examples:
-    agv reprocess demo_output/bag again --config tree.yaml
-    agv bag diff demo_output/bag again --common
+    agv reprocess demo_output/bag before
+    agv reprocess demo_output/bag after --config tuned.yaml
+    agv bag diff before after
     agv reprocess recordings/2015 results/2015 --workers 8
     agv reprocess walk again --nodes wheel_kinematics
     """

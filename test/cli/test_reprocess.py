@@ -164,7 +164,7 @@ def test_errors_and_warnings_are_told(alone, recorded, tmp_path):
     assert 'nowhere' in errors
     status, out, _ = alone('reprocess', recorded / 'c', tmp_path / 'out')
     assert status == 0
-    assert 'nobody says /pose' in out
+    assert '/pose is not in the bag' in out
 
 
 def test_diff_tells_by_its_status(alone, recorded, tmp_path):
