@@ -126,7 +126,7 @@ def _tell(found: list[Outcome]) -> None:
         Console().print(table)
     for missing in sorted({topic for one in found for topic in one.missing}):
         typer.echo(
-            f'warning: nobody says {missing}: remap with -m if the bag has it by another name'
+            f'note: {missing} is not in the bag; if it has another name there, remap with -m'
         )
     complaints: dict[str, int] = {}
     for one in found:
