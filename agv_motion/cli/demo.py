@@ -9,8 +9,15 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from agv_motion.cli.demo_omni import omni
 
+app = typer.Typer()
+app.command()(omni)
+
+
+@app.callback(invoke_without_command=True)
 def demo(
+    context: typer.Context,
     *,
     probes: Annotated[Path | None, typer.Option(help='CSV file of recorded probes.')] = None,
     columns: Annotated[str, typer.Option(help='Its columns, separated by commas.')] = '',
@@ -32,6 +39,8 @@ def demo(
     agv demo
     agv demo --probes spruce.csv --days 7
     """
+    if context.invoked_subcommand:
+        return
     from agv_motion.cli.demo_graph import DemoGraph
 
     console = Console()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rclpy
-import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
@@ -17,6 +16,7 @@ from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
 from agv_motion.cli.demo_figure import draw
+from agv_motion.cli.demo_parameters import configured
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
 from agv_motion.cli.demo_report import Outcome, read_run, summary
 from agv_motion.cli.demo_view import DemoView
@@ -27,7 +27,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.config import find_config
-from agv_motion.ros.run import Stop, overrides, spin, start
+from agv_motion.ros.run import Stop, spin, start
 
 if TYPE_CHECKING:
     import pathlib
@@ -84,15 +84,17 @@ class DemoGraph:
         common: dict[str, Any] = {'use_sim_time': True}
         place: dict[str, Any] = {'zone_file': zone} if zone else {}
         self._zone = load_zone(find_config(zone or 'zone_outdoor.yaml'))
-        probe = GranierProbe(**_configured('granier_probe', common | probes))
+        probe = GranierProbe(**configured('tree.yaml', 'granier_probe', common | probes))
         motion = MotionGenerator(
-            **_configured('motion_generator', common | place | {'goals__seed': seed})
+            **configured('tree.yaml', 'motion_generator', common | place | {'goals__seed': seed})
         )
-        wheels = WheelKinematics(**_configured('wheel_kinematics', common))
-        localization = Localization(**_configured('localization', common))
+        wheels = WheelKinematics(**configured('tree.yaml', 'wheel_kinematics', common))
+        localization = Localization(**configured('tree.yaml', 'localization', common))
         start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))
         self._simulator = Simulator(
-            **_configured('simulator', {'time_factor': time_factor, 'seed': seed, **start_at})
+            **configured(
+                'tree.yaml', 'simulator', {'time_factor': time_factor, 'seed': seed, **start_at}
+            )
         )
         self._nodes: list[ManagedNode[Any]] = [
             probe, motion, wheels, localization, self._simulator,
@@ -165,20 +167,3 @@ class DemoGraph:
         known = after < len(commands)
         latencies: NDArray[np.float64] = (commands[after[known]] - flows[known]) * 1e-9
         return latencies
-
-
-def _configured(node: str, changes: dict[str, Any]) -> dict[str, Any]:
-    """Return the arguments of a node: the values of the shipped configuration, then changes."""
-    content = yaml.safe_load(find_config('tree.yaml').read_text(encoding='utf-8'))
-    values = _flat(content[f'/**/{node}']['ros__parameters'])
-    return {'parameter_overrides': overrides(**(values | changes))}
-
-
-def _flat(values: dict[str, Any], prefix: str = '') -> dict[str, Any]:
-    flat: dict[str, Any] = {}
-    for name, value in values.items():
-        if isinstance(value, dict):
-            flat |= _flat(value, f'{prefix}{name}__')
-        else:
-            flat[prefix + name] = value
-    return flat

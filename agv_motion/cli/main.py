@@ -43,7 +43,7 @@ app.command()(route.route)
 app.command(
     context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
 )(sequence.sequence)
-app.command()(demo.demo)
+app.add_typer(demo.app, name='demo')
 app.command()(record.record)
 app.command()(plot.plot)
 app.command()(replay.replay)

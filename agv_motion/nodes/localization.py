@@ -143,9 +143,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         if self._gyro_odometry is None:
             self._gyro_odometry = GyroOdometry(waypoint)
         else:
-            self._gyro_odometry.follow(
-                waypoint, self._gyro.take(), self.parameters.fusion.max_speed
-            )
+            self._gyro_odometry.follow(waypoint, self._gyro, self.parameters.fusion.max_speed)
         own = self._gyro_odometry
         return Waypoint(waypoint.stamp, own.pose, own.origin_covariance)
 

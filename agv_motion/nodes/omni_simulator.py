@@ -139,6 +139,10 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
         """Simulated time [s]."""
         return self.parameters.start_time + self.elapsed
 
+    def carry_to(self, pose: Pose) -> None:
+        """Lift the robot and set it down elsewhere, its wheels still."""
+        self._robot.carry_to(pose)
+
     def _reset(self) -> None:
         given = self.parameters
         start = Pose(given.start_x, given.start_y, given.start_heading)
@@ -146,7 +150,7 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
             given.real_wheels(), given.real_radii, given.robot, start, given.seed
         )
         self._break(given)
-        self._uwb = Uwb(given.uwb, given.seed)
+        self._uwb = Uwb(given.uwb, given.seed, given.start_time)
         self._gyro = Gyro(given.gyro, given.seed)
         self._wanted = [0.0] * len(given.wheel_radii)
         self._steps = 0
@@ -175,7 +179,7 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
 
     def _on_carry(self, request: Any) -> str:
         pose = pose_of(request.initial_pose.pose.pose)
-        self._robot.carry_to(pose)
+        self.carry_to(pose)
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
 
     def _step(self) -> None:

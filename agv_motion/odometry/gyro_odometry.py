@@ -14,7 +14,7 @@ from agv_motion.planar import Pose, compose, inverse, logarithm
 
 if TYPE_CHECKING:
     from agv_motion.odometry.history import Waypoint
-    from agv_motion.odometry.yaw_rate import Turn
+    from agv_motion.odometry.yaw_rate import YawRate
 
 
 class GyroOdometry:
@@ -36,18 +36,19 @@ class GyroOdometry:
         """Covariance of the error about the origin of `odom`."""
         return self._reckoning.origin_covariance
 
-    def follow(self, waypoint: Waypoint, turn: Turn | None, max_speed: float) -> None:
+    def follow(self, waypoint: Waypoint, gyro: YawRate, max_speed: float) -> None:
         """Take the step from the last waypoint to a newer one.
 
         Odometry that jumps, in place or in noise, began anew: so does this.
 
         Args:
             waypoint: Where odometry sees the base now.
-            turn: What the gyroscope says of the turn since; None when it was silent.
+            gyro: The gyroscope, which is asked for the turn since, and learns from the wheels.
             max_speed: Of the base [m/s]; beyond, odometry has jumped.
 
         """
         last, self._last = self._last, waypoint
+        turn = gyro.take()
         duration = waypoint.stamp - last.stamp
         step = logarithm(compose(inverse(last.pose), waypoint.pose))
         added = Covariance(*[b - a for a, b in zip(last.noise, waypoint.noise, strict=True)])
@@ -59,6 +60,8 @@ class GyroOdometry:
         covariance = rotate(shift(added, x, y), -(last.pose.theta + 0.5 * step.wz))
         displacement: tuple[float, float, float] = step
         if turn is not None and covariance.tt > 0.0:
+            share = turn.duration / duration
+            gyro.compare(turn, share * step.wz, share * covariance.tt)
             displacement, covariance = turn.correct(displacement, covariance, duration)
         self._reckoning.carry(displacement, covariance)
 

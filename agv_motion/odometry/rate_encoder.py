@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from agv_motion.odometry.encoders import CLOCK_SET_BACK
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -30,7 +32,7 @@ class RateEncoder:
                 else angle + 0.5 * (now + last) * elapsed
                 for angle, now, last in zip(self._angles, rates, self._rates, strict=True)
             ]  # fmt: skip
-        if elapsed != 0.0 or self._stamp is None:
+        if elapsed > 0.0 or elapsed <= -CLOCK_SET_BACK or self._stamp is None:
             self._stamp, self._rates = stamp, list(rates)
         return [
             None if rate is None else angle for angle, rate in zip(self._angles, rates, strict=True)

@@ -1,4 +1,10 @@
-"""A gyroscope beside the wheels: its turn between two readings, and its bias learnt at rest."""
+"""A gyroscope beside the wheels: its turn between two readings, and its bias, which it learns.
+
+At rest all that it tells is bias; in motion the wheels tell what is not, less surely. What is not
+known of the bias is no white noise: it turns the robot the same way for minutes. It is counted as
+the white noise that does as much over twice its persistence, and more before, so that between two
+fixes the covariance is never too small.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +17,10 @@ from agv_motion.planar import require_finite
 
 if TYPE_CHECKING:
     from agv_motion.odometry.dead_reckoning import Displacement
+
+
+PERSISTENCE = 30.0
+"""[s] For half of the longest time that the gyroscope has to do without a fix."""
 
 
 @dataclass(frozen=True)
@@ -121,16 +131,31 @@ class YawRate:
         """Let the bias walk on, and at rest move it towards the rate (a scalar Kalman filter)."""
         self.bias_variance += self._given.bias_walk**2 * duration
         if at_rest:
-            noise = self._given.noise**2 / duration
-            gain = self.bias_variance / (self.bias_variance + noise)
-            self.bias += gain * (rate - self.bias)
-            self.bias_variance *= 1.0 - gain
+            self._correct(rate - self.bias, self._given.noise**2 / duration)
+
+    def compare(self, turn: Turn, angle: float, variance: float) -> None:
+        """Learn the bias from what the wheels say of a turn as well.
+
+        Args:
+            turn: As :meth:`take` gave it.
+            angle: What the wheels say [rad].
+            variance: Of that [rad2].
+
+        """
+        if turn.duration > 0.0 and variance > 0.0:
+            noise = variance + self._given.noise**2 * turn.duration
+            self._correct((turn.angle - angle) / turn.duration, noise / turn.duration**2)
+
+    def _correct(self, missed: float, noise: float) -> None:
+        gain = self.bias_variance / (self.bias_variance + noise)
+        self.bias += gain * missed
+        self.bias_variance *= 1.0 - gain
 
     def take(self) -> Turn | None:
         """Return the turn since this was last asked; None when nothing was measured."""
         if self._duration == 0.0:
             return None
-        variance = self._given.noise**2 * self._duration
-        turn = Turn(self._angle, variance + self.bias_variance * self._duration**2, self._duration)
+        a_second = self._given.noise**2 + 2.0 * PERSISTENCE * self.bias_variance
+        turn = Turn(self._angle, a_second * self._duration, self._duration)
         self._angle = self._duration = 0.0
         return turn

@@ -58,17 +58,17 @@ class UwbParameters:
 class Uwb:
     """The localisation system: sees the robot now, tells of it later."""
 
-    def __init__(self, parameters: UwbParameters, seed: int) -> None:
-        """Start the sequence of noise that belongs to ``seed``."""
+    def __init__(self, parameters: UwbParameters, seed: int, begin: float = 0.0) -> None:
+        """Start the sequence of noise that belongs to ``seed``, at time ``begin`` [s]."""
         self._given = parameters
         self._random = random.Random(seed)  # noqa: S311 - a simulation, no secret
         self._on_the_way: list[tuple[float, int, Fix]] = []
         self._measured = 0
         self._shift = 0.0, 0.0
         self._spell_ends = 0.0
-        self._next_spell = self._interval(parameters.multipath_interval)
+        self._next_spell = begin + self._interval(parameters.multipath_interval)
         self._dropout_ends = 0.0
-        self._next_dropout = self._interval(parameters.dropout_interval)
+        self._next_dropout = begin + self._interval(parameters.dropout_interval)
 
     def measure(self, time: float, pose: Pose) -> None:
         """See the robot at ``pose``, at a time [s] later than before."""

@@ -264,13 +264,13 @@ def test_restart_forgets(tester):
 
 def test_a_gyroscope_mends_the_turns_of_the_wheels(tester):
     """Wheels that see 10 % of each turn too little: over one round 36 degrees, with it a few."""
-    robot = Robot(tester, odom_noise__turning=0.2)
+    robot = Robot(tester, odom_noise__turning=0.2, gyro__bias=0.001)
     for i in range(126):
         imu = Imu()
         imu.header.stamp, imu.header.frame_id = stamp_of(round((100.0 + 0.1 * i) * 1e9)), 'imu_link'
         imu.angular_velocity.z = 0.5
         robot.imu.publish(imu)
-        tester.graph.spin_for(0.002)
+        tester.graph.spin_for(0.001)
         wrong = Pose(sin(0.045 * i), 1.0 - cos(0.045 * i), wrap(0.045 * i))
         robot.publish(robot.odom, robot.odometry(100.0 + 0.1 * i, wrong), robot.filtered)
     heading = pose_of(robot.filtered[-1].pose.pose).theta

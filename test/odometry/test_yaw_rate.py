@@ -34,6 +34,29 @@ def test_the_bias_is_learnt_at_rest():
     assert abs(gyroscope.take().angle) < 1.5e-3
 
 
+def test_the_bias_is_learnt_beside_the_wheels():
+    """A robot that turns at 0.5 rad/s; wheels whose turns err by 2 mrad in each 0.1 s."""
+    rng, gyroscope = np.random.default_rng(1), YawRate(YawRateParameters(bias=0.05))
+    for i in range(3000):
+        gyroscope.add(0.1 * i, 0.53 + 0.006 * float(rng.standard_normal()))
+        turn = gyroscope.take()
+        if turn is not None:
+            gyroscope.compare(turn, 0.05 + 0.002 * float(rng.standard_normal()), 0.002**2)
+    assert abs(gyroscope.bias - 0.03) < 3 * gyroscope.bias_variance**0.5
+    assert gyroscope.bias_variance**0.5 < 1e-3
+
+
+def test_a_bias_that_is_not_known_is_counted_as_one_that_stays():
+    """Hand calculation: 0.02 rad/s for 30 s are 0.6 rad; told is what is never less."""
+    gyroscope, variance = YawRate(YawRateParameters(bias=0.02, noise=1e-7, bias_walk=0.0)), 0.0
+    for i in range(301):
+        gyroscope.add(0.1 * i, 0.0)
+        turn = gyroscope.take()
+        variance += turn.variance if turn else 0.0
+    assert variance**0.5 == pytest.approx(0.02 * (30.0 * 60.0) ** 0.5, rel=1e-6)
+    assert variance**0.5 > 0.6
+
+
 def test_over_a_gap_and_back_in_time_it_tells_nothing():
     gyroscope = YawRate()
     gyroscope.add(0.0, 1.0)

@@ -1,0 +1,143 @@
+"""Topics of a bag as columns, stamped as their headers say, in the order of those stamps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.highlevel import AnyReader, AnyReaderError
+
+from agv_motion.errors import ConfigurationError, SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+Array = NDArray[np.float64]
+
+
+class PoseColumns(NamedTuple):
+    """Odometry, or poses with covariance."""
+
+    stamp: Array
+    """(n,) [s]"""
+    pose: Array
+    """(3, n) x [m], y [m], heading [rad]"""
+    covariance: Array
+    """(6, n) xx, xy, xt, yy, yt, tt"""
+
+
+class JointColumns(NamedTuple):
+    """Joint states in which all joints are."""
+
+    stamp: Array
+    """(n,) [s]"""
+    position: Array
+    """(joints, n); NaN where the messages have none"""
+    velocity: Array
+    """(joints, n); NaN where the messages have none"""
+
+
+def topics_of(bag: Path) -> dict[str, str]:
+    """Return the topics of a bag with their types."""
+    with _open(bag) as reader:
+        return {c.topic: c.msgtype for c in reader.connections}
+
+
+def pose_columns(bag: Path, topics: Iterable[str]) -> list[PoseColumns]:
+    """Return topics of nav_msgs/Odometry or geometry_msgs/PoseWithCovarianceStamped.
+
+    Raises:
+        SourceError: The bag cannot be read.
+        ConfigurationError: It does not have one of the topics.
+
+    """
+    columns = []
+    for rows in _rows(bag, topics, _pose_row):
+        table = np.array(rows, dtype=float).reshape(len(rows), 10).T
+        columns.append(PoseColumns(*_in_order(table[0], table[1:4], table[4:])))
+    return columns
+
+
+def joint_columns(bag: Path, topic: str, names: list[str]) -> JointColumns:
+    """Return a topic of sensor_msgs/JointState; messages that lack one of ``names`` are left out.
+
+    Raises:
+        SourceError: The bag cannot be read.
+        ConfigurationError: It does not have the topic, or no message has all the names.
+
+    """
+    seen: set[str] = set()
+
+    def row(message: Any) -> tuple[float, ...] | None:
+        seen.update(message.name)
+        index = {name: i for i, name in enumerate(message.name)}
+        if any(name not in index for name in names):
+            return None
+        places = [index[name] for name in names]
+        return (
+            _seconds(message),
+            *(_picked(message.position, places)),
+            *(_picked(message.velocity, places)),
+        )
+
+    (rows,) = _rows(bag, [topic], row)
+    if not rows:
+        msg = f'{topic} has joints {sorted(seen)}, expected {names}: give their names as they are'
+        raise ConfigurationError(msg)
+    table = np.array(rows, dtype=float).T
+    return JointColumns(*_in_order(table[0], table[1 : 1 + len(names)], table[1 + len(names) :]))
+
+
+def _open(bag: Path) -> AnyReader:
+    try:
+        return AnyReader([bag])
+    except (AnyReaderError, OSError, ValueError) as error:
+        msg = f"cannot read the bag '{bag}': {error}"
+        raise SourceError(msg) from error
+
+
+def _rows(bag: Path, topics: Iterable[str], row: Any) -> list[list[tuple[float, ...]]]:
+    names = list(topics)
+    rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in names}
+    try:
+        with _open(bag) as reader:
+            known = {c.topic for c in reader.connections}
+            for name in names:
+                if name not in known:
+                    msg = f"bag {bag} has no topic '{name}'; it has {', '.join(sorted(known))}"
+                    raise ConfigurationError(msg)
+            wanted = [c for c in reader.connections if c.topic in rows]
+            for connection, _, data in reader.messages(wanted):
+                found = row(reader.deserialize(data, connection.msgtype))
+                if found is not None:
+                    rows[connection.topic].append(found)
+    except (AnyReaderError, OSError) as error:
+        msg = f"cannot read the bag '{bag}': {error}"
+        raise SourceError(msg) from error
+    return [rows[name] for name in names]
+
+
+def _pose_row(message: Any) -> tuple[float, ...]:
+    pose, c = message.pose.pose, message.pose.covariance
+    q = pose.orientation
+    heading = np.arctan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+    return (
+        _seconds(message), pose.position.x, pose.position.y, float(heading),
+        c[0], c[1], c[5], c[7], c[11], c[35],
+    )  # fmt: skip
+
+
+def _seconds(message: Any) -> float:
+    return float(message.header.stamp.sec) + 1e-9 * float(message.header.stamp.nanosec)
+
+
+def _picked(values: Any, places: list[int]) -> list[float]:
+    return [float(values[i]) for i in places] if len(values) else [np.nan] * len(places)
+
+
+def _in_order(stamp: Array, *tables: Array) -> tuple[Array, ...]:
+    """Return columns in the order of their stamps, the first of those that share one."""
+    _, first = np.unique(stamp, return_index=True)
+    return stamp[first], *(table[:, first] for table in tables)

@@ -1,0 +1,27 @@
+"""The values of the shipped configuration, as arguments of nodes that a program makes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+from agv_motion.ros.config import find_config
+from agv_motion.ros.run import overrides
+
+
+def configured(file: str, node: str, changes: dict[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a node: its values in ``file`` of config/, then ``changes``."""
+    content = yaml.safe_load(find_config(file).read_text(encoding='utf-8'))
+    values = _flat(content[f'/**/{node}']['ros__parameters'])
+    return {'parameter_overrides': overrides(**(values | changes))}
+
+
+def _flat(values: dict[str, Any], prefix: str = '') -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in values.items():
+        if isinstance(value, dict):
+            flat |= _flat(value, f'{prefix}{name}__')
+        else:
+            flat[prefix + name] = value
+    return flat

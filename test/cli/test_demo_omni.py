@@ -1,0 +1,48 @@
+"""`agv demo omni`: a short drive, its figure, and figures that are what its bag says."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+pytest.importorskip('rclpy')
+
+from agv_motion.cli.bag_columns import PoseColumns, pose_columns
+from agv_motion.cli.demo_omni_report import Run, read_run
+from agv_motion.errors import ConfigurationError, SourceError
+
+
+def test_a_short_drive_leaves_a_bag_and_a_figure(alone, tmp_path):
+    status, out, errors = alone(
+        'demo', 'omni', '--minutes', 0.5, '--time-factor', 15, '--no-carry', '--output', tmp_path,
+        timeout=60.0,
+    )  # fmt: skip
+    assert status == 0, errors
+    assert (tmp_path / 'path.png').stat().st_size > 10_000
+    run = read_run(tmp_path / 'bag')
+    told = np.hypot(*run.error(run.pose)[:2])
+    assert np.median(told) < 0.15
+    assert re.search(r'errs +\d+\.\d cm', out)
+    with pytest.raises(ConfigurationError, match="no topic '/pos'; it has"):
+        pose_columns(tmp_path / 'bag', ['/pos'])
+
+
+def test_a_bag_that_is_none_is_refused(tmp_path):
+    with pytest.raises(SourceError, match='cannot read the bag'):
+        pose_columns(tmp_path / 'nothing', ['/pose'])
+
+
+def columns(pose):
+    pose = np.array(pose, dtype=float)
+    return PoseColumns(np.arange(pose.shape[1], dtype=float), pose, np.zeros((6, pose.shape[1])))
+
+
+def test_odometry_is_laid_where_the_truth_begins():
+    """Hand calculation: odometry goes 1 m along its x, the truth looked along y."""
+    truth = columns([[5.0, 5.0], [1.0, 2.0], [np.pi / 2, np.pi / 2]])
+    odom = columns([[3.0, 4.0], [3.0, 3.0], [0.0, 0.1]])
+    run = Run(truth, truth, truth, odom)
+    assert run.odometry_alone().pose[:, 1] == pytest.approx([5.0, 2.0, np.pi / 2 + 0.1])
+    assert run.error(run.odometry_alone())[:, 1] == pytest.approx([0.0, 0.0, 0.1], abs=1e-12)
