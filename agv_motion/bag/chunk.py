@@ -46,6 +46,8 @@ class Chunk(NamedTuple):
     """[ns] log time of the first message"""
     end: int
     """[ns] log time of the last message"""
+    size: int
+    """[bytes] of its content, uncompressed"""
     indexes: Mapping[int, int] | None
     """where the message index of each channel lies; None: there is none, walk the content"""
     bare: bool = False
@@ -107,25 +109,25 @@ def message_offsets(unpacked: Buffer) -> NDArray[np.int64]:
     )
 
 
-def heads(unpacked: Buffer, offsets: NDArray[Any]) -> NDArray[Any]:
+def heads(unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD) -> NDArray[Any]:
     """Return the heads of the messages that lie at ``offsets``, as structured rows.
 
     Raises:
         ValueError: An offset lies outside, or there is no whole message.
 
     """
-    room = len(unpacked) - HEAD.itemsize + 1
+    room = len(unpacked) - form.itemsize + 1
     if not len(offsets):
-        return np.empty(0, HEAD)
+        return np.empty(0, form)
     if room < 1 or int(offsets.max()) >= room:
         msg = f'a message at byte {int(offsets.max())} of a content of {len(unpacked)}'
         raise ValueError(msg)
-    raw = np.dtype((np.void, HEAD.itemsize))
+    raw = np.dtype((np.void, form.itemsize))
     windows = np.ndarray((room,), raw, unpacked, strides=(1,))
     places = offsets.astype(np.intp, copy=False)
-    found = windows[places].view(HEAD)
+    found = windows[places].view(form)
     lengths = found['length']
-    shortest = HEAD.itemsize - records.PREFIX.size
+    shortest = form.itemsize - records.PREFIX.size
     wrong = (found['opcode'] != records.MESSAGE) | (lengths - shortest > len(unpacked))
     wrong |= places + lengths.astype(np.int64) > len(unpacked) - records.PREFIX.size
     if wrong.any():

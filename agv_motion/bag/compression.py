@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import TYPE_CHECKING
 
 import lz4.frame
@@ -19,6 +20,7 @@ _FAST = 1
 _WIDEST_WINDOW = 1 << 27
 """[bytes] Memory that a zstd frame may ask for; level 19 asks for 8 MiB."""
 _PIECE = 1 << 17
+_of_thread = threading.local()
 
 
 def compressor(name: str) -> Callable[[bytes], bytes]:
@@ -75,12 +77,20 @@ def salvage(name: str, stored: Buffer, limit: int) -> bytes:
         return b''
 
 
+def _zstd_decompressor() -> zstandard.ZstdDecompressor:
+    """Return the decompressor of this thread: making one costs as much as a small chunk."""
+    found: zstandard.ZstdDecompressor | None = getattr(_of_thread, 'zstd', None)
+    if found is None:
+        found = zstandard.ZstdDecompressor(max_window_size=_WIDEST_WINDOW)
+        _of_thread.zstd = found
+    return found
+
+
 def _zstd(stored: Buffer, size: int) -> bytes:
     try:
         frame = zstandard.get_frame_parameters(stored)
         if frame.content_size == size:
-            whole = zstandard.ZstdDecompressor(max_window_size=_WIDEST_WINDOW)
-            return whole.decompress(stored, max_output_size=size)
+            return _zstd_decompressor().decompress(stored, max_output_size=size)
     except zstandard.ZstdError as error:
         msg = f'zstd: {error}'
         raise ValueError(msg) from None

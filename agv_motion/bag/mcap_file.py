@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import mmap
 from collections import OrderedDict
+from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from agv_motion.bag import connection as connections
 from agv_motion.bag import mcap_scan, mcap_summary, records
-from agv_motion.bag import record_parsing as parsing
-from agv_motion.bag.chunk import Chunk, content, heads, message_offsets
+from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.time_order import Run, in_time_order
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 CACHE = 1 << 28
 """[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
 _ENTRY = 16
+_INDEX_HEAD = Struct('<BQHI')
+"""Prefix of a message index, its channel and the size of its entries."""
+_NO_INDEX = np.empty((0, 2), np.uint64)
 
 
 class Entries(NamedTuple):
@@ -94,16 +97,56 @@ class McapFile:
                 counts[channel] = counts.get(channel, 0) + len(entries.stamps)
         return counts
 
-    def entries(self, chunk: Chunk) -> dict[int, Entries]:
-        """Return where the messages of each channel lie in a chunk.
+    @property
+    def unpacked_size(self) -> int:
+        """[bytes] of all chunks, uncompressed, as far as it can be believed."""
+        return sum(min(chunk.size, LARGEST) for chunk in self.chunks)
+
+    def expected(self, start: int, stop: int) -> dict[int, int]:
+        """Return how many messages of each channel there are at most in a time.
+
+        Nothing is unpacked: where a chunk has no index, its messages are not counted.
+
+        Args:
+            start: [ns] first log time.
+            stop: [ns] log time before which to stop.
+
+        """
+        counts: dict[int, int] = {}
+        size = records.PREFIX.size
+        for chunk in self.chunks:
+            if chunk.end >= start and chunk.start < stop:
+                for channel, at in (chunk.indexes or {}).items():
+                    if at + size <= len(self._data):
+                        _, length = records.PREFIX.unpack_from(self._data, at)
+                        count = min(length, len(self._data)) // _ENTRY
+                        counts[channel] = counts.get(channel, 0) + count
+        return counts
+
+    def index_of(self, chunk: Chunk, channel: int, unpacked: Buffer) -> NDArray[np.uint64]:
+        """Return log time [ns] and offset of the messages of a channel in a chunk, as rows.
+
+        Raises:
+            DamagedBagError: The index or the chunk is damaged.
+
+        """
+        if chunk.indexes is None:
+            entries = self.entries(chunk, unpacked).get(channel)
+            return np.column_stack(entries).astype(np.uint64) if entries else _NO_INDEX
+        at = chunk.indexes.get(channel)
+        return _NO_INDEX if at is None else self._indexed(channel, at)
+
+    def entries(self, chunk: Chunk, unpacked: Buffer | None = None) -> dict[int, Entries]:
+        """Return where the messages of each channel lie in a chunk (``unpacked``, if it is).
 
         Raises:
             DamagedBagError: The index or the chunk is damaged.
 
         """
         if chunk.indexes is not None:
-            return {channel: self._indexed(channel, at) for channel, at in chunk.indexes.items()}
-        unpacked = self.content(chunk)
+            tables = {channel: self._indexed(channel, at) for channel, at in chunk.indexes.items()}
+            return {channel: Entries(t[:, 0], t[:, 1]) for channel, t in tables.items()}
+        unpacked = self.content(chunk) if unpacked is None else unpacked
         offsets = message_offsets(unpacked)
         found = self.heads(chunk, unpacked, offsets)
         channels = found['channel']
@@ -113,8 +156,17 @@ class McapFile:
             entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
         return entries
 
+    def unpacked(self, chunk: Chunk) -> Buffer:
+        """Return the uncompressed content of a chunk, without keeping it; for any thread.
+
+        Raises:
+            DamagedBagError: It is damaged.
+
+        """
+        return content(self._data, chunk, self.path, validate=self._validate)
+
     def content(self, chunk: Chunk) -> Buffer:
-        """Return the uncompressed content of a chunk.
+        """Return the uncompressed content of a chunk, and keep it for a while.
 
         Raises:
             DamagedBagError: It is damaged.
@@ -122,14 +174,16 @@ class McapFile:
         """
         unpacked = self._cache.get(chunk.offset)
         if unpacked is None:
-            unpacked = content(self._data, chunk, self.path, validate=self._validate)
+            unpacked = self.unpacked(chunk)
             self._cache[chunk.offset] = unpacked
             kept = sum(map(len, self._cache.values()))
             while kept > CACHE and len(self._cache) > 1:
                 kept -= len(self._cache.popitem(last=False)[1])
         return unpacked
 
-    def heads(self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any]) -> NDArray[Any]:
+    def heads(
+        self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
+    ) -> NDArray[Any]:
         """Return what stands before the messages at ``offsets`` of a chunk's content.
 
         Raises:
@@ -137,7 +191,7 @@ class McapFile:
 
         """
         try:
-            return heads(unpacked, offsets)
+            return heads(unpacked, offsets, form)
         except ValueError as error:
             raise DamagedBagError(self.path, chunk.offset, f'in this chunk, {error}') from None
 
@@ -202,23 +256,19 @@ class McapFile:
                 finding = f'in this chunk, a message of channel {channel}, which is not described'
                 raise DamagedBagError(self.path, chunk.offset, finding)
 
-    def _indexed(self, channel: int, at: int) -> Entries:
-        size = records.PREFIX.size
+    def _indexed(self, channel: int, at: int) -> NDArray[np.uint64]:
+        """Return log time and offset of the messages of a channel, as rows."""
+        size = _INDEX_HEAD.size
         if at + size > len(self._data):
             finding = f'a message index at byte {at} of a file of {len(self._data)}'
             raise DamagedBagError(self.path, at, finding)
-        opcode, length = records.PREFIX.unpack_from(self._data, at)
-        end = at + size + length
-        if opcode != records.MESSAGE_INDEX or end > len(self._data):
+        opcode, length, found, pairs = _INDEX_HEAD.unpack_from(self._data, at)
+        if opcode != records.MESSAGE_INDEX or at + records.PREFIX.size + length > len(self._data):
             raise DamagedBagError(self.path, at, 'no message index where the summary says')
-        found, pairs = parsing.message_index(
-            parsing.Body(self._data[at + size : end], self.path, at + size)
-        )
-        if found != channel or len(pairs) % _ENTRY:
-            finding = f'a message index of channel {found} with {len(pairs)} bytes'
+        if found != channel or pairs % _ENTRY or pairs + size - records.PREFIX.size > length:
+            finding = f'a message index of channel {found} with {pairs} bytes'
             raise DamagedBagError(self.path, at, f'{finding}, expected channel {channel}')
-        table = np.frombuffer(pairs, '<u8').reshape(-1, 2)
-        return Entries(table[:, 0], table[:, 1])
+        return np.frombuffer(self._data, '<u8', pairs // 8, at + size).reshape(-1, 2)
 
     def _filled(self, chunk: Chunk) -> bool:
         return chunk.indexes is None or bool(chunk.indexes)

@@ -73,7 +73,7 @@ class _Walk:
     def _chunk(self, at: int, end: int) -> None:
         head = parsing.chunk_head(parsing.Body(self._data[at:end], self._path, at), at)
         offset = at - records.PREFIX.size
-        self.chunks.append(Chunk(offset, end - offset, head.start, head.end, None))
+        self.chunks.append(Chunk(offset, end - offset, head.start, head.end, head.size, None))
 
     def _message(self, offset: int, end: int) -> None:
         """Add a message outside chunks to the stretch before it, or begin another stretch."""
@@ -81,9 +81,11 @@ class _Walk:
         last = self.chunks[-1] if self.chunks else None
         if last and last.bare and last.offset + last.length == offset and last.length < STRETCH:
             start, latest = min(last.start, stamp), max(last.end, stamp)
-            self.chunks[-1] = last._replace(length=end - last.offset, start=start, end=latest)
+            size = end - last.offset
+            self.chunks[-1] = last._replace(length=size, size=size, start=start, end=latest)
         else:
-            self.chunks.append(Chunk(offset, end - offset, stamp, stamp, None, bare=True))
+            size = end - offset
+            self.chunks.append(Chunk(offset, size, stamp, stamp, size, None, bare=True))
 
     def _torn(self, position: int) -> None:
         """Note where the file is torn; keep what can be saved of a chunk there."""
@@ -99,7 +101,7 @@ class _Walk:
             head = parsing.chunk_head(parsing.Body(self._data[at:], self._path, at), at)
         except DamagedBagError:
             return
-        self.chunks.append(Chunk(position, rest, head.start, head.end, None, torn=True))
+        self.chunks.append(Chunk(position, rest, head.start, head.end, head.size, None, torn=True))
 
     def _learn(self) -> None:
         """Look for channels where writers put them: into chunks, before their first message."""

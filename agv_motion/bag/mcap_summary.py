@@ -92,7 +92,8 @@ def _chunk(index: records.ChunkIndex, data: memoryview, path: Path, at: int) -> 
     if (opcode, length) != (records.CHUNK, index.length - records.PREFIX.size):
         raise DamagedBagError(path, index.offset, f'no chunk of {index.length} bytes')
     offsets = index.index_offsets or None
-    return Chunk(index.offset, index.length, index.start_time, index.end_time, offsets)
+    times = index.start_time, index.end_time
+    return Chunk(index.offset, index.length, *times, index.uncompressed_size, offsets)
 
 
 def _complete(summary: Summary) -> bool:

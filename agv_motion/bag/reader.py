@@ -15,9 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, final
 
 from agv_motion.bag.bag_files import find, unpack_file
-from agv_motion.bag.chunk import LARGEST
-from agv_motion.bag.compression import decompress_message
-from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.batch import unpack_message
 from agv_motion.bag.mcap_file import McapFile
 from agv_motion.bag.sqlite_file import SqliteFile
 from agv_motion.errors import ConfigurationError
@@ -172,14 +170,9 @@ class BagReader:
                 for file in group
             ]
             stream = streams[0] if len(streams) == 1 else merge(*streams, key=lambda m: m.stamp)
-            yield from map(self._unpack, stream) if self.messages_compressed else stream
-
-    def _unpack(self, message: Message) -> Message:
-        try:
-            return message._replace(data=decompress_message(message.data, LARGEST))
-        except ValueError as error:
-            finding = f'a message on {message.connection.topic} at {message.stamp} ns ({error})'
-            raise DamagedBagError(self.path, 0, finding) from None
+            if self.messages_compressed:
+                stream = (unpack_message(message, self.path) for message in stream)
+            yield from stream
 
 
 def _overlapping(files: list[File]) -> Iterator[list[File]]:

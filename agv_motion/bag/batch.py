@@ -1,0 +1,237 @@
+"""Messages of one channel that lie in one buffer: what columns are decoded from."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections import deque
+from concurrent.futures import ThreadPoolExecutor
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.bag import records
+from agv_motion.bag.chunk import HEAD, LARGEST, heads
+from agv_motion.bag.compression import decompress_message
+from agv_motion.bag.damage import DamagedBagError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.chunk import Chunk
+    from agv_motion.bag.connection import Message
+    from agv_motion.bag.mcap_file import McapFile
+    from agv_motion.bag.record_parsing import Buffer
+    from agv_motion.bag.sqlite_file import SqliteFile
+
+ENCAPSULATION = 4
+"""[bytes] before the content of a message: how it is written"""
+_HEAD = np.dtype([*((n, HEAD[n]) for n in HEAD.names or ()), ('form', '>u2'), ('options', '>u2')])
+_GROUP = 1 << 23
+"""[bytes] Chunks are decoded together up to this size."""
+_AHEAD = 2
+"""Groups of chunks that are unpacked while another one is decoded."""
+_LATEST = 2**64 - 1
+_TOGETHER = 2048
+"""Messages that are taken together where there are no chunks."""
+_MOST = 1 << 24
+"""[bytes] ... and their size."""
+
+
+class Batch(NamedTuple):
+    """Some messages of one channel."""
+
+    channel: int
+    data: Buffer
+    starts: NDArray[np.int64]
+    """[bytes] in ``data`` where the content of each begins, behind the encapsulation"""
+    sizes: NDArray[np.int64]
+    """[bytes] of each content"""
+    forms: NDArray[Any]
+    """encapsulation of each: 0 for big-endian, 1 for little-endian CDR"""
+    stamps: NDArray[np.int64]
+    """[ns] log time of each"""
+    path: Path
+    origins: Sequence[tuple[int, int]]
+    """where ``data`` comes from, for errors: pairs of a place in it [bytes] and one in the file"""
+
+    def origin(self, row: int) -> int:
+        """Return the place in the file where a message comes from [bytes]."""
+        return _origin(self.origins, int(self.starts[row]))
+
+
+class _Together(NamedTuple):
+    """Chunks whose contents lie in one buffer."""
+
+    chunks: Sequence[Chunk]
+    data: Buffer
+    ends: NDArray[np.int64]
+    """[bytes] where the content of each ends"""
+
+
+def of_mcap(file: McapFile, channels: Collection[int], start: int, stop: int) -> Iterator[Batch]:
+    """Yield the messages of an MCAP file as they lie in it, some chunks together.
+
+    Chunks are unpacked by threads, a few ahead.
+
+    Args:
+        file: The file.
+        channels: Their ids.
+        start: [ns] first log time.
+        stop: [ns] log time before which to stop.
+
+    Raises:
+        DamagedBagError: A chunk is damaged.
+
+    """
+    groups = _groups(
+        chunk
+        for chunk in file.chunks
+        if chunk.end >= start
+        and chunk.start < stop
+        and (chunk.indexes is None or not chunk.indexes.keys().isdisjoint(channels))
+    )
+
+    def batches(chunks: list[Chunk]) -> list[Batch]:
+        together = _unpacked(file, chunks)
+        found = (_batch(file, together, channel, start, stop) for channel in channels)
+        return [batch for batch in found if batch is not None]
+
+    with ThreadPoolExecutor(2) as pool:
+        waiting = deque(pool.submit(batches, group) for group in islice(groups, _AHEAD))
+        while waiting:
+            yield from waiting.popleft().result()
+            waiting.extend(pool.submit(batches, group) for group in islice(groups, 1))
+
+
+def _groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
+    """Yield chunks that are small enough to be decoded together."""
+    group: list[Chunk] = []
+    size = 0
+    for chunk in chunks:
+        if group and size + chunk.size > _GROUP:
+            yield group
+            group, size = [], 0
+        group.append(chunk)
+        size += chunk.size
+    if group:
+        yield group
+
+
+def _unpacked(file: McapFile, chunks: Sequence[Chunk]) -> _Together:
+    """Return the contents of some chunks in one buffer."""
+    contents = [file.unpacked(chunk) for chunk in chunks]
+    ends = np.cumsum([len(content) for content in contents], dtype=np.int64)
+    if len(contents) == 1:
+        return _Together(chunks, contents[0], ends)
+    joined = np.empty(int(ends[-1]), np.uint8)
+    for content, end in zip(contents, ends.tolist(), strict=True):
+        joined[end - len(content) : end] = np.frombuffer(content, np.uint8)
+    return _Together(chunks, joined.data, ends)
+
+
+def _batch(
+    file: McapFile, together: _Together, channel: int, start: int, stop: int
+) -> Batch | None:
+    """Return the messages of a channel, after a look whether they are where the index says."""
+    tables, counts = [], []
+    begin = 0
+    for chunk, end in zip(together.chunks, together.ends.tolist(), strict=True):
+        tables.append(file.index_of(chunk, channel, together.data[begin:end]))
+        counts.append(len(tables[-1]))
+        begin = end
+    table = tables[0] if len(tables) == 1 else np.concatenate(tables)
+    if not len(table):
+        return None
+    stamps, offsets = table[:, 0], table[:, 1]
+    ends = together.ends
+    begins = np.concatenate([[0], ends[:-1]])
+    outside = offsets >= len(together.data)
+    places = np.where(outside, len(together.data), offsets).astype(np.int64)
+    places += np.repeat(begins, counts)
+    limits = np.repeat(ends, counts)
+    if start > 0 or stop < 1 << 63:
+        inside = (stamps >= np.uint64(min(start, _LATEST))) & (
+            stamps < np.uint64(min(stop, _LATEST))
+        )
+        stamps, places, limits = stamps[inside], places[inside], limits[inside]
+        if not len(stamps):
+            return None
+    origins = [(e, chunk.offset) for e, chunk in zip(begins.tolist(), together.chunks, strict=True)]
+    try:
+        found = heads(together.data, places, _HEAD)
+    except ValueError as error:
+        place = _origin(origins, int(places.min()))
+        raise DamagedBagError(file.path, place, f'near this chunk, {error}') from None
+    sizes = found['length'].astype(np.int64) - (_HEAD.itemsize - records.PREFIX.size)
+    starts = places + _HEAD.itemsize
+    wrong = (found['channel'] != channel) | (found['stamp'] != stamps) | (starts + sizes > limits)
+    if wrong.any() or int(sizes.sum()) + len(sizes) * _HEAD.itemsize > len(together.data):
+        place = _origin(origins, int(places[int(wrong.argmax())]))
+        finding = f'in this chunk, messages that are not those of the index of channel {channel}'
+        raise DamagedBagError(file.path, place, finding)
+    times = stamps.astype(np.int64)
+    return Batch(channel, together.data, starts, sizes, found['form'], times, file.path, origins)
+
+
+def _origin(origins: Sequence[tuple[int, int]], place: int) -> int:
+    """Return the place in the file of a place in a buffer [bytes]."""
+    return origins[max(0, bisect_right(origins, (place, 2**63)) - 1)][1]
+
+
+def of_messages(
+    file: McapFile | SqliteFile,
+    channels: Collection[int],
+    start: int,
+    stop: int,
+    *,
+    compressed: bool,
+) -> Iterator[Batch]:
+    """Yield the messages of any file, some together; unpack those that are compressed each."""
+    numbers = {connection: channel for channel, connection in file.channels.items()}
+    waiting: dict[int, list[Message]] = {channel: [] for channel in channels}
+    size = count = 0
+    for message in file.messages(channels, start, stop):
+        if compressed:
+            message = unpack_message(message, file.path)  # noqa: PLW2901 - the same, unpacked
+        waiting[numbers[message.connection]].append(message)
+        size, count = size + len(message.data), count + 1
+        if size > _MOST or count >= _TOGETHER:
+            yield from _joined(waiting, file.path)
+            size = count = 0
+    yield from _joined(waiting, file.path)
+
+
+def unpack_message(message: Message, path: Path) -> Message:
+    """Return a message that rosbag2 compressed by itself, unpacked.
+
+    Raises:
+        DamagedBagError: It is damaged.
+
+    """
+    try:
+        return message._replace(data=decompress_message(message.data, LARGEST))
+    except ValueError as error:
+        finding = f'a message on {message.connection.topic} at {message.stamp} ns ({error})'
+        raise DamagedBagError(path, 0, finding) from None
+
+
+def _joined(waiting: dict[int, list[Message]], path: Path) -> Iterator[Batch]:
+    for channel, messages in waiting.items():
+        if not messages:
+            continue
+        short = next((m for m in messages if len(m.data) < ENCAPSULATION), None)
+        if short:
+            finding = f'a message on {short.connection.topic} with {len(short.data)} bytes'
+            raise DamagedBagError(path, 0, finding)
+        data = b''.join(message.data for message in messages)
+        sizes = np.array([len(message.data) for message in messages], np.int64)
+        starts = np.cumsum(sizes) - sizes
+        forms = np.ndarray((len(data) - 1,), '>u2', data, strides=(1,))[starts]
+        stamps = np.array([message.stamp for message in messages], np.int64)
+        contents = starts + ENCAPSULATION, sizes - ENCAPSULATION
+        yield Batch(channel, data, *contents, forms, stamps, path, [(0, 0)])
+        messages.clear()

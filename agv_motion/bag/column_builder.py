@@ -1,0 +1,150 @@
+"""Columns that grow batch by batch, in memory that is never taken twice."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import DTypeLike, NDArray
+
+_GROWTH = 1.2
+
+
+class Part(NamedTuple):
+    """Values of one field in some rows of a batch."""
+
+    rows: NDArray[np.intp] | slice
+    counts: int | NDArray[np.int64]
+    """values in every row: the same in all, or of each"""
+    values: NDArray[Any]
+    """of shape (rows, counts) where it is the same in all, else one after another"""
+
+
+class Growing:
+    """A one-dimensional array that grows at its end.
+
+    The memory is resized in place (the operating system moves pages, not bytes), and pages that
+    nothing was written to cost nothing.
+    """
+
+    def __init__(self, dtype: DTypeLike, expected: int = 0) -> None:
+        """Take memory for ``expected`` elements."""
+        try:
+            self._array: NDArray[Any] = np.empty(expected, dtype)
+        except MemoryError:  # the expectation came from a file that exaggerates
+            self._array = np.empty(0, dtype)
+        self.filled = 0
+
+    def more(self, count: int) -> NDArray[Any]:
+        """Return the next ``count`` elements, to be written before the next call."""
+        end = self.filled + count
+        if end > len(self._array):
+            self._array.resize(max(end, int(len(self._array) * _GROWTH)), refcheck=False)
+        view = self._array[self.filled : end]
+        self.filled = end
+        return view
+
+    def finish(self) -> NDArray[Any]:
+        """Return what was written."""
+        self._array.resize(self.filled, refcheck=False)
+        return self._array
+
+
+class ColumnBuilder:
+    """Values of one field, row after row; rows of changing length cost an offset each."""
+
+    def __init__(self, dtype: DTypeLike, rows: int, limit: int) -> None:
+        """Begin.
+
+        Args:
+            dtype: Of the values.
+            rows: How many are expected.
+            limit: [bytes] that all values can have at most, as far as known.
+
+        """
+        self._dtype = np.dtype(dtype)
+        self._expected, self._limit = rows, limit // self._dtype.itemsize
+        self._same: NDArray[Any] | None = None
+        self._values: Growing | None = None
+        self._each = 0
+        self._counts: Growing | None = None
+        self._rows = 0
+
+    def put(self, rows: int, parts: Sequence[Part]) -> None:
+        """Append a batch of ``rows`` rows, which ``parts`` cover."""
+        each = self._alike(parts)
+        if self._values is None:
+            same = _same_row(parts) if each >= 0 else None
+            if same is not None and (self._same is None or np.array_equal(same, self._same)):
+                self._same, self._rows = same, self._rows + rows
+                return
+            self._begin(max(each, 0))
+        assert self._values is not None
+        if self._counts is None and each == self._each:
+            table = self._values.more(rows * each).reshape(rows, each)
+            for part in parts:
+                table[part.rows] = part.values.reshape(-1, each) if each else 0
+        else:
+            self._put_ragged(rows, parts)
+        self._rows += rows
+
+    def finish(self) -> tuple[NDArray[Any], int | NDArray[np.int64]]:
+        """Return all values, and how many every row has: the same number, or that of each."""
+        if self._values is None:
+            self._begin(0)
+        assert self._values is not None
+        values = self._values.finish()
+        return values, self._each if self._counts is None else self._counts.finish()
+
+    def _begin(self, each: int) -> None:
+        """Take memory, for rows of ``each`` values, and write what has been the same so far."""
+        self._each = each if self._same is None else len(self._same)
+        self._values = Growing(self._dtype, min(self._expected * self._each, self._limit))
+        if self._same is not None:
+            table = self._values.more(self._rows * self._each)
+            table.reshape(self._rows, self._each)[:] = self._same
+
+    @staticmethod
+    def _alike(parts: Sequence[Part]) -> int:
+        """Return the number of values that every row has; -1 where they differ."""
+        found = set()
+        for part in parts:
+            if isinstance(part.counts, int):
+                found.add(part.counts)
+            else:
+                found.update({int(part.counts.min()), int(part.counts.max())})
+        return found.pop() if len(found) == 1 else -1
+
+    def _put_ragged(self, rows: int, parts: Sequence[Part]) -> None:
+        assert self._values is not None
+        if self._counts is None:
+            self._counts = Growing(np.int64, max(self._expected, self._rows + rows))
+            self._counts.more(self._rows)[:] = self._each
+        counts = self._counts.more(rows)
+        for part in parts:
+            counts[part.rows] = part.counts
+        ends = np.cumsum(counts)
+        starts = ends - counts
+        target = self._values.more(int(ends[-1]))
+        for part in parts:
+            begin = starts[part.rows]
+            if isinstance(part.counts, int):
+                target[begin[:, None] + np.arange(part.counts)] = part.values
+            else:
+                before = np.cumsum(part.counts) - part.counts
+                places = np.repeat(begin - before, part.counts) + np.arange(len(part.values))
+                target[places] = part.values
+
+
+def _same_row(parts: Sequence[Part]) -> NDArray[Any] | None:
+    """Return the row that is repeated in all parts; None if there is none, or it is not known."""
+    rows: list[NDArray[Any]] = [
+        p.values[0] for p in parts if p.values.ndim == 2 and not p.values.strides[0]
+    ]
+    if len(rows) < len(parts) or any(not np.array_equal(row, rows[0]) for row in rows[1:]):
+        return None
+    return rows[0]

@@ -1,0 +1,204 @@
+"""Topics of a bag straight into numpy columns, without a Python object for every message.
+
+with BagReader('bag') as bag:
+    odometry = read_topic(bag, '/odom', ['pose.pose.position', 'header.stamp'])
+    plot(odometry.seconds('header.stamp'), odometry['pose.pose.position.x'])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.bag import batch
+from agv_motion.bag.column import Column, Ragged, Texts
+from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.topic_decoder import TopicDecoder
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.cdr import Leaf
+    from agv_motion.bag.connection import Connection
+    from agv_motion.bag.reader import BagReader, File
+
+
+class Columns(NamedTuple):
+    """All messages of a topic, by the order of their log time."""
+
+    connection: Connection
+    stamps: NDArray[np.int64]
+    """[ns] log time of each message"""
+    fields: dict[str, Column]
+    """values of each field by its path, such as ``pose.position.x``: an array of shape (messages,
+    ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes"""
+
+    def nanoseconds(self, field: str) -> NDArray[np.int64]:
+        """Return a ``builtin_interfaces/Time`` such as ``header.stamp`` [ns]."""
+        sec, nanosec = self.fields[f'{field}.sec'], self.fields[f'{field}.nanosec']
+        assert isinstance(sec, np.ndarray)
+        assert isinstance(nanosec, np.ndarray)
+        return sec.astype(np.int64) * 1_000_000_000 + nanosec
+
+    def seconds(self, field: str = '') -> NDArray[np.float64]:
+        """Return a time of every message, by default its log time, since the first one [s]."""
+        times = self.nanoseconds(field) if field else self.stamps
+        since: NDArray[np.float64] = (times - times[:1]).astype(np.float64) * 1e-9
+        return since
+
+
+def read_topic(
+    bag: BagReader,
+    topic: str,
+    fields: Iterable[str] | None = None,
+    start: int | None = None,
+    stop: int | None = None,
+) -> Columns:
+    """Return the columns of one topic; arguments and errors as of :func:`read`."""
+    return read(bag, {topic: fields}, start, stop)[topic]
+
+
+def read(
+    bag: BagReader,
+    topics: Iterable[str] | Mapping[str, Iterable[str] | None] | None = None,
+    start: int | None = None,
+    stop: int | None = None,
+) -> dict[str, Columns]:
+    """Return the columns of some topics, read in one go.
+
+    Args:
+        bag: The bag.
+        topics: Names, or names with the paths of the wanted fields (a path stands for all that is
+            in it); None means everything.
+        start: [ns] first log time; None means the beginning.
+        stop: [ns] log time before which to stop; None means never.
+
+    Raises:
+        ConfigurationError: A topic or a field is not there, or its type cannot be understood.
+        DamagedBagError: The bag is damaged.
+
+    """
+    if topics is None:
+        topics = list(bag.topics)
+    wanted = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics)
+    bag.require(wanted)
+    span = max(start or 0, 0), 2**64 if stop is None else max(stop, 0)
+    expected = _expected(bag, frozenset(wanted), *span)
+    decoders = {
+        topic: TopicDecoder(_connection(bag, topic), fields, *expected[topic])
+        for topic, fields in wanted.items()
+    }
+    for file in bag.files:
+        channels = {n: c.topic for n, c in file.channels.items() if c.topic in decoders}
+        if channels:
+            for part in _batches(bag, file, channels.keys(), *span):
+                decoders[channels[part.channel]].put(part)
+    return {topic: _columns(decoder) for topic, decoder in decoders.items()}
+
+
+def _connection(bag: BagReader, topic: str) -> Connection:
+    """Return the only connection of a topic."""
+    found = {(c.type, c.definition) for c in bag.connections if c.topic == topic}
+    if len(found) > 1:
+        types = ' and '.join(sorted(kind for kind, _ in found))
+        msg = f'topic {topic} changed its type in the bag ({types}): agv bag check tells more'
+        raise ConfigurationError(msg)
+    return bag.topics[topic]
+
+
+def _batches(
+    bag: BagReader, file: File, channels: Iterable[int], start: int, stop: int
+) -> Iterator[batch.Batch]:
+    chosen = frozenset(channels)
+    if isinstance(file, McapFile) and not bag.messages_compressed:
+        return batch.of_mcap(file, chosen, start, stop)
+    return batch.of_messages(file, chosen, start, stop, compressed=bag.messages_compressed)
+
+
+def _expected(
+    bag: BagReader, topics: frozenset[str], start: int, stop: int
+) -> dict[str, tuple[int, int]]:
+    """Return for each topic the messages and the bytes to expect at most, 0 where unknown."""
+    rows, sizes = dict.fromkeys(topics, 0), 0
+    for file in bag.files:
+        if isinstance(file, McapFile):
+            for channel, count in file.expected(start, stop).items():
+                if channel in file.channels and file.channels[channel].topic in topics:
+                    rows[file.channels[channel].topic] += count
+            sizes += file.unpacked_size
+    return {topic: (count, sizes) for topic, count in rows.items()}
+
+
+def _columns(decoder: TopicDecoder) -> Columns:
+    """Return what a decoder has read, in the order of time."""
+    stamps = decoder.stamps.finish()
+    order = None
+    if (stamps[1:] < stamps[:-1]).any():
+        order = np.argsort(stamps, kind='stable')
+        stamps = stamps[order]
+    lengths: dict[int, NDArray[Any]] = {}
+    fields: dict[str, Column] = {}
+    for leaf in decoder.leaves:
+        values, counts = decoder.builders.pop(leaf.number).finish()
+        if order is not None:
+            values, counts = _ordered(values, counts, order)
+        if leaf.type == 'length':
+            lengths[leaf.number] = values
+        else:
+            fields[leaf.path] = _column(decoder, leaf, values, lengths, len(stamps))
+    return Columns(decoder.connection, stamps, fields)
+
+
+def _ordered(
+    values: NDArray[Any], counts: int | NDArray[np.int64], order: NDArray[np.intp]
+) -> tuple[NDArray[Any], int | NDArray[np.int64]]:
+    """Return rows in another order."""
+    if isinstance(counts, int):
+        return values.reshape(len(order), counts)[order].reshape(-1), counts
+    starts = np.cumsum(counts) - counts
+    counts = counts[order]
+    ends = np.cumsum(counts)
+    places = np.repeat(starts[order] - (ends - counts), counts) + np.arange(len(values))
+    return values[places], counts
+
+
+def _column(
+    decoder: TopicDecoder,
+    leaf: Leaf,
+    values: NDArray[Any],
+    lengths: dict[int, NDArray[Any]],
+    rows: int,
+) -> Column:
+    """Return values in the shape of the arrays around them."""
+    numbers = iter(leaf.lengths)
+    sizes = [_length(lengths[next(numbers)]) if size is None else size for size in leaf.dimensions]
+
+    def flat(*shape: int) -> Column:
+        table = values.reshape(shape)
+        texts = decoder.texts.get(leaf.number)
+        return Texts(table, texts.values) if texts else table
+
+    column: Column | None = None
+    inner: list[int] = []
+    for size in reversed(sizes):
+        if not isinstance(size, int):
+            offsets = np.concatenate([[0], np.cumsum(size, dtype=np.int64)])
+            column = Ragged(flat(int(offsets[-1]), *inner) if column is None else column, offsets)
+        elif column is None:
+            inner.insert(0, size)
+        else:
+            column = Ragged(column, np.arange(0, len(column) + 1, size))
+    return flat(rows, *inner) if column is None else column
+
+
+def _length(lengths: NDArray[Any]) -> int | NDArray[Any]:
+    """Return the length that all sequences have, or that of each."""
+    if not len(lengths):
+        return 0
+    first = int(lengths[0])
+    return first if (lengths == first).all() else lengths

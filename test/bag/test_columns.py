@@ -1,0 +1,167 @@
+"""Columns: shapes, selections, order, foreign bags, and messages that are not of their type."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import Writer as RosbagsWriter
+from rosbags.rosbag2.enums import CompressionFormat, CompressionMode
+from rosbags.typesys import Stores, get_typestore
+
+from agv_motion.bag import topic_decoder
+from agv_motion.bag.column import Ragged, Texts
+from agv_motion.bag.columns import read, read_topic
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.errors import ConfigurationError
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+TWIST = 'geometry_msgs/msg/TwistStamped'
+JOINTS = 'sensor_msgs/msg/JointState'
+TEXT = 'std_msgs/msg/String'
+SECOND = 1_000_000_000
+
+
+def definition(kind):
+    return STORE.generate_msgdef(kind, ros_version=2)[0]
+
+
+def write(path, messages, *, kind, text=None, stamps=None):
+    """Write messages in CDR on one topic, at ``stamps`` [ns], in small chunks."""
+    with BagWriter(path, chunk_size=3000, chunk_duration=1e9) as writer:
+        topic = writer.add_topic('/topic', kind, text or definition(kind), type_hash='')
+        for i, data in enumerate(messages):
+            writer.write(topic, i if stamps is None else stamps[i], bytes(data))
+    return path
+
+
+def columns(path, fields=None, *span):
+    with BagReader(path) as bag:
+        return read_topic(bag, '/topic', fields, *span)
+
+
+def joints(names, count, i):
+    make = STORE.types
+    header = make['std_msgs/msg/Header'](make['builtin_interfaces/msg/Time'](i, 5), 'base_link')
+    position = np.arange(count) + i / 7
+    message = make[JOINTS](header, names, position, -position, np.zeros(0))
+    return STORE.serialize_cdr(message, JOINTS)
+
+
+def test_arrays_of_constant_length_are_rectangular_and_empty_ones_too(tmp_path):
+    write(tmp_path / 'bag', [joints(['a', 'bc'], 2, i) for i in range(500)], kind=JOINTS)
+    found = columns(tmp_path / 'bag')
+    position = found.fields['position']
+    assert isinstance(position, np.ndarray)
+    assert position.shape == (500, 2)
+    assert position[3].tolist() == [3 / 7, 1 + 3 / 7]
+    assert found.fields['effort'].shape == (500, 0)
+    names = found.fields['name']
+    assert isinstance(names, Texts)
+    assert (names.shape, names[7].tolist()) == ((500, 2), ['a', 'bc'])
+    assert (names == 'bc').sum() == 500
+    assert found.nanoseconds('header.stamp')[2] == 2 * SECOND + 5
+    assert found.seconds('header.stamp')[2] == 2.0
+
+
+def test_arrays_of_changing_length_are_ragged_rows(tmp_path):
+    counts = [2, 2, 3, 0, 1, 2, 700] * 30
+    raw = [joints(['a'] * n, n, i) for i, n in enumerate(counts)]
+    write(tmp_path / 'bag', raw, kind=JOINTS)
+    position = columns(tmp_path / 'bag').fields['position']
+    assert isinstance(position, Ragged)
+    assert position.lengths.tolist() == counts
+    assert position[2].tolist() == [2 / 7, 1 + 2 / 7, 2 + 2 / 7]
+    assert position[-1].shape == (700,)
+    assert position[2:4].tolist() == [position[2].tolist(), []]
+
+
+def test_messages_that_are_all_different_take_the_general_way(tmp_path, monkeypatch):
+    raw = [joints([str(i)] * (i % 5), i % 7, i) for i in range(300)]
+    path = write(tmp_path / 'bag', raw, kind=JOINTS)
+    usual = columns(path)
+    monkeypatch.setattr(topic_decoder, 'FEW', 10**9)
+    general = columns(path)
+    for field, column in usual.fields.items():
+        assert column.tolist() == general.fields[field].tolist()
+
+
+def test_rows_are_in_the_order_of_their_stamps(tmp_path):
+    stamps = [(i * 37) % 200 for i in range(200)]
+    raw = [joints(['a'] * (s % 3), s % 3, s) for s in stamps]
+    write(tmp_path / 'bag', raw, kind=JOINTS, stamps=stamps)
+    found = columns(tmp_path / 'bag')
+    assert found.stamps.tolist() == list(range(200))
+    assert found.fields['header.stamp.sec'].tolist() == list(range(200))
+    assert found.fields['position'].lengths.tolist() == [s % 3 for s in range(200)]
+    assert found.fields['position'][5].tolist() == [5 / 7, 1 + 5 / 7]
+
+
+def test_a_time_range_is_selected(tmp_path):
+    write(tmp_path / 'bag', [joints(['a'], 1, i) for i in range(300)], kind=JOINTS)
+    found = columns(tmp_path / 'bag', ['position'], 20, 250)
+    assert found.stamps.tolist() == list(range(20, 250))
+    assert found.fields['position'][0, 0] == 20 / 7
+    assert len(columns(tmp_path / 'bag', ['position'], 1000).stamps) == 0
+    assert columns(tmp_path / 'bag', ['position', 'name'], 0, 0).fields['position'].shape == (0, 0)
+
+
+def test_texts_that_are_all_different_and_not_ascii(tmp_path):
+    texts = [f'Ü{i}' for i in range(3000)] + ['', 'a\0', '\0']
+    raw = [STORE.serialize_cdr(STORE.types[TEXT](t), TEXT) for t in texts]
+    write(tmp_path / 'bag', raw, kind=TEXT)
+    assert columns(tmp_path / 'bag').fields['data'].tolist() == texts
+
+
+@pytest.mark.parametrize('plugin', list(StoragePlugin))
+@pytest.mark.parametrize('mode', list(CompressionMode))
+def test_columns_of_foreign_bags(tmp_path, plugin, mode):
+    if plugin is StoragePlugin.SQLITE3 and mode is CompressionMode.STORAGE:
+        pytest.skip('sqlite3 has no compression of its own')
+    writer = RosbagsWriter(tmp_path / 'bag', version=9, storage_plugin=plugin)
+    writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        connection = writer.add_connection('/topic', JOINTS, typestore=STORE)
+        other = writer.add_connection('/other', TEXT, typestore=STORE)
+        for i in range(3000):
+            writer.write(connection, i, joints(['a', 'bc'], 2, i))
+            writer.write(other, i, STORE.serialize_cdr(STORE.types[TEXT](f'{i}'), TEXT))
+    with BagReader(tmp_path / 'bag') as bag:
+        found = read(bag)
+    assert found['/topic'].fields['position'][:, 0].tolist() == [i / 7 for i in range(3000)]
+    assert found['/other'].fields['data'].tolist() == [str(i) for i in range(3000)]
+
+
+def test_a_field_that_is_not_there_is_refused_with_a_near_name(tmp_path):
+    write(tmp_path / 'bag', [joints(['a'], 1, 1)], kind=JOINTS)
+    with pytest.raises(ConfigurationError, match="no field 'positon'; did you mean 'position'"):
+        columns(tmp_path / 'bag', ['positon'])
+
+
+@pytest.mark.parametrize(
+    ('data', 'complaint'),
+    [
+        (b'\0\1\0\0', 'end before a'),
+        (b'\0\1\0\0\0', 'end before a'),
+        (b'\0\1\0\0' + bytes(200), 'its type ends after'),
+        (b'\0\7\0\0' + bytes(60), r'encapsulation 0x0007'),
+        (b'\0\1\0\0' + bytes(8) + b'\xff' * 4 + bytes(60), 'end before a'),
+        (b'\0\1\0\0' + bytes(8) + b'\3\0\0\0\xff\xff\0' + bytes(49), 'frame_id is not UTF-8'),
+    ],
+)
+@pytest.mark.parametrize('times', [1, 20])
+def test_a_message_that_is_not_of_its_type_is_an_error_with_its_place(
+    tmp_path, data, complaint, times
+):
+    write(tmp_path / 'bag', [data] * times, kind=TWIST)
+    with pytest.raises(DamagedBagError, match=f'bag_0.mcap, byte [0-9]+:.*{complaint}'):
+        columns(tmp_path / 'bag')
+
+
+def test_an_empty_message_has_the_one_byte_that_ros_gives_it(tmp_path):
+    kind = 'made/msg/Event'
+    write(tmp_path / 'bag', [b'\0\1\0\0\0'] * 9, kind=kind, text='# nothing\n')
+    found = columns(tmp_path / 'bag').fields
+    assert [len(column) for column in found.values()] == [9]
