@@ -94,7 +94,11 @@ def read_run(bag: Path, wheel_radius: float) -> Run:
 
 def _reasons(goals: NDArray[np.float64], states: list[tuple[float, str]]) -> list[str]:
     """Return the reason of each goal: the first word of walking there, before the next goal."""
-    walking = [(t, text.removeprefix(WALKING)) for t, text in states if text.startswith(WALKING)]
+    walking = [
+        (t, text.removeprefix(WALKING).split(';')[0])
+        for t, text in states
+        if text.startswith(WALKING)
+    ]
     ends = [*(goal[0] for goal in goals[1:]), np.inf]
     return [
         next((text for t, text in walking if goal[0] - 1.0 < t < end), '')

@@ -45,7 +45,7 @@ class Zone:
 
         """
         if not (isfinite(margin) and margin >= 0.0):
-            msg = f'margin = {margin} m: must be zero or more'
+            msg = f'margin = {margin} m: must be zero or more, and finite'
             raise GeometryError(msg)
         self.margin = margin
         outer = _polygon('boundary', boundary)
@@ -65,7 +65,7 @@ class Zone:
         self._delicate = shapely.union_all(self.translation_only)
         for geometry in (self._walkable, self._delicate, self.floor):
             shapely.prepare(geometry)
-        self.home = None if home is None else (float(home[0]), float(home[1]))
+        self.home = None if home is None else _point('home', home)
         if self.home is not None and not self.walkable(*self.home):
             msg = f'home {self.home}: {self.why_not(*self.home)}; move it onto free floor'
             raise GeometryError(msg)
@@ -171,6 +171,23 @@ class Zone:
                 f'y from {south:g} to {north:g} m)'
             )
         return f'lies nearer than the margin of {self.margin:g} m to an edge'
+
+
+def _point(name: str, values: Sequence[float]) -> tuple[float, float]:
+    """Return ``values`` as x and y.
+
+    Raises:
+        GeometryError: They are not two finite numbers.
+
+    """
+    try:
+        x, y = map(float, values)
+    except (TypeError, ValueError):
+        x = y = float('nan')
+    if not (isfinite(x) and isfinite(y)):
+        msg = f'{name} must be [x, y] in metres, got {values!r:.80}'
+        raise GeometryError(msg)
+    return x, y
 
 
 def _polygon(name: str, ring: Ring) -> Polygon:

@@ -11,6 +11,9 @@ import yaml
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.motion.zone import MARGIN, Zone
 
+KINDS = {'zone': 'Polygon', 'translation_only': 'Polygon', 'home': 'Point'}
+"""What a feature of a GeoJSON drawing may be, and its form."""
+
 KEYS = ('boundary', 'holes', 'translation_only', 'margin', 'home')
 
 
@@ -30,41 +33,69 @@ def load_zone(path: str | Path) -> Zone:
 
     """
     path = Path(path)
+    geojson = path.suffix.lower() in {'.json', '.geojson'}
     try:
         text = path.read_text(encoding='utf-8')
-        geojson = path.suffix.lower() in {'.json', '.geojson'}
         content = json.loads(text) if geojson else yaml.safe_load(text)
     except (OSError, ValueError, yaml.YAMLError) as error:
         msg = f"cannot read the zone '{path}': {error}"
         raise ConfigurationError(msg) from error
     try:
-        keys = _from_geojson(content) if geojson else content
-        if not isinstance(keys, dict) or 'boundary' not in keys or set(keys) - set(KEYS):
-            given = ', '.join(map(str, keys)) if isinstance(keys, dict) else repr(keys)[:80]
-            msg = f'{path}: expected boundary, and of {", ".join(KEYS[1:])}; got {given}'
-            raise ConfigurationError(msg)
-        return Zone(
-            keys['boundary'],
-            keys.get('holes') or (),
-            keys.get('translation_only') or (),
-            float(keys.get('margin', MARGIN)),
-            keys.get('home'),
-        )
-    except (GeometryError, TypeError, KeyError, ValueError) as error:
-        if isinstance(error, ConfigurationError):
-            raise
+        return _zone(_from_geojson(content) if geojson else content)
+    except ConfigurationError as error:
+        msg = f'{path}: {error}'
+        raise ConfigurationError(msg) from error
+    except (GeometryError, TypeError, KeyError, ValueError, AttributeError) as error:
         msg = f'{path}: {error}'
         raise GeometryError(msg) from error
 
 
+def _zone(keys: Any) -> Zone:
+    """Return the zone of the keys of a file.
+
+    Raises:
+        ConfigurationError: One is missing, or is none of ours.
+        GeometryError: They hold no zone.
+
+    """
+    if not isinstance(keys, dict) or 'boundary' not in keys or set(keys) - set(KEYS):
+        given = ', '.join(map(str, keys)) if isinstance(keys, dict) else repr(keys)[:80]
+        msg = f'expected boundary, and of {", ".join(KEYS[1:])}; got {given}'
+        raise ConfigurationError(msg)
+    for key in ('holes', 'translation_only'):
+        if not isinstance(keys.get(key) or [], list):
+            msg = f'{key} must be a list of lists of [x, y], got {keys[key]!r:.80}'
+            raise GeometryError(msg)
+    return Zone(
+        keys['boundary'],
+        keys.get('holes') or (),
+        keys.get('translation_only') or (),
+        float(keys.get('margin', MARGIN)),
+        keys.get('home'),
+    )
+
+
 def _from_geojson(content: Any) -> dict[str, Any]:
+    """Return the features of a drawing under the keys of our own files.
+
+    Raises:
+        ConfigurationError: A feature is of no kind that a zone has, or there are two zones.
+
+    """
     features = content.get('features', [content]) if isinstance(content, dict) else []
     keys: dict[str, Any] = {'holes': [], 'translation_only': []}
-    for feature in features:
-        geometry = feature.get('geometry', feature)
+    for i, feature in enumerate(features):
         kind = (feature.get('properties') or {}).get('kind', 'zone')
+        geometry = feature.get('geometry', feature) or {}
+        form = geometry.get('type')
+        if KINDS.get(kind) != form or (kind == 'zone' and 'boundary' in keys):
+            msg = (
+                f"feature {i + 1} is a {form} of kind '{kind}': expected one Polygon of kind zone, "
+                'Polygons of kind translation_only, a Point of kind home'
+            )
+            raise ConfigurationError(msg)
         if kind == 'home':
-            keys['home'] = geometry['coordinates']
+            keys['home'] = geometry['coordinates'][:2]
         elif kind == 'translation_only':
             keys['translation_only'].append(geometry['coordinates'][0])
         else:

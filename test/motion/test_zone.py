@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from math import nan
+from math import inf, nan
 from pathlib import Path
 
 import pytest
@@ -80,6 +80,17 @@ def test_a_margin_may_part_the_zone():
         ({'boundary': SQUARE, 'holes': [COLUMN], 'home': (5, 5)}, 'home .* lies in hole 1'),
         ({'boundary': SQUARE, 'home': (50, 5)}, 'x from 0 to 10 m'),
         ({'boundary': SQUARE, 'home': (0.1, 5)}, 'nearer than the margin'),
+        ({'boundary': SQUARE, 'home': [1]}, r'home must be \[x, y\]'),
+        ({'boundary': SQUARE, 'home': [1, nan]}, r'home must be \[x, y\]'),
+        ({'boundary': SQUARE, 'margin': inf}, 'margin = inf'),
+        (
+            {
+                'boundary': SQUARE,
+                'holes': [[[3, 0], [3.1, 0], [3.1, 9.5], [3, 9.5]]],
+                'home': (1, 5),
+            },
+            'cannot be reached from the largest part',
+        ),
     ],
 )
 def test_what_is_no_zone_is_told(arguments, word):
@@ -98,8 +109,11 @@ def test_geojson_says_the_same_as_yaml(tmp_path):
     path = tmp_path / 'zone.geojson'
     features = [
         {'properties': {}, 'geometry': {'type': 'Polygon', 'coordinates': [SQUARE, COLUMN]}},
-        {'properties': {'kind': 'translation_only'}, 'geometry': {'coordinates': [MOSAIC]}},
-        {'properties': {'kind': 'home'}, 'geometry': {'coordinates': [8, 8]}},
+        {
+            'properties': {'kind': 'translation_only'},
+            'geometry': {'type': 'Polygon', 'coordinates': [MOSAIC]},
+        },
+        {'properties': {'kind': 'home'}, 'geometry': {'type': 'Point', 'coordinates': [8, 8, 0]}},
     ]  # fmt: skip
     path.write_text(json.dumps({'type': 'FeatureCollection', 'features': features}))
     zone = load_zone(path)
@@ -116,13 +130,34 @@ def test_geojson_says_the_same_as_yaml(tmp_path):
         ('[1, 2', ConfigurationError, 'cannot read the zone'),
         ('just words', ConfigurationError, 'expected boundary'),
         ('{boundary: [[0, 0], [9, 0], [9, 9]], margin: wide}', GeometryError, 'zone.yaml'),
-        ('{boundary: [[0, 0], [9, 0], [9, 9]], home: 3}', GeometryError, 'zone.yaml'),
+        ('{boundary: [[0, 0], [9, 0], [9, 9]], home: 3}', GeometryError, 'zone.yaml: home must'),
+        ('{boundary: [[0, 0], [9, 0], [9, 9]], holes: yes}', GeometryError, 'holes must be a list'),
     ],
 )
 def test_a_file_that_is_no_zone_is_named(tmp_path, text, error, word):
     path = tmp_path / 'zone.yaml'
     path.write_text(text)
     with pytest.raises(error, match=word.replace('.', r'\.')):
+        load_zone(path)
+
+
+TRIANGLE = {'type': 'Polygon', 'coordinates': [[[0, 0], [9, 0], [9, 9]]]}
+
+
+@pytest.mark.parametrize(
+    ('features', 'word'),
+    [
+        ([{'geometry': None}], 'feature 1 is a None'),
+        ([{'geometry': TRIANGLE}, {'geometry': TRIANGLE}], 'feature 2 is a Polygon of kind .zone'),
+        ([{'geometry': {'type': 'MultiPolygon'}}], 'feature 1 is a MultiPolygon'),
+        ([{'properties': {'kind': 'pond'}, 'geometry': TRIANGLE}], "kind 'pond'"),
+        ([], 'expected boundary'),
+    ],
+)
+def test_a_drawing_that_is_no_zone_is_told(tmp_path, features, word):
+    path = tmp_path / 'zone.geojson'
+    path.write_text(json.dumps({'type': 'FeatureCollection', 'features': features}))
+    with pytest.raises(ConfigurationError, match=word):
         load_zone(path)
 
 
