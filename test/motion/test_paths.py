@@ -22,7 +22,7 @@ WALL = [[4.9, 0], [5.1, 0], [5.1, 8], [4.9, 8]]
 AROUND = Zone(SQUARE, [COLUMN], margin=0.5)
 ALONG = Zone(SQUARE, [WALL], margin=0.5)
 PATHS = Paths(ALONG)
-ANYWHERE = st.tuples(st.floats(0.0, 10.0), st.floats(0.0, 10.0))
+ANYWHERE = st.tuples(st.floats(0.5, 9.5), st.floats(0.5, 9.5))
 
 
 def test_straight_where_nothing_stands():
