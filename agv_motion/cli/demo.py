@@ -9,10 +9,12 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from agv_motion.cli.demo_differential import differential
 from agv_motion.cli.demo_omni import omni
 
 app = typer.Typer()
 app.command()(omni)
+app.command()(differential)
 
 
 @app.callback(invoke_without_command=True)
