@@ -1,0 +1,1 @@
+"""Several trees in one zone: who may stand and go where, so that they never touch or block."""

@@ -1,0 +1,45 @@
+"""How trees share a zone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from agv_motion.motion.polar import PLATFORM_RADIUS
+from agv_motion.parameters import Spec, check
+
+
+@dataclass(frozen=True)
+class TrafficParameters:
+    """How trees share a zone; the same for all trees of one."""
+
+    body: Annotated[float, Spec('rim of the tree from its centre', 'm', (0.01, 100.0))] = (
+        PLATFORM_RADIUS
+    )
+    margin: Annotated[float, Spec('between the rims of two trees, at least', 'm', (0.0, 10.0))] = (
+        0.2
+    )
+    tolerance: Annotated[
+        float, Spec('a tree may be off its way by so much: errors of position', 'm', (0.01, 10.0))
+    ] = 0.3
+    silent_after: Annotated[
+        float, Spec('a tree not heard for longer is silent: keep off its side', 's', (1.0, 3600.0))
+    ] = 30.0
+    listen: Annotated[
+        float, Spec('listen for so long who is there before the first move', 's', (0.0, 3600.0))
+    ] = 5.0
+    expected: Annotated[
+        tuple[str, ...], Spec('trees that must have been heard before the first move')
+    ] = ()
+    patience: Annotated[
+        float, Spec('blocked for longer, look for another goal', 's', (10.0, 1200.0))
+    ] = 120.0
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+    @property
+    def radius(self) -> float:
+        """Of the disc about its supposed centre that a tree may occupy, half the margin added."""
+        return self.body + self.tolerance + self.margin / 2.0

@@ -1,0 +1,317 @@
+"""One tree among others: which way it takes, when it waits, and when it gives way.
+
+Safety is the matter of :class:`RightOfWay`; what is here only decides what to ask for, so a defect
+here can cost time but no bark. Four habits let all go on:
+
+- Who set out first goes first; the others keep off the next metres of its way.
+- Who cannot go on takes a way round what the others hold.
+- Who cannot go on and stands in the way of one that goes first walks to a refuge, and out of a
+  narrow passage backwards if need be.
+- Who is blocked for long looks for another goal, and is then the youngest.
+
+The oldest journey has everybody's way out of it, and each journey becomes the oldest.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import shapely
+
+from agv_motion.errors import GeometryError
+from agv_motion.motion.traffic.claim import IDLE, Claim, apart
+from agv_motion.motion.traffic.detour import free_floor, refuge, taken, way_round
+from agv_motion.motion.traffic.polyline import Way, cut, joined, length, line, nearest
+from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
+
+if TYPE_CHECKING:
+    from agv_motion.motion.paths import Paths
+    from agv_motion.motion.traffic.peers import Peer
+    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.zone import Zone
+
+STRETCH = 1.0
+"""[m] asked for at a time, and held ahead: a minute's walk at the most."""
+
+COURTESY = 4.0
+"""[m] of the way of who goes first that the others keep off."""
+
+ARRIVED = 0.05
+"""[m] The end of what is held counts as reached from here."""
+
+STUCK = 5.0
+"""[s] without floor ahead after which another way is sought, and time between two searches."""
+
+LONG_WAY = 60.0
+"""[s] A way round of more than twice the length is taken only when stuck for so long."""
+
+SAMPLE = 0.1
+"""[m] between the places at which a way is tested for how far it is free."""
+
+
+class Passage(NamedTuple):
+    """How far the tree may go now."""
+
+    target: Point | None
+    """where to head for, straight; None: stay"""
+    reason: str
+    """why it stays; empty while it goes"""
+    blocked: float
+    """[s] for how long it could not go towards its goal"""
+    way: Way
+    """corners from here on to the goal, or to where it gives way"""
+
+
+class Traffic:
+    """What one tree asks for, on its way to its goals."""
+
+    def __init__(self, right: RightOfWay, zone: Zone, paths: Paths) -> None:
+        """Stand where ``right`` says.
+
+        Args:
+            right: What the tree holds.
+            zone: Where it walks.
+            paths: The ways in it.
+
+        """
+        self.right = right
+        self._zone, self._paths = zone, paths
+        self._goal: Point | None = None
+        self._route: Way = ()
+        self._after_piece: Way = ()
+        self._yielding = False
+        self._reason = ''
+        self._going_at = self._planned_at = 0.0
+
+    def hear(self, claim: Claim, now: float) -> None:
+        """Take up the message of another tree; see :meth:`RightOfWay.hear`."""
+        self.right.hear(claim, now)
+
+    def claim(self, now: float) -> Claim:
+        """Return what to tell the others, every second or two and after every step of interest."""
+        right = self.right
+        return right.claim(now, joined(right.held, self._route))
+
+    def towards(self, goal: Point | None, place: Point, now: float) -> Passage:
+        """Return how to go on to ``goal``.
+
+        Args:
+            goal: Where to go in the map [m]; None: nowhere, but give way to others.
+            place: Where the centre is [m].
+            now: Time of this tree's clock [s].
+
+        """
+        right = self.right
+        along = self._track(place)
+        if goal != self._goal:
+            self._set_out(goal, along, now)
+            along = 0.0
+        self._settle(now)
+        ahead = right.ahead - along
+        if ahead > ARRIVED and not self._yielding:
+            self._going_at = now
+        stuck = now - self._going_at
+        if not right.asked and ahead <= ARRIVED and min(stuck, now - self._planned_at) >= STUCK:
+            self._plan_again(along, stuck, now)
+            along, ahead = 0.0, 0.0
+        if not right.asked and ahead < STRETCH:
+            self._ask()
+            self._settle(now)
+        way = joined(cut(right.held, along + ARRIVED)[1][1:], self._route)
+        blocked = stuck if goal is not None else 0.0
+        if right.ahead - along <= ARRIVED:
+            return Passage(None, self._reason, blocked, way)
+        return Passage(way[0], '', blocked, way)
+
+    def rest(self, place: Point) -> None:
+        """Hold nothing but the place where the tree is: it does not move for a while."""
+        self._let_go(self._track(place))
+        self._goal = None
+        self.right.set_out(IDLE)
+
+    def park(self, place: Point) -> None:
+        """Rest, and promise to stay: nobody needs to wait for an answer of this tree."""
+        self.rest(place)
+        self.right.park()
+
+    def occupied(self) -> shapely.Geometry:
+        """Return the floor that others hold or ask for, with the clearance to keep from it."""
+        return taken(self._needs_of_all(wishes=False))
+
+    def closed(self) -> shapely.Geometry:
+        """Return the floor on which no goal makes sense now: occupied, or left to a silent tree."""
+        sides = [
+            peer.sides.closed(self._zone.bounds, self._clearance(peer))
+            for peer in self.right.peers
+            if peer.sides is not None
+        ]
+        return shapely.union_all([self.occupied(), *sides])
+
+    # Where the tree is on the way it holds
+
+    def _track(self, place: Point) -> float:
+        """Return how far along the way it holds the tree is, and let go of what lies behind."""
+        right, tolerance = self.right, self.right.parameters.tolerance
+        along, away = nearest(right.held, place)
+        if away > tolerance:
+            right.stand(place)
+            self._yielding = False
+            self._plan()
+            return 0.0
+        passed = max(along - tolerance, 0.0)
+        right.pass_by(passed)
+        return along - passed
+
+    def _let_go(self, along: float) -> None:
+        """Hold nothing but the place reached, ask for nothing, and have no way to go."""
+        self.right.pass_by(along)
+        self.right.stop()
+        self._route, self._yielding = (), False
+
+    # Which way to take
+
+    def _set_out(self, goal: Point | None, along: float, now: float) -> None:
+        """Begin another journey."""
+        self._let_go(along)
+        self.right.set_out(IDLE if goal is None else round(now * 1e9))
+        self._goal, self._going_at, self._planned_at = goal, now, now
+        self._reason = ''
+        self._plan()
+
+    def _plan(self) -> None:
+        """Take the shortest way, unless it leads past a tree that stands there."""
+        self._go_direct()
+        way = line(self._route)
+        if not all(apart(way, *need) for need in self._needs_of_all(standing=True)):
+            self._take_way_round(length(self._route))
+
+    def _plan_again(self, along: float, stuck: float, now: float) -> None:
+        """Find a way round, or out of the way of who goes first."""
+        self._let_go(along)
+        self._planned_at = now
+        place, goal = self.right.held[0], self._goal
+        far = 0.0
+        if goal is not None and stuck < LONG_WAY:
+            far = hypot(goal[0] - place[0], goal[1] - place[1])
+        if not self._take_way_round(far or np.inf) and not self._give_way():
+            self._go_direct()
+
+    def _go_direct(self) -> None:
+        """Take the shortest way there is, whoever may be on it."""
+        if self._goal is None:
+            return
+        try:
+            self._route = tuple(self._paths.way(self.right.held[0], self._goal))
+        except GeometryError as error:
+            self._reason = str(error)
+
+    def _take_way_round(self, direct: float) -> bool:
+        """Take the shortest way past all that others need; return whether there is one."""
+        if self._goal is None:
+            return False
+        place = self.right.held[0]
+        floor = free_floor(self._zone, place, taken(self._needs_of_all()))
+        if floor is None:
+            return False
+        way = way_round(self._zone, place, self._goal, floor, near=0.8)
+        if way is None or length(way) > 2.0 * direct + 2.0:
+            return False
+        self._route, self._yielding = way, False
+        return True
+
+    def _give_way(self) -> bool:
+        """Walk to a refuge if the tree stands in the way of one that goes first; return whether."""
+        place = self.right.held[0]
+        here = shapely.Point(place)
+        first = [peer for peer in self.right.peers if self._goes_first(peer)]
+        if all(apart(here, p.claim.wish_line, self._clearance(p)) for p in first):
+            return False
+        floor = free_floor(self._zone, place, self.occupied())
+        if floor is None:
+            return False
+        for reach in (np.inf, COURTESY):
+            wished = taken((line(cut(p.claim.wish, reach)[0]), self._clearance(p)) for p in first)
+            way = refuge(self._zone, place, floor, wished)
+            if way is not None:
+                self._route, self._yielding = way, True
+                return True
+        return False
+
+    # What to ask for
+
+    def _ask(self) -> None:
+        """Ask for the next stretch of the route, as far as it is free by all that is known."""
+        if len(self._route) < 2:
+            return
+        piece, blocker = self._free(cut(self._route, STRETCH)[0])
+        if length(piece) > ARRIVED:
+            self._after_piece = cut(self._route, length(piece))[1]
+            self.right.ask(piece)
+        else:
+            self._reason = f'waits for {blocker}'
+
+    def _settle(self, now: float) -> None:
+        right = self.right
+        if not right.asked:
+            return
+        verdict = right.settle(now)
+        if verdict.answer is Answer.GRANTED:
+            self._route = self._after_piece
+            self._reason = ''
+        else:
+            self._reason = str(verdict)
+            if verdict.answer is Answer.TAKEN:
+                right.withdraw()
+
+    def _free(self, piece: Way) -> tuple[Way, str]:
+        """Return how much of ``piece`` keeps clear of all others, and who is in the way."""
+        blocker = ''
+        for peer in self.right.peers:
+            for way, clearance in self._needs(peer, wishes=not self._yielding):
+                if len(piece) > 1 and not apart(line(piece), way, clearance):
+                    piece, blocker = _prefix(piece, way, clearance), peer.claim.name
+        return piece, blocker
+
+    def _needs_of_all(
+        self, *, wishes: bool = True, standing: bool = False
+    ) -> list[tuple[shapely.Geometry, float]]:
+        """Return the ways that others need, each with the clearance to keep from it."""
+        return [
+            need
+            for peer in self.right.peers
+            if not standing or not peer.claim.asked
+            for need in self._needs(peer, wishes=wishes)
+        ]
+
+    def _needs(self, peer: Peer, *, wishes: bool) -> list[tuple[shapely.Geometry, float]]:
+        claim, clearance = peer.claim, self._clearance(peer)
+        needs = [(claim.held_line, clearance)]
+        if claim.asked and (not wishes or self._goes_first(peer)):
+            needs.append((claim.asked_line, clearance))
+        if wishes and claim.wish and self._goes_first(peer):
+            needs.append((line(cut(claim.wish, COURTESY)[0]), clearance))
+        return needs
+
+    def _goes_first(self, peer: Peer) -> bool:
+        return peer.claim.precedence < self.right.precedence
+
+    def _clearance(self, peer: Peer) -> float:
+        return self.right.radius + peer.claim.radius
+
+
+def _prefix(piece: Way, way: shapely.Geometry, clearance: float) -> Way:
+    """Return ``piece`` up to where it comes too near to ``way``, or nearer than it begins."""
+    count = max(int(length(piece) / SAMPLE) + 1, 2)
+    share = np.linspace(0.0, 1.0, count)
+    places = shapely.line_interpolate_point(line(piece), share, normalized=True)
+    away = shapely.distance(places, way)
+    bad = np.flatnonzero(away < min(clearance, float(away[0])))
+    upto = length(piece) * float(share[bad[0] - 1]) if len(bad) else length(piece)
+    while upto > ARRIVED:
+        short = cut(piece, upto)[0]
+        if apart(line(short), way, min(clearance, float(away[0]))):
+            return short
+        upto /= 2.0
+    return piece[:1]

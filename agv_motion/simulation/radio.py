@@ -1,0 +1,68 @@
+"""Messages between trees as a bad network carries them: late, lost, and sometimes not at all."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+from agv_motion.parameters import Spec, check
+
+if TYPE_CHECKING:
+    from agv_motion.motion.traffic.claim import Claim
+
+
+@dataclass(frozen=True)
+class RadioParameters:
+    """How bad the network is."""
+
+    loss: Annotated[float, Spec('share of messages lost', '1', (0.0, 1.0))] = 0.1
+    delay: Annotated[float, Spec('longest time a message takes', 's', (0.0, 1e4))] = 2.0
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+class _Letter(NamedTuple):
+    due: float
+    receiver: str
+    claim: Claim
+
+
+class Radio:
+    """Carries claims between trees; each pair has luck of its own, so order may change."""
+
+    def __init__(self, names: list[str], parameters: RadioParameters, seed: int) -> None:
+        """Start with nothing on the way.
+
+        Args:
+            names: Of all trees.
+            parameters: How bad it is.
+            seed: Of all chance.
+
+        """
+        self._names, self._parameters = names, parameters
+        self._random = random.Random(seed)  # noqa: S311 - a simulation, no secret
+        self._letters: list[_Letter] = []
+        self.deaf: set[tuple[str, str]] = set()
+        """Pairs (sender, receiver) between which nothing passes."""
+
+    def send(self, claim: Claim, now: float) -> None:
+        """Send ``claim`` to all others."""
+        given = self._parameters
+        for name in self._names:
+            lost = (claim.name, name) in self.deaf or self._random.random() < given.loss
+            if name != claim.name and not lost:
+                due = now + self._random.uniform(0.0, given.delay)
+                self._letters.append(_Letter(due, name, claim))
+
+    def receive(self, now: float) -> list[tuple[str, Claim]]:
+        """Return receiver and claim of all that has arrived by ``now`` [s], earliest first."""
+        arrived = sorted((letter for letter in self._letters if letter.due <= now), key=_due)
+        self._letters = [letter for letter in self._letters if letter.due > now]
+        return [(letter.receiver, letter.claim) for letter in arrived]
+
+
+def _due(letter: _Letter) -> float:
+    return letter.due

@@ -1,0 +1,278 @@
+"""Days of several trees in one zone, by their real minds, in seconds: what must hold, counted.
+
+Kinematic and without ROS: sun and shade make sap flow, sap flow and memory make goals, traffic
+makes way, and the platform follows exactly what it is told, off by the error of its position. Only
+the opening hours are played; at night the trees stand and speak on.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass, field
+from itertools import combinations
+from math import exp, hypot, inf, sqrt
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+import shapely
+
+from agv_motion.motion.goals import GoalParameters
+from agv_motion.motion.mind import Mind, MindParameters
+from agv_motion.motion.paths import Paths
+from agv_motion.motion.polar import LINEAR_SPEED, STILL, to_twist
+from agv_motion.motion.schedule import DAYS, ScheduleParameters
+from agv_motion.motion.traffic.company import Company
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import Pose, integrate
+from agv_motion.simulation.crowd import scattered
+from agv_motion.simulation.radio import Radio, RadioParameters
+from agv_motion.simulation.sap import PERIOD, SapSense
+from agv_motion.simulation.season_zones import MOST_TREES, plan_of
+from agv_motion.simulation.shade import Obstacle, light_factor
+from agv_motion.simulation.sun import sun
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from agv_motion.motion.mind import Thought
+    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.zone import Zone
+    from agv_motion.simulation.sun import Sun
+
+LATITUDE, LONGITUDE = 48.86, 2.35
+
+FIRST_OPENING = 1_430_438_400.0 + 10 * 3600.0
+"""[s since 1970] 1 May 2015, 10:00 UTC."""
+
+OPEN = 8 * 3600.0
+"""[s] of a day"""
+
+DAY = 86400.0
+
+STEPPED = 0.1
+"""[m] A tree that has moved so far does not stand."""
+
+ERROR_TIME = 300.0
+"""[s] over which the error of a position stays about the same."""
+
+
+@dataclass(frozen=True)
+class SeasonParameters:
+    """Which trees spend how many days where."""
+
+    kind: Annotated[str, Spec('of the zone', choices=tuple(MOST_TREES))] = 'garden'
+    trees: Annotated[int, Spec('how many share it', '1', (1, 10))] = 2
+    days: Annotated[int, Spec('how many opening days', '1', (1, 10000))] = 20
+    seed: Annotated[int, Spec('of zone, weather, noise and network', '1', (0, 2**31))] = 1
+    strategy: Annotated[str, Spec('of the goals', choices=('memory', 'straight'))] = 'memory'
+    step: Annotated[float, Spec('time step while a tree moves', 's', (0.5, 60.0))] = 15.0
+    error: Annotated[
+        float, Spec('standard deviation of x and of y, never beyond three of it', 'm', (0.0, 0.5))
+    ] = 0.02
+    outages: Annotated[
+        float, Spec('share of days on which one tree is off the air for an hour', '1', (0.0, 1.0))
+    ] = 0.1
+    radio: RadioParameters = field(default_factory=lambda: RadioParameters(delay=15.0))
+    traffic: TrafficParameters = field(
+        default_factory=lambda: TrafficParameters(silent_after=90.0, listen=30.0)
+    )
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+class Tally(NamedTuple):
+    """What has come of the days."""
+
+    days: int
+    walked: float
+    """[m] by all trees"""
+    goals: int
+    """taken by all trees"""
+    least_inside: float
+    """[m] least distance of a tree from the edge, where nearer than the margin; negative: out"""
+    least_gap: float
+    """[m] least distance between two trees less what is allowed; infinite with one tree"""
+    longest_stand: float
+    """[s] longest standstill of a tree that was awake and had somewhere to go"""
+    coverage: tuple[float, ...]
+    """share of the reachable floor the first tree has stood over, after each day"""
+
+
+class _Tree:
+    """One tree: truth, belief, sap, mind."""
+
+    def __init__(self, name: str, company: Company, place: Point, chance: random.Random) -> None:
+        self.name, self.company = name, company
+        self.pose = Pose(*place, chance.uniform(-3.0, 3.0))
+        self.sense = SapSense(chance.randrange(2**20))
+        self._chance = chance
+        self._error = (0.0, 0.0)
+        self.walked, self.goals, self.longest_stand = 0.0, 0, 0.0
+        self._anchor, self._moved_at = place, inf
+        self._goal: object = None
+
+    def live(
+        self, now: float, light: Callable[[float, float], float], given: SeasonParameters
+    ) -> bool:
+        """Feel, think and move for one step; return whether the tree moves."""
+        x, y, theta = self.pose
+        flow = self.sense.feel(now, light(x, y))
+        keep = exp(-given.step / ERROR_TIME)
+        fresh = given.error * sqrt(1.0 - keep * keep)
+        dx, dy = (keep * e + self._chance.gauss(0.0, fresh) for e in self._error)
+        shrink = min(3.0 * given.error / max(hypot(dx, dy), 1e-9), 1.0)
+        self._error = dx, dy = shrink * dx, shrink * dy
+        thought = self.company.think(now, Pose(x + dx, y + dy, theta), flow)
+        self._count(thought, now, flow.s1)
+        command = thought.wanted
+        if command == STILL:
+            return False
+        if len(thought.way) > 1:  # a step never leads past the corner it heads for
+            (ax, ay), (bx, by) = thought.way[:2]
+            most = hypot(bx - ax, by - ay) / (LINEAR_SPEED * given.step)
+            command = command._replace(v=min(command.v, most))
+        twist = to_twist(command)
+        self.pose = integrate(self.pose, twist, given.step)
+        self.walked += hypot(self.pose.x - x, self.pose.y - y)
+        return True
+
+    def _count(self, thought: Thought, now: float, speed: float) -> None:
+        """Count goals, and how long the tree has stood with somewhere to go."""
+        if thought.goal is not self._goal and thought.goal is not None:
+            self._goal = thought.goal
+            self.goals += thought.goal.wish is not None
+        here = self.pose.x, self.pose.y
+        seeks = speed > 0.0 and thought.goal is not None and bool(thought.way)
+        if not seeks or hypot(here[0] - self._anchor[0], here[1] - self._anchor[1]) > STEPPED:
+            self._anchor, self._moved_at = here, now
+        self._moved_at = min(self._moved_at, now)
+        self.longest_stand = max(self.longest_stand, now - self._moved_at)
+
+
+class Season:
+    """Trees, zone, weather, network."""
+
+    def __init__(self, parameters: SeasonParameters) -> None:
+        """Put the trees at their homes."""
+        self.parameters = given = parameters
+        chance = random.Random(given.seed)  # noqa: S311 - a simulation, no secret
+        plan = plan_of(given.kind, given.seed)
+        self.zone = plan.zone()
+        # where the margin keeps the whole platform on the floor, none of it may leave
+        self._needed = given.traffic.body if self.zone.margin > given.traffic.body else 0.0
+        self._deep_inside = self.zone.floor.buffer(-self.zone.margin)
+        shapely.prepare(self._deep_inside)
+        clearance = 2.0 * given.traffic.radius
+        homes = scattered(self.zone, given.trees, clearance + 0.2, chance)
+        self._obstacles = _obstacles(self.zone, chance)
+        paths = Paths(self.zone)
+        names = [f'tree_{i}' for i in range(given.trees)]
+        self.trees = []
+        for name, home in zip(names, homes, strict=True):
+            mind = Mind(plan.zone(home), _mind(given, chance))
+            traffic = Traffic(RightOfWay(name, home, given.traffic), self.zone, paths)
+            self.trees.append(_Tree(name, Company(mind, traffic), home, chance))
+        self._by_name = {tree.name: tree for tree in self.trees}
+        self._radio = Radio(names, given.radio, given.seed)
+        self._chance = chance
+        self._least_gap = self._least_inside = inf
+        self._coverage: list[float] = []
+
+    def run(self, told: Callable[[], None] = lambda: None) -> Tally:
+        """Let all days pass; ``told`` is called after each."""
+        for day in range(self.parameters.days):
+            self._day(FIRST_OPENING + day * DAY)
+            told()
+        return self.tally()
+
+    def tally(self) -> Tally:
+        """Return what has come of the days so far."""
+        trees = self.trees
+        return Tally(
+            len(self._coverage),
+            sum(tree.walked for tree in trees),
+            sum(tree.goals for tree in trees),
+            self._least_inside,
+            self._least_gap,
+            max(tree.longest_stand for tree in trees),
+            tuple(self._coverage),
+        )
+
+    def _day(self, opening: float) -> None:
+        given = self.parameters
+        self._speak_all_night(opening - 3.0 * given.step)
+        outage, lost = inf, self._chance.choice(self.trees).name
+        if self._chance.random() < given.outages:
+            outage = opening + self._chance.uniform(0.0, OPEN - 3600.0)
+        now, reading, sky = opening, -inf, sun(opening, LATITUDE, LONGITUDE)
+        while now < opening + OPEN:
+            if now >= reading + PERIOD:
+                reading, sky = now, sun(now, LATITUDE, LONGITUDE)
+            off = outage <= now < outage + 3600.0
+            self._radio.deaf = self._cut_off(lost) if off else set()
+            now += given.step if self._step(now, sky) else PERIOD
+        memory = self.trees[0].company.mind.memory
+        assert memory is not None
+        self._coverage.append(memory.coverage()[0])
+
+    def _speak_all_night(self, now: float) -> None:
+        """Bring every tree's last word to every other, as in all the hours left out."""
+        self._radio.deaf = set()
+        self._radio.receive(inf)
+        for speaker in self.trees:
+            claim = speaker.company.traffic.claim(now)
+            for listener in self.trees:
+                if listener is not speaker:
+                    listener.company.traffic.hear(claim, now)
+        for tree in self.trees:
+            tree.live(now, lambda _x, _y: 1.0, self.parameters)
+
+    def _cut_off(self, name: str) -> set[tuple[str, str]]:
+        others = [tree.name for tree in self.trees if tree.name != name]
+        return {(name, other) for other in others} | {(other, name) for other in others}
+
+    def _step(self, now: float, sky: Sun) -> bool:
+        """Let one step pass; return whether any tree moves."""
+        given = self.parameters
+        for receiver, claim in self._radio.receive(now):
+            self._by_name[receiver].company.traffic.hear(claim, now)
+
+        def light(x: float, y: float) -> float:
+            return light_factor(x, y, sky, self._obstacles)
+
+        moving = False
+        for tree in self.trees:
+            moving |= tree.live(now, light, given)
+            if len(self.trees) > 1:
+                self._radio.send(tree.company.traffic.claim(now), now)
+            place = shapely.Point(tree.pose.x, tree.pose.y)
+            if not shapely.covers(self._deep_inside, place):
+                sign = 1.0 if shapely.covers(self.zone.floor, place) else -1.0
+                inside = sign * self.zone.floor.boundary.distance(place) - self._needed
+                self._least_inside = min(self._least_inside, inside)
+        allowed = 2.0 * given.traffic.body + given.traffic.margin
+        for a, b in combinations(self.trees, 2):
+            gap = hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) - allowed
+            self._least_gap = min(self._least_gap, gap)
+        return moving
+
+
+def _mind(given: SeasonParameters, chance: random.Random) -> MindParameters:
+    return MindParameters(
+        goals=GoalParameters(strategy=given.strategy, seed=chance.randrange(2**20)),
+        schedule=ScheduleParameters(enabled=True, days=DAYS),
+    )
+
+
+def _obstacles(zone: Zone, chance: random.Random) -> list[Obstacle]:
+    """Return houses and trees that stand round the zone and throw shadows into it."""
+    west, south, east, north = zone.bounds
+    return [
+        Obstacle(chance.uniform(west, east), south - 2.0, 2.0, chance.uniform(5.0, 12.0)),
+        Obstacle(east + 2.0, chance.uniform(south, north), 2.0, chance.uniform(5.0, 12.0)),
+        Obstacle(west - 2.0, chance.uniform(south, north), 2.0, chance.uniform(5.0, 12.0)),
+    ]

@@ -1,0 +1,295 @@
+"""The floor is held by one tree at a time, whatever the network does."""
+
+from __future__ import annotations
+
+import random
+from itertools import combinations
+from math import cos, nan, sin, tau
+
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agv_motion.errors import SignalError
+from agv_motion.motion.traffic.claim import Claim
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.peers import Sides
+from agv_motion.motion.traffic.polyline import line
+from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
+from agv_motion.simulation.radio import Radio, RadioParameters
+
+PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
+CLEARANCE = 2.0
+"""[m] twice 0.7 + 0.2 + 0.2 / 2"""
+
+
+def tree(name, x, y=0.0, **changes):
+    return RightOfWay(name, (x, y), TrafficParameters(**(PARAMETERS.__dict__ | changes)))
+
+
+def talk(trees, now, rounds=1):
+    """Let every tree hear every other, without loss."""
+    for _ in range(rounds):
+        for claim in [one.claim(now) for one in trees]:
+            for other in trees:
+                other.hear(claim, now)
+
+
+def asks(one, *points):
+    one.ask((one.held[-1], *points))
+
+
+def held_gap(a, b):
+    return line(a.held).distance(line(b.held))
+
+
+def test_alone_a_tree_goes_where_it_wants():
+    oak = tree('oak', 0.0)
+    asks(oak, (5.0, 0.0))
+    assert oak.settle(0.0).answer is Answer.GRANTED
+    assert oak.held == ((0.0, 0.0), (5.0, 0.0))
+
+
+def test_it_listens_before_it_asks():
+    oak = tree('oak', 0.0, listen=5.0)
+    asks(oak, (5.0, 0.0))
+    assert oak.settle(10.0).answer is Answer.LISTENING
+    assert oak.settle(14.9).answer is Answer.LISTENING
+    assert oak.settle(15.0).answer is Answer.GRANTED
+
+
+def test_it_waits_for_the_trees_it_expects():
+    oak, pine = tree('oak', 0.0, expected=('pine',)), tree('pine', 10.0)
+    asks(oak, (5.0, 0.0))
+    assert str(oak.settle(0.0)) == 'waits for the answer of pine'
+    talk([oak, pine], 1.0, rounds=2)
+    assert oak.settle(1.0).answer is Answer.GRANTED
+
+
+def test_floor_is_granted_once_the_other_has_answered():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    talk([oak, pine], 0.0)
+    asks(oak, (5.0, 0.0))
+    assert str(oak.settle(1.0)) == 'waits for the answer of pine'
+    pine.hear(oak.claim(1.0), 1.0)
+    assert oak.settle(1.0).answer is Answer.PENDING
+    oak.hear(pine.claim(2.0), 2.0)
+    assert oak.settle(2.0).answer is Answer.GRANTED
+
+
+def test_nobody_comes_nearer_than_both_radii():
+    """Radius 1 m each: from 0, at most 8 m towards a tree at 10."""
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    asks(oak, (8.01, 0.0))
+    talk([oak, pine], 0.0, rounds=2)
+    assert str(oak.settle(0.0)) == 'waits for pine'
+    asks(oak, (8.0, 0.0))
+    talk([oak, pine], 1.0, rounds=2)
+    assert oak.settle(1.0).answer is Answer.GRANTED
+
+
+@pytest.mark.parametrize(
+    ('oak_set_out', 'pine_set_out', 'first'), [(5, 9, 'oak'), (9, 5, 'pine'), (5, 5, 'oak')]
+)
+def test_of_two_that_ask_at_once_the_older_journey_goes_first_then_the_name(
+    oak_set_out, pine_set_out, first
+):
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    oak.set_out(oak_set_out)
+    pine.set_out(pine_set_out)
+    asks(oak, (5.0, 0.0))
+    asks(pine, (5.0, 0.0))
+    talk([oak, pine], 0.0, rounds=3)
+    granted = [one.name for one in (oak, pine) if one.settle(0.0).answer is Answer.GRANTED]
+    assert granted == [first]
+
+
+def test_a_tree_that_is_too_near_may_go_away_but_not_nearer():
+    oak, pine = tree('oak', 0.0), tree('pine', 1.5)
+    asks(oak, (0.1, 0.0))
+    talk([oak, pine], 0.0, rounds=2)
+    assert oak.settle(0.0).answer is Answer.TAKEN
+    asks(oak, (-3.0, 0.0))
+    talk([oak, pine], 1.0, rounds=2)
+    assert oak.settle(1.0).answer is Answer.GRANTED
+
+
+def test_what_lies_behind_is_let_go():
+    oak = tree('oak', 0.0)
+    asks(oak, (5.0, 0.0), (5.0, 5.0))
+    oak.settle(0.0)
+    oak.pass_by(6.0)
+    assert oak.held == ((5.0, 1.0), (5.0, 5.0))
+    oak.stop()
+    assert oak.held == ((5.0, 1.0),)
+
+
+def test_a_parked_tree_is_an_obstacle_that_need_not_answer():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    pine.park()
+    oak.hear(pine.claim(0.0), 0.0)
+    asks(oak, (8.0, 0.0))
+    assert oak.settle(10_000.0).answer is Answer.GRANTED
+    asks(oak, (9.0, 0.0))
+    assert oak.settle(10_000.0).answer is Answer.TAKEN
+
+
+def test_a_parked_tree_asks_before_it_moves():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    talk([oak, pine], 0.0, rounds=2)
+    pine.park()
+    talk([oak, pine], 1.0)
+    asks(pine, (15.0, 0.0))
+    assert pine.settle(100.0).answer is Answer.TAKEN, 'oak is silent, and knows nothing of it'
+    talk([oak, pine], 101.0, rounds=2)
+    assert pine.settle(101.0).answer is Answer.GRANTED
+
+
+def test_of_a_silent_tree_all_it_asked_for_stays_taken_and_each_keeps_its_side():
+    oak, pine = tree('oak', 0.0), tree('pine', 20.0)
+    talk([oak, pine], 0.0, rounds=2)
+    asks(pine, (15.0, 0.0))
+    talk([oak, pine], 1.0)
+    asks(oak, (6.0, 0.0))
+    assert oak.settle(100.0).answer is Answer.GRANTED  # 6 + 2 <= 9
+    asks(oak, (6.6, 0.0))
+    assert str(oak.settle(101.0)) == 'waits for pine, which is silent'  # 6.6 + 2 > 8.4
+    talk([oak, pine], 102.0, rounds=2)
+    assert oak.settle(102.0).answer is Answer.GRANTED
+
+
+def test_a_silent_tree_that_knew_nothing_of_this_one_is_not_relied_upon():
+    oak, pine = tree('oak', 0.0), tree('pine', 20.0)
+    oak.hear(pine.claim(0.0), 0.0)
+    asks(oak, (1.0, 0.0))
+    assert oak.settle(100.0).answer is Answer.TAKEN
+
+
+def test_a_message_overtaken_by_a_later_one_is_dropped():
+    oak, pine = tree('oak', 0.0), tree('pine', 20.0)
+    early = pine.claim(0.0)
+    pine.stand((8.0, 0.0))
+    oak.hear(pine.claim(1.0), 1.0)
+    oak.hear(early, 2.0)
+    asks(oak, (7.0, 0.0))
+    assert oak.settle(2.0).answer is Answer.TAKEN
+
+
+def test_two_trees_of_one_name_are_told():
+    oak, other = tree('oak', 0.0), tree('oak', 10.0)
+    oak.claim(0.0)
+    with pytest.raises(SignalError, match="calls itself 'oak'"):
+        oak.hear(other.claim(1.0), 1.0)
+
+
+def test_its_own_message_coming_back_says_nothing():
+    oak = tree('oak', 0.0)
+    oak.hear(oak.claim(0.0), 0.0)
+    assert len(oak.peers) == 0
+
+
+def test_stamps_go_on_when_the_clock_falls_back():
+    oak = tree('oak', 0.0)
+    assert oak.claim(100.0).stamp < oak.claim(50.0).stamp < oak.claim(50.0).stamp
+
+
+@pytest.mark.parametrize(
+    ('changes', 'complaint'),
+    [
+        ({'name': ''}, 'needs name and place'),
+        ({'held': ()}, 'needs name and place'),
+        ({'radius': nan}, 'radius nan'),
+        ({'radius': 0.0}, 'must be positive'),
+        ({'asked': ((0.0, 0.0), (nan, 1.0))}, 'must be finite'),
+    ],
+)
+def test_a_claim_that_says_nothing_sound_is_refused(changes, complaint):
+    sound = {'name': 'oak', 'stamp': 1, 'radius': 1.0, 'held': ((0.0, 0.0),)}
+    with pytest.raises(SignalError, match=complaint):
+        Claim(**(sound | changes))
+
+
+POINTS = st.tuples(st.floats(-8.0, 8.0), st.floats(-8.0, 8.0))
+WAYS = st.lists(POINTS, min_size=1, max_size=3, unique=True).map(tuple)
+
+
+@given(a=WAYS, b=WAYS, p=WAYS, q=WAYS)
+def test_two_that_keep_to_their_sides_never_meet(a, b, p, q):
+    """Whatever A and B hold, and even where each thinks the other holds more than it does."""
+    mine, theirs = Sides(line(a), line((*b, *q[:1]))), Sides(line(b), line((*a, *p[:1])))
+    if mine.allow(p, CLEARANCE) and theirs.allow(q, CLEARANCE):
+        assert line(p).distance(line(q)) >= CLEARANCE - 1e-9
+
+
+def test_the_floor_left_to_the_other_side_is_told_in_squares():
+    closed = Sides(shapely.Point(0, 0), shapely.Point(10, 0)).closed((-5.0, -5.0, 15.0, 5.0), 2.0)
+    assert shapely.intersects_xy(closed, 9.0, 0.0)
+    assert shapely.intersects_xy(closed, 5.0, 0.0)
+    assert not shapely.intersects_xy(closed, 0.0, 0.0)
+    assert not shapely.intersects_xy(closed, -4.0, 3.0)
+
+
+class Chaos:
+    """Trees that ask at random over a network that loses, delays, reorders and falls silent."""
+
+    def __init__(self, seed, count):
+        self.chance = random.Random(seed)  # noqa: S311 - a trial, no secret
+        self.now = 0.0
+        places = [(3.0 * k + self.chance.uniform(0.0, 0.5), 0.0) for k in range(count)]
+        self.trees = [tree(f'tree_{k}', *place) for k, place in enumerate(places)]
+        self.skew = {one.name: self.chance.uniform(-5.0, 5.0) for one in self.trees}
+        self.radio = Radio(list(self.skew), RadioParameters(loss=0.2, delay=5.0), seed)
+        self.granted = 0
+        talk(self.trees, 0.0, rounds=2)
+
+    def step(self):
+        """Hear, ask, settle, walk, tell: each at random."""
+        self.now += self.chance.uniform(0.1, 2.0)
+        by_name = {one.name: one for one in self.trees}
+        for name, claim in self.radio.receive(self.now):
+            by_name[name].hear(claim, self.now + self.skew[name])
+        if self.chance.random() < 0.01:
+            pairs = [(a, b) for a in by_name for b in by_name if a != b]
+            self.radio.deaf = {pair for pair in pairs if self.chance.random() < 0.4}
+        if self.chance.random() < 0.03:
+            self.radio.deaf = set()
+        for one in self.trees:
+            self.act(one)
+            if self.chance.random() < 0.8:
+                self.radio.send(one.claim(self.now + self.skew[one.name]), self.now)
+
+    def act(self, one):
+        chance = self.chance
+        if one.asked:
+            answer = one.settle(self.now + self.skew[one.name]).answer
+            self.granted += answer is Answer.GRANTED
+            if answer is Answer.TAKEN:
+                one.withdraw()
+        elif chance.random() < 0.5:
+            x, y = one.held[-1]
+            angle, far = chance.uniform(0.0, tau), chance.uniform(0.1, 3.0)
+            target = (x + far * cos(angle), y + far * sin(angle))
+            one.ask(((x, y), (0.9 * target[0], 0.9 * target[1])))
+        dice = chance.random()
+        if dice < 0.3:
+            one.pass_by(chance.uniform(0.0, one.ahead))
+        elif dice < 0.32:
+            one.stop()
+        elif dice < 0.34:
+            one.withdraw()
+        elif dice < 0.36:
+            one.set_out(round(1e9 * self.now))
+        elif dice < 0.37:
+            one.park()
+
+
+@pytest.mark.parametrize('seed', range(12))
+def test_no_two_ways_held_ever_overlap(seed):
+    """The invariant: by simulation of what no proof should be trusted with alone."""
+    chaos = Chaos(seed, count=2 + seed % 4)
+    for _ in range(700):
+        chaos.step()
+        for a, b in combinations(chaos.trees, 2):
+            assert held_gap(a, b) >= CLEARANCE - 1e-5
+    assert chaos.granted > 100
