@@ -20,8 +20,10 @@ from agv_motion.motion.memory import MemoryParameters
 from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
 from agv_motion.motion.schedule import ScheduleParameters
+from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
+from agv_motion.nodes.company_keeper import CompanyKeeper
 from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose
@@ -62,6 +64,12 @@ class MotionGeneratorParameters:
     memory_file: Annotated[
         str, Spec('where to keep the memory of places over a restart; empty: nowhere')
     ] = ''
+    share_zone: Annotated[
+        bool, Spec('other trees walk here: tell them the way on /ways, and keep clear of theirs')
+    ] = False
+    tree_name: Annotated[
+        str, Spec('by which the other trees know this one; empty: its namespace')
+    ] = ''
     map_period: Annotated[
         float, Spec('time between two publications of the memory maps', 's', (0.1, 3600.0))
     ] = 5.0
@@ -75,6 +83,7 @@ class MotionGeneratorParameters:
     limits: LimitParameters = field(default_factory=LimitParameters)
     schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
     home: HomeParameters = field(default_factory=HomeParameters)
+    traffic: TrafficParameters = field(default_factory=TrafficParameters)
 
     def __post_init__(self) -> None:
         """Check every row, and that the goal is a point."""
@@ -112,6 +121,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         given = self.parameters
         zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
         self._mind = Mind(zone, given.mind())
+        self._company = self._join(given) if given.share_zone else None
         self._limits = Limits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
@@ -151,6 +161,10 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self.serve(Trigger, '~/go_home', self._on_go_home)
         self.every(1.0 / given.rate, self._tick)
 
+    def _join(self, given: MotionGeneratorParameters) -> CompanyKeeper:
+        name = given.tree_name or self.get_namespace().strip('/')
+        return CompanyKeeper(self, self._mind, given.traffic, name, given.map_frame)
+
     def begin(self) -> None:
         """Tell where the tree means to go, and what it remembers."""
         self._tell_goal(self._mind.goal)
@@ -160,6 +174,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""
         self._publish(self._limits.stop(), 'stopped')
+        if self._company is not None and self._pose is not None:
+            self._company.park(self.seconds(), self._pose)
         if self._keeper is not None:
             self._keeper.save_at_last()
 
@@ -174,6 +190,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             values['goal'] = self._mind.goal.reason
         if self._keeper is not None:
             values |= self._keeper.report()
+        if self._company is not None:
+            values |= self._company.report()
         return Diagnosis(WARN if self._lost else OK, self._told, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
@@ -258,8 +276,11 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         """Command what the sap flow asks for, or an explicit zero."""
         if self._obstacle or self._sap_flow is None or self._pose is None:
             self._publish(self._limits.stop(), self._obstacle)
+            if self._company is not None and self._pose is not None:
+                self._company.stay(self.seconds(), self._pose)
             return
-        thought = self._mind.think(self.seconds(), self._pose, self._sap_flow)
+        think = self._mind.think if self._company is None else self._company.think
+        thought = think(self.seconds(), self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(self.seconds() - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
         self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)

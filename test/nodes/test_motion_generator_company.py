@@ -1,0 +1,103 @@
+"""Two real `motion_generator` nodes in one zone: they meet head on, and both get where they go."""
+
+from __future__ import annotations
+
+import time
+from math import hypot
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from visualization_msgs.msg import MarkerArray
+
+from agv_motion.nodes.company_keeper import WAYS
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.planar import REST, Pose, integrate
+from agv_motion.ros.messages import fill_pose, twist_of
+from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.run import StartError
+
+YARD = 'boundary: [[0, 0], [7, 0], [7, 4], [0, 4]]\nmargin: 0.4\n'
+BODY, MARGIN = 0.3, 0.1
+SMALL = {
+    'traffic__body': BODY, 'traffic__margin': MARGIN, 'traffic__tolerance': 0.05,
+    'traffic__listen': 0.5, 'platform_radius': BODY, 'linear_speed': 0.6, 'rest__arrival': 0.3,
+    'limits__v_rate': 5.0, 'share_zone': True,
+}  # fmt: skip
+
+
+class Tree:
+    """A tree that goes exactly where it is told."""
+
+    def __init__(self, tester, zone, name, place, goal, **given):
+        self.tester, self.pose, self.goal, self.twist = tester, Pose(*place, 0.0), goal, REST
+        node, graph = tester.node, tester.graph
+        self._poses = node.create_publisher(PoseWithCovarianceStamped, f'/{name}/pose', SENSOR)
+        self._flows = node.create_publisher(Vector3Stamped, f'/{name}/granier/sap_flow', SENSOR)
+        node.create_subscription(TwistStamped, f'/{name}/cmd_vel', self._on_command, COMMAND)
+        self.node = tester.start(
+            MotionGenerator, remap=[f'__ns:=/{name}'], zone_file=zone, goal=list(goal),
+            **(SMALL | given),
+        )  # fmt: skip
+        graph.spin_until(lambda: self._poses.get_subscription_count() >= 1)
+
+    def _on_command(self, message):
+        self.twist = twist_of(message.twist)
+
+    def live(self, duration):
+        """Move for a while, and tell where it is and that the sap flows."""
+        self.pose = integrate(self.pose, self.twist, duration)
+        pose = PoseWithCovarianceStamped()
+        pose.header.frame_id = 'map'
+        fill_pose(pose.pose.pose, self.pose)
+        self._poses.publish(pose)
+        flow = Vector3Stamped()
+        flow.vector.x, flow.vector.y, flow.vector.z = 1.0, 0.5, 0.5
+        self._flows.publish(flow)
+
+    def away(self):
+        return hypot(self.pose.x - self.goal[0], self.pose.y - self.goal[1])
+
+
+@pytest.fixture
+def zone(tmp_path):
+    path = tmp_path / 'zone.yaml'
+    path.write_text(YARD)
+    return str(path)
+
+
+def test_two_that_meet_head_on_keep_clear_and_arrive(tester, zone):
+    oak = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0))
+    ash = Tree(tester, zone, 'ash', (6.0, 1.9), (1.0, 2.1))
+    nearest, end, before = 9.0, time.monotonic() + 60.0, time.monotonic()
+    while max(oak.away(), ash.away()) > 0.35:
+        assert time.monotonic() < end, (oak.node.diagnose(), ash.node.diagnose())
+        now = time.monotonic()
+        for tree in (oak, ash):
+            tree.live(now - before)
+        before = now
+        nearest = min(nearest, hypot(oak.pose.x - ash.pose.x, oak.pose.y - ash.pose.y))
+        tester.graph.spin_for(0.05)
+    assert nearest >= 2.0 * BODY + MARGIN
+    assert oak.node.diagnose().values['other trees'] == 'ash'
+
+
+def test_a_tree_tells_where_it_is_and_parks_at_the_end(tester, zone):
+    claims = tester.listen(MarkerArray, '/ways', WAYS)
+    oak = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0))
+    for _ in range(10):
+        oak.live(0.0)
+        tester.graph.spin_for(0.05)
+    held = tester.wait(claims).markers[0]
+    assert (held.ns, held.points[0].x, held.points[0].y) == ('oak', 1.0, 2.0)
+    oak.node.trigger_deactivate()
+    tester.wait(claims, lambda m: '"parked": true' in m.markers[0].text)
+
+
+def test_a_tree_without_name_or_zone_does_not_start(tester, zone):
+    with pytest.raises(StartError):
+        tester.start(MotionGenerator, share_zone=True, zone_file=zone)
+    with pytest.raises(StartError):
+        tester.start(MotionGenerator, share_zone=True, tree_name='oak')
