@@ -75,6 +75,7 @@ setup(
             'mypy>=1.11',
             'networkx>=3.1',
             'pytest>=8',
+            'pytest-xdist>=3.5',
             'ruff>=0.12',
             'types-pyserial',
             'types-pyyaml',

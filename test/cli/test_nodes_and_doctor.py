@@ -19,10 +19,9 @@ from agv_motion.ros.run import start
 def test_nodes_with_their_states(agv, graph):
     start(graph.add(WheelKinematics(context=graph.context)))
     graph.add(rclpy.create_node('plain', context=graph.context))
-    assert agv('nodes', '--spin-time', '5')[1].splitlines() == [
-        '/plain',
-        '/wheel_kinematics [active]',
-    ]
+    told = agv('nodes', '--spin-time', '5')[1].splitlines()
+    assert told == sorted(told)  # one that was killed before may still be announced
+    assert {'/plain', '/wheel_kinematics [active]'} <= set(told)
 
 
 def test_run_lists_and_refuses(alone):
