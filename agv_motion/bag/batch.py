@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import deque
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -62,6 +62,15 @@ class Batch(NamedTuple):
         """Return the place in the file where a message comes from [bytes]."""
         return _origin(self.origins, int(self.starts[row]))
 
+    def part(self, rows: slice) -> Batch:
+        """Return some of the messages."""
+        return self._replace(
+            starts=self.starts[rows],
+            sizes=self.sizes[rows],
+            forms=self.forms[rows],
+            stamps=self.stamps[rows],
+        )
+
 
 class _Together(NamedTuple):
     """Chunks whose contents lie in one buffer."""
@@ -95,16 +104,28 @@ def of_mcap(file: McapFile, channels: Collection[int], start: int, stop: int) ->
         and (chunk.indexes is None or not chunk.indexes.keys().isdisjoint(channels))
     )
 
-    def batches(chunks: list[Chunk]) -> list[Batch]:
-        together = _unpacked(file, chunks)
+    buffers: list[NDArray[np.uint8]] = []
+
+    def batches(chunks: list[Chunk], buffer: NDArray[np.uint8]) -> list[Batch]:
+        together = _unpacked(file, chunks, buffer.data)
         found = (_batch(file, together, channel, start, stop) for channel in channels)
         return [batch for batch in found if batch is not None]
 
     with ThreadPoolExecutor(2) as pool:
-        waiting = deque(pool.submit(batches, group) for group in islice(groups, _AHEAD))
+
+        def begun(count: int) -> None:
+            for group in islice(groups, count):
+                buffer = buffers.pop() if buffers else np.empty(_GROUP, np.uint8)
+                waiting.append((buffer, pool.submit(batches, group, buffer)))
+
+        waiting: deque[tuple[NDArray[np.uint8], Future[list[Batch]]]] = deque()
+        begun(_AHEAD)
         while waiting:
-            yield from waiting.popleft().result()
-            waiting.extend(pool.submit(batches, group) for group in islice(groups, 1))
+            buffer, future = waiting.popleft()
+            found = future.result()
+            begun(1)
+            yield from found
+            buffers.append(buffer)
 
 
 def _groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
@@ -121,16 +142,23 @@ def _groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
         yield group
 
 
-def _unpacked(file: McapFile, chunks: Sequence[Chunk]) -> _Together:
-    """Return the contents of some chunks in one buffer."""
-    contents = [file.unpacked(chunk) for chunk in chunks]
-    ends = np.cumsum([len(content) for content in contents], dtype=np.int64)
-    if len(contents) == 1:
-        return _Together(chunks, contents[0], ends)
-    joined = np.empty(int(ends[-1]), np.uint8)
-    for content, end in zip(contents, ends.tolist(), strict=True):
-        joined[end - len(content) : end] = np.frombuffer(content, np.uint8)
-    return _Together(chunks, joined.data, ends)
+def _unpacked(file: McapFile, chunks: Sequence[Chunk], buffer: memoryview) -> _Together:
+    """Return the contents of some chunks in one buffer: ``buffer``, if it is large enough."""
+    if len(chunks) == 1 and chunks[0].size > len(buffer):
+        content = file.unpacked(chunks[0])
+        return _Together(chunks, content, np.array([len(content)]))
+    ends, begin = [], 0
+    for chunk in chunks:
+        target = buffer[begin : begin + chunk.size]
+        content = file.unpacked(chunk, target)
+        if len(content) > len(target):
+            finding = f'a chunk of {len(content)} bytes, {chunk.size} by its index'
+            raise DamagedBagError(file.path, chunk.offset, finding)
+        if not isinstance(content, memoryview) or content.obj is not buffer.obj:
+            target[: len(content)] = content
+        begin += len(content)
+        ends.append(begin)
+    return _Together(chunks, buffer[:begin], np.array(ends, np.int64))
 
 
 def _batch(

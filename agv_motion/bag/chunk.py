@@ -9,7 +9,7 @@ import numpy as np
 
 from agv_motion.bag import record_parsing as parsing
 from agv_motion.bag import records
-from agv_motion.bag.compression import decompress, salvage
+from agv_motion.bag.compression import decompress, decompress_into, salvage
 from agv_motion.bag.damage import DamagedBagError
 
 if TYPE_CHECKING:
@@ -56,7 +56,14 @@ class Chunk(NamedTuple):
     """its end is missing"""
 
 
-def content(data: memoryview, chunk: Chunk, path: Path, *, validate: bool) -> Buffer:
+def content(
+    data: memoryview,
+    chunk: Chunk,
+    path: Path,
+    *,
+    validate: bool,
+    target: memoryview | None = None,
+) -> Buffer:
     """Return the uncompressed content of a chunk; of a torn one, what can be saved.
 
     Args:
@@ -64,6 +71,7 @@ def content(data: memoryview, chunk: Chunk, path: Path, *, validate: bool) -> Bu
         chunk: Which.
         path: The file, for errors.
         validate: Compare with the CRC, where the file has one.
+        target: Write it here, if it has room for ``chunk.size`` bytes.
 
     Raises:
         DamagedBagError: It is damaged, or larger than ``LARGEST``.
@@ -87,7 +95,11 @@ def content(data: memoryview, chunk: Chunk, path: Path, *, validate: bool) -> Bu
         finding = f'a chunk that ends at byte {head.content + head.stored}, expected {end}'
         raise DamagedBagError(path, chunk.offset, finding)
     try:
-        unpacked = decompress(head.compression, stored, head.size)
+        if target is None or head.size != chunk.size:
+            unpacked = decompress(head.compression, stored, head.size)
+        else:
+            unpacked = target[: head.size]
+            decompress_into(head.compression, stored, unpacked)
     except ValueError as error:
         raise DamagedBagError(path, chunk.offset, f'a chunk that is damaged ({error})') from None
     if validate and head.crc and crc32(unpacked) != head.crc:

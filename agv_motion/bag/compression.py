@@ -67,6 +67,25 @@ def decompress(name: str, stored: Buffer, size: int) -> Buffer:
     return data
 
 
+def decompress_into(name: str, stored: Buffer, target: memoryview) -> None:
+    """Fill ``target`` to its end; arguments and errors as of :func:`decompress`."""
+    if name != 'zstd':
+        target[:] = decompress(name, stored, len(target))
+        return
+    reader = _zstd_decompressor().stream_reader(stored, read_across_frames=True)
+    filled = 0
+    try:
+        while more := reader.readinto(target[filled:]):
+            filled += more
+        beyond = len(reader.read(1))
+    except zstandard.ZstdError as error:
+        msg = f'zstd: {error}'
+        raise ValueError(msg) from None
+    if filled + beyond != len(target):
+        msg = f'{filled + beyond} bytes or more where {len(target)} were announced'
+        raise ValueError(msg)
+
+
 def salvage(name: str, stored: Buffer, limit: int) -> bytes:
     """Return what can be decompressed of bytes whose end is missing, at most ``limit`` bytes."""
     if name == '':

@@ -156,14 +156,19 @@ class McapFile:
             entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
         return entries
 
-    def unpacked(self, chunk: Chunk) -> Buffer:
+    def unpacked(self, chunk: Chunk, target: memoryview | None = None) -> Buffer:
         """Return the uncompressed content of a chunk, without keeping it; for any thread.
+
+        Args:
+            chunk: Which.
+            target: Write it here, if it has room for ``chunk.size`` bytes.
 
         Raises:
             DamagedBagError: It is damaged.
 
         """
-        return content(self._data, chunk, self.path, validate=self._validate)
+        validate = self._validate
+        return content(self._data, chunk, self.path, validate=validate, target=target)
 
     def content(self, chunk: Chunk) -> Buffer:
         """Return the uncompressed content of a chunk, and keep it for a while.

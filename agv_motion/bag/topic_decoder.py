@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from agv_motion.bag.batch import Batch
     from agv_motion.bag.connection import Connection
 
+CACHED = 1 << 20
+"""[bytes] of messages that are decoded together."""
 FEW = 4
 """Messages that are not worth a pattern of their own."""
 _PATTERNS = 16
@@ -70,12 +72,21 @@ class TopicDecoder:
         self._patterns: defaultdict[tuple[int, int], list[Pattern]] = defaultdict(list)
 
     def put(self, batch: Batch) -> None:
-        """Decode a batch.
+        """Decode a batch, in parts that fit into the cache of a processor.
 
         Raises:
             DamagedBagError: A message is not of its type.
 
         """
+        ends = np.cumsum(batch.sizes)
+        first = 0
+        while first < len(ends):
+            begin = int(ends[first - 1]) if first else 0
+            last = max(first + 1, int(np.searchsorted(ends, begin + CACHED)))
+            self._put(batch.part(slice(first, last)))
+            first = last
+
+    def _put(self, batch: Batch) -> None:
         if (batch.forms > max(_ORDERS)).any():
             row = next(i for i, form in enumerate(batch.forms.tolist()) if form not in _ORDERS)
             finding = f'encapsulation {batch.forms[row]:#06x}, expected CDR (0 or 1)'
