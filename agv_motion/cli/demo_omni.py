@@ -30,6 +30,7 @@ def omni(
 
     agv demo omni
 
+    agv calibrate demo_output/omni/bag
     """
     from agv_motion.cli.demo_omni_graph import OmniGraph
     from agv_motion.cli.demo_omni_report import draw, read_run, summary

@@ -9,6 +9,7 @@ import typer
 
 from agv_motion.cli import (
     bag,
+    calibrate,
     demo,
     doctor,
     drive,
@@ -44,6 +45,7 @@ app.command(
     context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
 )(sequence.sequence)
 app.add_typer(demo.app, name='demo')
+app.command()(calibrate.calibrate)
 app.command()(record.record)
 app.command()(plot.plot)
 app.command()(replay.replay)

@@ -42,6 +42,14 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
     """The platform, its limits, and what makes it stop."""
 
     rate: Annotated[float, Spec('commands per second, at least', 'Hz', (1.0, 1000.0))] = 20.0
+    steering_zero: Annotated[
+        tuple[float, ...],
+        Spec(
+            'what each steering angle reads too little, from a calibration; empty: nothing',
+            'rad',
+            (-pi, pi),
+        ),
+    ] = ()
     unwind_after: Annotated[
         float,
         Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),
@@ -67,6 +75,12 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
                 f'residual_stop = {self.residual_stop} m/s: warn before stopping'
             )
             raise ConfigurationError(msg)
+        if len(self.steering_zero) not in {0, len(self.turret_x)}:
+            msg = (
+                f'steering_zero = {list(self.steering_zero)}: give one for each of '
+                f'{len(self.turret_x)} turrets, or none'
+            )
+            raise ConfigurationError(msg)
 
 
 class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
@@ -90,6 +104,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._turrets = given.turrets()
         self._planner = SteeringPlanner(self._turrets, given)
         self._plan: SteeringState | None = None
+        self._zero = given.steering_zero or (0.0,) * len(self._turrets)
         self._planned_at: float | None = None
         self._wanted = REST
         self._unwinding = False
@@ -230,10 +245,11 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         factor = share / self.parameters.wheel_radius
         rates = [factor * speed for speed in plan.speeds]
         self.stamp(self._message)
-        self._joints.fill(self._message, plan.angles, rates)
+        angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
+        self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)
         if self._arrays_wanted:
-            self._steering.publish(Float64MultiArray(data=array('d', plan.angles)))
+            self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
 
     def _watch(self) -> None:
@@ -303,7 +319,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _on_state(self, message: JointState) -> None:
         """Fit the twist that the turrets really make, and carry the odometry on."""
-        angles, rates = self._joints.read(message)
+        told, rates = self._joints.read(message)
+        angles = [angle + zero for angle, zero in zip(told, self._zero, strict=True)]
         self._state_watchdog.feed()
         if self._measured is None:
             self._plan = SteeringState(angles)

@@ -163,7 +163,7 @@ class DifferentialModel:
         self.radii = _checked_radii(radii, 2)
         self.unit_covariance = DifferentialBase(track).unit_covariance
         left, right = map(float, self.radii)
-        self.unknowns = (
+        self.unknowns: tuple[Unknown, ...] = (
             Unknown('radius_left', 'm', left, LENGTH_DOUBT * left),
             Unknown('radius_right', 'm', right, LENGTH_DOUBT * right),
             Unknown('track', 'm', track, LENGTH_DOUBT * track),

@@ -307,6 +307,20 @@ def test_a_turret_that_was_turned_by_hand_is_taken_from_where_it_stands(tester, 
     tester.wait(commands, lambda m: angles(m) == [0.0, 1.0])
 
 
+def test_zeros_of_the_steering_are_taken_into_account(tester, drive):
+    """A turret that reads 0.1 rad too little is told 0.1 rad less, and believed 0.1 rad more."""
+    node, commands, cmd_vel = drive(steering_zero=[0.1, 0.0], **FAST)
+    joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
+    tester.graph.spin_for(0.2)
+    joint_states.publish(state([-0.1, 0.0], [3.0, 3.0], 0.1))
+    cmd_vel.publish(twist(vx=0.3))
+    command = tester.wait(commands, lambda m: any(rates(m)))
+    assert angles(command) == pytest.approx([-0.1, 0.0])
+    assert node.diagnose().values['residual [m/s]'] == '0.00000'
+    with pytest.raises(ConfigurationError, match='steering_zero'):
+        tester.start(WheelKinematics, steering_zero=[0.1], **PAIR)
+
+
 def test_cables_are_unwound_at_rest_and_only_there(tester, drive):
     """A turret a turn and a tenth away goes back by one turn, along the same line."""
     _, commands, cmd_vel = drive(turn_limit=2.0, **FAST)

@@ -1,0 +1,98 @@
+"""`agv calibrate`: bags of every kind of robot, with wheels that are not as drawn."""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+import numpy as np
+import pytest
+import yaml
+
+pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from sensor_msgs.msg import JointState
+
+from agv_motion.bag.writer import BagWriter
+from agv_motion.odometry.columns import pose_columns
+from agv_motion.ros.cdr import codec
+from agv_motion.ros.messages import stamp_of
+
+PERIOD, NOISE = 0.1, 0.01
+RADII, TRACK = (0.049, 0.0505), 0.31
+
+
+def write(path, names, angles, poses):
+    """Write wheel angles (n, m) and every tenth pose (3, m), seen with noise, into a bag."""
+    rng = np.random.default_rng(1)
+    with BagWriter(path) as bag:
+        states = bag.add_topic('/wheels/state', 'sensor_msgs/msg/JointState')
+        fixes = bag.add_topic('/fix', 'geometry_msgs/msg/PoseWithCovarianceStamped')
+        for i in range(angles.shape[1]):
+            time = round((100.0 + i * PERIOD) * 1e9)
+            state = JointState(name=names, position=[float(a) for a in angles[:, i]])
+            state.header.stamp = stamp_of(time)
+            bag.write(states, time, codec(JointState).encode(state))
+            if i % 10 == 0:
+                fix = PoseWithCovarianceStamped()
+                fix.header.stamp = stamp_of(time)
+                x, y = poses[:2, i] + rng.normal(0.0, NOISE, 2)
+                heading = poses[2, i] + rng.normal(0.0, NOISE)
+                fix.pose.pose.position.x, fix.pose.pose.position.y = x, y
+                fix.pose.pose.orientation.z = sin(heading / 2)
+                fix.pose.pose.orientation.w = cos(heading / 2)
+                fix.pose.covariance[0] = fix.pose.covariance[7] = NOISE**2
+                fix.pose.covariance[35] = NOISE**2
+                bag.write(fixes, time, codec(PoseWithCovarianceStamped).encode(fix))
+
+
+def differential(path, turning):
+    """Drive a differential robot of RADII and TRACK for two minutes."""
+    rng = np.random.default_rng(2)
+    way = np.zeros((3, 1200))
+    way[0] = 0.3 * PERIOD
+    way[2] = np.repeat(rng.uniform(-turning, turning, 60), 20) * PERIOD
+    travel = np.array([way[0] - way[2] * TRACK / 2, way[0] + way[2] * TRACK / 2])
+    turned = travel / np.array(RADII)[:, None]
+    angles = np.concatenate([np.zeros((2, 1)), np.cumsum(turned, axis=1)], axis=1)
+    write(path, ['left_wheel', 'right_wheel'], angles, pose_columns(way))
+
+
+def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
+    differential(tmp_path / 'bag', 0.8)
+    out_file = tmp_path / 'new.yaml'
+    status, out, errors = alone('calibrate', tmp_path / 'bag', '-o', out_file, timeout=60.0)
+    assert status == 0, errors
+    assert 'not told' not in out
+    given = yaml.safe_load(out_file.read_text())['/**/differential_kinematics']['ros__parameters']
+    assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
+    assert given['track_multiplier'] * 0.3 == pytest.approx(TRACK, abs=3e-3)
+    status, out, _ = alone('parameters', 'differential_kinematics')
+    assert set(given) <= set(out.split())
+
+
+def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
+    differential(tmp_path / 'bag', 0.0)
+    status, out, _ = alone('calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml', timeout=60.0)
+    assert status == 0
+    (track,) = [line for line in out.splitlines() if line.startswith('track')]
+    assert 'not told by this motion' in track
+    given = yaml.safe_load((tmp_path / 'new.yaml').read_text())
+    assert given['/**/differential_kinematics']['ros__parameters']['track_multiplier'] == 1.0
+
+
+@pytest.mark.parametrize(
+    ('options', 'word'),
+    [
+        (['--reference', '/cam'], "no topic '/cam'"),
+        (['--node', 'wings'], "node = 'wings'"),
+        (['--namespace', 'oak'], 'neither turrets/state nor wheels/state'),
+        (['--node', 'omni_kinematics'], 'expected'),
+    ],
+)
+def test_what_is_missing_is_told(alone, tmp_path, options, word):
+    differential(tmp_path / 'bag', 0.5)
+    status, _, errors = alone('calibrate', tmp_path / 'bag', *options)
+    assert status == 1
+    assert word in errors
+    assert 'Traceback' not in errors
