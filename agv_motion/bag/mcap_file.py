@@ -221,6 +221,20 @@ class McapFile:
         )
         return in_time_order(opened)
 
+    def walk(self, chunk: Chunk) -> Iterator[Message]:
+        """Yield the whole messages of a chunk as they lie in it, whatever its index says.
+
+        Raises:
+            DamagedBagError: It is damaged, or has messages of channels that nothing describes.
+
+        """
+        unpacked = self.unpacked(chunk)
+        offsets = message_offsets(unpacked)
+        found = self.heads(chunk, unpacked, offsets)
+        known = np.isin(found['channel'], list(self.channels))
+        yield from self._messages(unpacked, offsets[known].tolist())
+        self._described(chunk, found)
+
     def close(self) -> None:
         """Let go of the file; messages already read stay valid."""
         self._cache.clear()
@@ -242,12 +256,15 @@ class McapFile:
             order = np.lexsort((offsets, stamps))
             self._described(chunk, self.heads(chunk, self.content(chunk), offsets))
             places = offsets[order].tolist()
-            return Run(stamps[order].tolist(), lambda a, b: self._messages(chunk, places[a:b]))
+            return Run(
+                stamps[order].tolist(),
+                lambda a, b: self._messages(self.content(chunk), places[a:b]),
+            )
 
         return opened
 
-    def _messages(self, chunk: Chunk, offsets: list[int]) -> Iterator[Message]:
-        unpacked = memoryview(self.content(chunk))
+    def _messages(self, content: Buffer, offsets: list[int]) -> Iterator[Message]:
+        unpacked = memoryview(content)
         unpack, size, prefix = records.MESSAGE_HEAD.unpack_from, records.MESSAGE_HEAD.size, 9
         channels = self.channels
         for offset in offsets:

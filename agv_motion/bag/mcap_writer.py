@@ -49,7 +49,7 @@ class McapWriter:
         """[ns] log time of the first message in it"""
         self._compression, self._compress = compression, compressor(compression)
         self._file = path.open('xb', buffering=0)
-        self._schemas: dict[str, records.Schema] = {}
+        self._schemas: dict[tuple[str, str], records.Schema] = {}
         self._channels: list[records.Channel] = []
         self._chunks: list[records.ChunkIndex] = []
         self._chunk_counts: list[dict[int, int]] = []
@@ -61,15 +61,16 @@ class McapWriter:
 
     def add_channel(self, topic: Topic) -> int:
         """Return the id of a new channel for ``topic``."""
-        if topic.type not in self._schemas:
+        key = topic.type, topic.definition
+        if key not in self._schemas:
             number = len(self._schemas) + 1
             definition = topic.definition.encode()
-            schema = records.Schema(number, topic.type, 'ros2msg', definition)
-            self._schemas[topic.type] = schema
+            schema = records.Schema(number, topic.type, topic.definition_encoding, definition)
+            self._schemas[key] = schema
             self._put(records.schema(schema))
         number = len(self._channels) + 1
         notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
-        schema_id = self._schemas[topic.type].id
+        schema_id = self._schemas[key].id
         channel = records.Channel(number, schema_id, topic.name, 'cdr', notes)
         self._channels.append(channel)
         self._indexes.append(array('Q'))

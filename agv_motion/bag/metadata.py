@@ -29,6 +29,8 @@ class Topic(NamedTuple):
     hash: str
     """``RIHS01_...``, or '' where unknown"""
     qos: Sequence[OfferedQos]
+    definition_encoding: str = 'ros2msg'
+    """or ``ros2idl``"""
 
 
 class FileSummary(NamedTuple):

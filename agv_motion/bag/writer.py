@@ -101,13 +101,21 @@ class BagWriter:
             ConfigurationError: The topic is there already, or the type is not installed.
 
         """
-        if any(topic.name == name for topic in self._topics):
-            msg = f'topic {name} is in bag {self.path} already: add it once, keep the handle'
-            raise ConfigurationError(msg)
         if definition is None:
             definition, known_hash = definitions.installed(message_type)
             type_hash = known_hash if type_hash is None else type_hash
-        topic = metadata.Topic(name, message_type, definition, type_hash or '', tuple(qos))
+        return self.add(metadata.Topic(name, message_type, definition, type_hash or '', tuple(qos)))
+
+    def add(self, topic: metadata.Topic) -> int:
+        """Return a handle for a topic that is described as another bag describes it.
+
+        Raises:
+            ConfigurationError: The topic is there already.
+
+        """
+        if any(other.name == topic.name for other in self._topics):
+            msg = f'topic {topic.name} is in bag {self.path} already: add it once, keep the handle'
+            raise ConfigurationError(msg)
         self._topics.append(topic)
         return self._file.add_channel(topic)
 

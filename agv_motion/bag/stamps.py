@@ -1,0 +1,49 @@
+"""Log times of a bag, topic by topic, in the order of the file; no message is decoded."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from agv_motion.bag.mcap_file import McapFile
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.reader import BagReader, File
+
+
+def stamps(bag: BagReader, topics: Iterable[str] | None = None) -> dict[str, NDArray[np.int64]]:
+    """Return when the messages of each topic were received [ns].
+
+    An MCAP file with an index tells that without being unpacked.
+
+    Raises:
+        ConfigurationError: A topic is not in the bag.
+        DamagedBagError: The bag is damaged.
+
+    """
+    wanted = list(bag.topics) if topics is None else list(topics)
+    bag.require(wanted)
+    found: dict[str, list[NDArray[np.int64]]] = {topic: [] for topic in wanted}
+    for file in bag.files:
+        for topic, times in _parts(file, frozenset(wanted)):
+            found[topic].append(times)
+    return {t: np.concatenate(p) if p else np.empty(0, np.int64) for t, p in found.items()}
+
+
+def _parts(file: File, wanted: frozenset[str]) -> Iterator[tuple[str, NDArray[np.int64]]]:
+    """Yield topics with some of their log times."""
+    channels = {n: c.topic for n, c in file.channels.items() if c.topic in wanted}
+    if isinstance(file, McapFile):
+        for chunk in file.chunks:
+            for channel, entries in file.entries(chunk).items():
+                if channel in channels:
+                    yield channels[channel], entries.stamps.astype(np.int64)
+        return
+    for number, topic in channels.items():
+        times = (message.stamp for message in file.messages([number], 0, 2**63 - 1))
+        yield topic, np.fromiter(times, np.int64)

@@ -1,0 +1,48 @@
+"""`agv bag recover`: save what can be read of a damaged bag."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import Progress
+
+MOST_PROBLEMS = 20
+"""that are told"""
+
+
+def recover(
+    damaged: Annotated[Path, typer.Argument(help='Damaged bag: its folder, or one file.')],
+    saved: Annotated[Path, typer.Argument(help='Folder of the new bag; must not exist.')],
+    *,
+    compression: Annotated[str, typer.Option(help='zstd, lz4 or none.')] = 'zstd',
+) -> None:
+    """Save every message that can be read into a new bag, with a new index.
+
+    The damaged bag stays as it is. A file that was cut off is saved up to its last whole message;
+    chunks that are damaged are left out and told. The exit status is 1 if nothing could be saved.
+    For example:
+
+    agv bag recover walk walk_saved
+
+    agv bag recover walk/walk_0.mcap walk_saved
+    """
+    from agv_motion.bag.bag_files import find
+    from agv_motion.bag.recovery import Recovery
+    from agv_motion.bag.writer import BagWriter
+
+    find(damaged)
+    with BagWriter(saved, compression=compression) as writer:
+        recovery = Recovery(writer)
+        with Progress(console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task('Saving', total=1.0)
+            recovery.save(damaged, lambda share: bar.update(task, completed=share))
+    for problem in recovery.problems[:MOST_PROBLEMS]:
+        typer.echo(f'found: {problem}', err=True)
+    if len(recovery.problems) > MOST_PROBLEMS:
+        typer.echo(f'found: {len(recovery.problems) - MOST_PROBLEMS} more', err=True)
+    typer.echo(f'Saved {recovery.messages} messages in {saved}')
+    if not recovery.messages:
+        raise typer.Exit(1)
