@@ -23,6 +23,7 @@ PRIMITIVES = {
     *('int8', 'uint8', 'int16', 'uint16', 'int32', 'uint32', 'int64', 'uint64'),
 }
 _FIELD_TYPE = re.compile(r'[ \t]*([A-Za-z][\w/]*)(?:<=\d+)?(?:\[[^\]]*\])?[ \t]+[A-Za-z]')
+_HEADER_FIRST = re.compile(r'(?:[ \t]*(?:#.*)?\n)*[ \t]*std_msgs/(?:msg/)?Header[ \t]+header\b')
 _TYPE_NAME = re.compile(r'([A-Za-z]\w*)/(?:msg/)?([A-Za-z]\w*)')
 
 
@@ -33,6 +34,11 @@ class Definition(NamedTuple):
     """the .msg file, then that of every type it uses, each after a line of 80 equals signs"""
     hash: str
     """``RIHS01_...``, or '' where it is not installed"""
+
+
+def begins_with_header(text: str) -> bool:
+    """Return whether a definition (ros2msg) begins with a header."""
+    return _HEADER_FIRST.match(text) is not None
 
 
 def search_path() -> list[Path]:

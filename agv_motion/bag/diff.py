@@ -6,7 +6,6 @@ place. Numbers may differ by a tolerance; everything else must be equal.
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from math import inf, isnan
 from struct import Struct
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from agv_motion.bag.definitions import begins_with_header
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from agv_motion.bag.reader import BagReader
 
 _LITTLE, _BIG = Struct('<iI'), Struct('>iI')
-_HEADER_FIRST = re.compile(r'(\s*#.*\n|\s*\n)*\s*std_msgs/(msg/)?Header\s')
-"""Definition of a message that begins with a header"""
 
 
 class Tolerance(NamedTuple):
@@ -140,7 +138,7 @@ def _pairs(
     first: BagReader, second: BagReader, topic: str, found: TopicDiff
 ) -> Iterator[tuple[int, bytes, bytes]]:
     """Yield log time and both messages of each pair; count those without a partner."""
-    header = _HEADER_FIRST.match(first.topics[topic].definition)
+    header = begins_with_header(first.topics[topic].definition)
     ours, theirs = (bag.messages([topic]) for bag in (first, second))
     one, other = next(ours, None), next(theirs, None)
     while one is not None and other is not None:

@@ -58,13 +58,13 @@ def echo(
         no_str=no_str,
         flow_style=flow_style,
     )
-    wanted = _predicate(filter_expr)
+    wanted = predicate(filter_expr)
     seen: list[None] = []
 
     def show(message: Any, about: Any) -> None:
         if once and seen:
             return
-        part = _part(message, field)
+        part = part_of(message, field)
         if not wanted(part):
             return
         seen.append(None)
@@ -89,7 +89,7 @@ def echo(
         spin(node, lambda: (once and bool(seen)) or time.monotonic() > end)
 
 
-def _predicate(expression: str) -> Callable[[Any], bool]:
+def predicate(expression: str) -> Callable[[Any], bool]:
     """Return a test of a message from the user's own Python expression."""
     if not expression:
         return lambda _: True
@@ -97,7 +97,13 @@ def _predicate(expression: str) -> Callable[[Any], bool]:
     return lambda m: bool(eval(code, {'m': m}))  # noqa: S307 - as in ros2: the user's own words
 
 
-def _part(message: Any, field: str) -> Any:
+def part_of(message: Any, field: str) -> Any:
+    """Return what a path such as ``pose.position`` leads to; '' is the message itself.
+
+    Raises:
+        ConfigurationError: There is no such field.
+
+    """
     for name in filter(None, field.split('.')):
         if not hasattr(message, name):
             msg = f"Invalid field '{field}': {type(message).__name__} has no field '{name}'"

@@ -1,0 +1,75 @@
+"""`agv bag echo`: the messages of a topic of a bag as text, with the words of `ros2 topic echo`."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import Annotated, Any
+
+import typer
+import yaml
+
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.message_text import MessageText, is_message
+from agv_motion.cli.topic_echo import part_of, predicate
+
+
+def echo(
+    bag: Bag,
+    topic_name: Annotated[str, typer.Argument(help="Name of the topic, such as '/cmd_vel'.")],
+    *,
+    csv: Annotated[bool, typer.Option('--csv', help='Values separated by commas.')] = False,
+    field: Annotated[str, typer.Option(help='Only this field, such as pose.pose.position.')] = '',
+    full_length: Annotated[bool, typer.Option('-f', '--full-length', help='Cut nothing.')] = False,
+    truncate_length: Annotated[
+        int, typer.Option('-l', '--truncate-length', min=0, help='Cut arrays and strings here.')
+    ] = 128,
+    no_arr: Annotated[bool, typer.Option('--no-arr', help='Hide arrays.')] = False,
+    no_str: Annotated[bool, typer.Option('--no-str', help='Hide strings.')] = False,
+    flow_style: Annotated[bool, typer.Option('--flow-style', help='One line.')] = False,
+    filter_expr: Annotated[
+        str, typer.Option('--filter', help='Python expression of m, the message.')
+    ] = '',
+    once: Annotated[bool, typer.Option('--once', help='Only the first message.')] = False,
+    include_message_info: Annotated[
+        bool, typer.Option('-i', '--include-message-info', help='Stamps and numbers as well.')
+    ] = False,
+    start_offset: StartOffset = 0.0,
+    duration: Duration = -1.0,
+) -> None:
+    """Print the messages of a topic.
+
+    Types that are not installed here are understood too: their definition is in the bag. Examples:
+
+    agv bag echo walk /cmd_vel --once
+
+    agv bag echo walk /odom --field pose.pose.position --csv --start-offset 60
+    """
+    from agv_motion.bag.reader import BagReader
+    from agv_motion.cli.bag_messages import decoder
+
+    length = None if full_length else truncate_length
+    text = MessageText(length, no_arr=no_arr, no_str=no_str, flow_style=flow_style)
+    wanted = predicate(filter_expr)
+    with BagReader(bag) as reader:
+        reader.require([topic_name])
+        decoders = {c: decoder(c) for c in reader.connections if c.topic == topic_name}
+        messages = reader.messages([topic_name], *span(reader, start_offset, duration))
+        pairs = ((m, part_of(decoders[m.connection](m), field)) for m in messages)
+        chosen = (pair for pair in pairs if wanted(pair[1]))
+        for message, part in islice(chosen, 1 if once else None):
+            about = {
+                'source_timestamp': message.publish,
+                'received_timestamp': message.stamp,
+                'publication_sequence_number': message.sequence,
+            }
+            _show(part, about if include_message_info else {}, text, csv=csv)
+
+
+def _show(part: Any, about: dict[str, int], text: MessageText, *, csv: bool) -> None:
+    if csv:
+        values = text.csv(part) if is_message(part) else str(part)
+        typer.echo(','.join([*map(str, about.values()), values]))
+        return
+    if about:
+        typer.echo(f'{yaml.dump(about, sort_keys=False)}---')
+    typer.echo(f'{text.yaml(part)}---' if is_message(part) else f'{part}\n---')

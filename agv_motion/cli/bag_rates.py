@@ -1,0 +1,105 @@
+"""`agv bag hz` and `agv bag gaps`: how often messages came, and when they did not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from agv_motion.cli.bag_options import Bag, Topics
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+Header = Annotated[
+    bool, typer.Option('--header', help='By the stamps in the headers, not by their arrival.')
+]
+
+
+def hz(bag: Bag, topic_name: Topics = None, *, header: Header = False) -> None:
+    """Tell how often the messages of each topic came: mean rate, shortest and longest interval.
+
+    Examples: agv bag hz walk
+              agv bag hz walk /odom --header
+    """
+    times, _ = _times(bag, topic_name, header=header)
+    table = _table('topic', 'rate', 'min_delta', 'max_delta', 'std_dev', 'messages')
+    for topic, stamps in sorted(times.items()):
+        steps = np.diff(np.sort(stamps)) * 1e-9
+        if not len(steps):
+            table.add_row(topic, '', '', '', '', str(len(stamps)))
+            continue
+        rate = 1.0 / steps.mean() if steps.any() else np.inf
+        numbers = (steps.min(), steps.max())
+        table.add_row(
+            topic, f'{rate:.3f}', *(f'{x:.3f}s' for x in numbers), f'{steps.std():.5f}s',
+            str(len(stamps)),
+        )  # fmt: skip
+    Console().print(table)
+
+
+def gaps(
+    bag: Bag,
+    topic_name: Topics = None,
+    *,
+    header: Header = False,
+    factor: Annotated[
+        float, typer.Option(min=1.0, help='A gap is so many times the usual interval ...')
+    ] = 5.0,
+    longer: Annotated[float, typer.Option(min=0.0, help='... and longer than this [s].')] = 0.0,
+) -> None:
+    """List the silences of each topic, and about how many messages are missing in each.
+
+    The usual interval is the median; topics without one (few or irregular messages) are left out
+    unless they are named. Example: agv bag gaps walk --longer 0.5
+    """
+    from agv_motion.bag.silences import regular, silences
+
+    times, start = _times(bag, topic_name, header=header)
+    table = _table('topic', 'after', 'silence', 'usual', 'missing')
+    for topic, stamps in sorted(times.items()):
+        if not topic_name and not regular(stamps):
+            continue
+        for silence in silences(stamps, factor, longer):
+            table.add_row(
+                topic, f'{(silence.after - start) * 1e-9:.3f}s', f'{silence.length * 1e-9:.3f}s',
+                f'{silence.usual * 1e-9:.3f}s', str(silence.missing),
+            )  # fmt: skip
+    if table.row_count:
+        Console().print(table)
+    else:
+        typer.echo('No gaps')
+
+
+def _table(*titles: str) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for title in titles:
+        justify = 'left' if title == 'topic' else 'right'
+        table.add_column(title, justify=justify, overflow='fold')  # type: ignore[arg-type]
+    return table
+
+
+def _times(
+    path: Path, topics: list[str] | None, *, header: bool
+) -> tuple[dict[str, NDArray[np.int64]], int]:
+    """Return the stamps of each topic, and the start of the bag [ns]."""
+    from agv_motion.bag.columns import read_topic
+    from agv_motion.bag.definitions import begins_with_header
+    from agv_motion.bag.reader import BagReader
+    from agv_motion.bag.stamps import stamps
+
+    with BagReader(path, validate=False) as bag:
+        if not header:
+            return stamps(bag, topics), bag.start
+        bag.require(topics or ())
+        chosen = topics or [t for t, c in bag.topics.items() if begins_with_header(c.definition)]
+        times = {
+            topic: read_topic(bag, topic, ['header.stamp']).nanoseconds('header.stamp')
+            for topic in chosen
+        }
+        return times, bag.start
