@@ -21,8 +21,11 @@ from agv_motion.kinematics.steering_state import Limiter, SteeringState
 from agv_motion.kinematics.turret_motion import alignment
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.nodes.platform_parameters import PlatformParameters
+from agv_motion.odometry.base import TurretBase
+from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.parameters import Spec
-from agv_motion.planar import REST, Pose, Twist, integrate, wrap
+from agv_motion.planar import REST, Twist, wrap
+from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -50,6 +53,9 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
             (-pi, pi),
         ),
     ] = ()
+    wheel_noise: Annotated[
+        float, Spec('standard deviation of the travel of a wheel after 1 m', 'm', (1e-6, 1.0))
+    ] = 0.02
     unwind_after: Annotated[
         float,
         Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),
@@ -116,7 +122,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._measured: list[float] | None = None
         self._stopped_by = ''
         self._residual = 0.0
-        self._pose = Pose(0.0, 0.0, 0.0)
+        self._reckoning = DeadReckoning()
+        self._unit_covariance = TurretBase(self._turrets).unit_covariance
         self._pose_time: float | None = None
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
@@ -336,16 +343,21 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
                 'look at the turrets, then call ~/stop with data: false'
             )
             self._stand_still()
-        self._carry(fit.twist, message.header.stamp)
+        self._carry(fit.twist, speeds, message.header.stamp)
 
-    def _carry(self, twist: Twist, stamp: Any) -> None:
-        time = seconds_of(stamp)
+    def _carry(self, twist: Twist, speeds: list[float], stamp: Any) -> None:
+        time, reckoning = seconds_of(stamp), self._reckoning
         if self._pose_time is not None and time > self._pose_time:
-            self._pose = integrate(self._pose, twist, time - self._pose_time)
+            passed = time - self._pose_time
+            rolled = passed * sum(map(abs, speeds)) / len(speeds)
+            displacement = (twist.vx * passed, twist.vy * passed, twist.wz * passed)
+            noise = self.parameters.wheel_noise
+            reckoning.carry(displacement, self._unit_covariance, noise * noise * rolled)
         self._pose_time = time
         odometry = self._odometry_message
         odometry.header.stamp = stamp
-        fill_pose(odometry.pose.pose, self._pose)
+        fill_pose(odometry.pose.pose, reckoning.pose)
+        fill_covariance(odometry.pose.covariance, reckoning.covariance())
         fill_twist(odometry.twist.twist, twist)
         self._odometry.publish(odometry)
 

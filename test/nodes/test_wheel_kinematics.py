@@ -176,6 +176,9 @@ def test_odometry_follows_the_measured_wheels(tester, drive):
         tester.graph.spin_for(0.1)
     last = tester.wait(odometry, lambda m: m.pose.pose.position.y > 0.0)
     assert last.pose.pose.position.y == pytest.approx(0.4)
+    # by hand: 0.4 m with 0.02 m after 1 m, over two wheels
+    assert last.pose.covariance[7] == pytest.approx(0.02**2 * 0.4 / 2)
+    assert last.pose.covariance[35] > 0.0
     assert last.header.frame_id == 'odom'
     assert last.child_frame_id == 'base_link'
 
