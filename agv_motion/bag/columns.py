@@ -90,8 +90,7 @@ def read(
     span = max(start or 0, 0), 2**64 if stop is None else max(stop, 0)
     expected = _expected(bag, frozenset(wanted), *span)
     decoders = {
-        topic: TopicDecoder(_connection(bag, topic), fields, *expected[topic])
-        for topic, fields in wanted.items()
+        topic: _decoder(bag, topic, fields, expected[topic]) for topic, fields in wanted.items()
     }
     for file in bag.files:
         channels = {n: c.topic for n, c in file.channels.items() if c.topic in decoders}
@@ -101,12 +100,22 @@ def read(
     return {topic: _columns(decoder) for topic, decoder in decoders.items()}
 
 
+def _decoder(
+    bag: BagReader, topic: str, fields: Iterable[str] | None, expected: tuple[int, int]
+) -> TopicDecoder:
+    try:
+        return TopicDecoder(_connection(bag, topic), fields, *expected)
+    except ConfigurationError as error:
+        msg = f'bag {bag.path}, topic {topic}: {error}'
+        raise ConfigurationError(msg) from error
+
+
 def _connection(bag: BagReader, topic: str) -> Connection:
     """Return the only connection of a topic."""
     found = {(c.type, c.definition) for c in bag.connections if c.topic == topic}
     if len(found) > 1:
         types = ' and '.join(sorted(kind for kind, _ in found))
-        msg = f'topic {topic} changed its type in the bag ({types}): agv bag check tells more'
+        msg = f'its type changed ({types}): agv bag check tells more'
         raise ConfigurationError(msg)
     return bag.topics[topic]
 
