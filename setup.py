@@ -62,6 +62,7 @@ setup(
             'ros-jazzy-rclpy',
             'ros-jazzy-rmw-fastrtps-cpp',
         ],
+        'parquet': ['pyarrow>=14'],
         'plot': ['matplotlib>=3.8'],
         'test': [
             'catkin_pkg',
@@ -74,13 +75,14 @@ setup(
             'mpmath>=1.3',
             'mypy>=1.11',
             'networkx>=3.1',
+            'pyarrow>=14',
             'pytest>=8',
             'pytest-xdist>=3.5',
             'ruff>=0.12',
             'types-pyserial',
             'types-pyyaml',
         ],
-        'benchmark': ['robotpy-wpimath'],
+        'benchmark': ['mcap-ros2-support-fast>=0.8', 'robotpy-wpimath'],
         'cluster': ['distributed>=2024.5'],
     },
     data_files=[

@@ -11,6 +11,7 @@ import time
 from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
+import benchmark_bags
 import benchmark_odometry
 import benchmark_recording
 import benchmark_trajectory
@@ -225,6 +226,7 @@ def main() -> None:
     sections = (
         turret_rows, steering_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows,
         process_rows, benchmark_recording.rows,
+        benchmark_bags.rows,
     )  # fmt: skip
     for section in track(sections, 'Measuring'):
         for row in section():

@@ -2,7 +2,7 @@
 
 with BagReader('bag') as bag:
     odometry = read_topic(bag, '/odom', ['pose.pose.position', 'header.stamp'])
-    plot(odometry.seconds('header.stamp'), odometry['pose.pose.position.x'])
+    plot(odometry.seconds('header.stamp'), odometry.fields['pose.pose.position.x'])
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 
 import numpy as np
@@ -123,3 +124,40 @@ def test_recover(bag, tmp_path):
         assert f'Saved {saved.message_count} messages' in out
         assert 0 < saved.message_count <= 160
         assert not saved.problems
+
+
+def test_export_as_csv(bag, tmp_path):
+    assert 'cmd_vel.csv: 80 rows' in run('export', bag, tmp_path / 'tables')
+    with (tmp_path / 'tables' / 'joints.csv').open() as file:
+        rows = list(csv.DictReader(file))
+    assert int(rows[2]['log_time']) == BEGIN + 2 * TENTH
+    assert [float(rows[2][f'position[{i}]']) for i in range(3)] == [2.0, 3.0, 4.0]
+    assert [rows[2]['name[1]'], rows[2]['header.frame_id']] == ['b', 'base_link']
+    with pytest.raises(ConfigurationError, match='nothing is overwritten'):
+        run('export', bag, tmp_path / 'tables')
+
+
+def test_export_as_parquet(bag, tmp_path):
+    parquet = pytest.importorskip('pyarrow.parquet')
+    arguments = ('--topics', '/cmd_vel', '--field', 'twist.linear', '-f', 'parquet')
+    run('export', bag, tmp_path, *arguments, '--start-offset', '9')
+    table = parquet.read_table(tmp_path / 'cmd_vel.parquet')
+    assert table.column_names == ['log_time', *(f'twist.linear.{axis}' for axis in 'xyz')]
+    assert table['twist.linear.x'].to_pylist() == [math.sin(i / 9) for i in range(90, 100)]
+
+
+def test_plot(bag, tmp_path):
+    picture = tmp_path / 'walk.png'
+    run(
+        'plot',
+        bag,
+        '/cmd_vel/twist/linear/x,/cmd_vel/twist/angular/z',
+        '/joints/position',
+        '-o',
+        picture,
+    )
+    assert picture.read_bytes().startswith(b'\x89PNG')
+    with pytest.raises(ConfigurationError, match='no topic of bag'):
+        run('plot', bag, '/odom/pose')
+    with pytest.raises(ConfigurationError, match='be exact'):
+        run('plot', bag, '/joints/name')

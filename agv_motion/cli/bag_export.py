@@ -1,0 +1,123 @@
+"""`agv bag export`: topics of a bag as tables, in CSV or Parquet."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import track
+
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.errors import ConfigurationError, SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from agv_motion.bag.column import Column
+    from agv_motion.bag.columns import Columns
+
+MOST_COLUMNS = 64
+"""Longer arrays stay in one cell."""
+_BLOCK = 10_000
+
+
+def export(
+    bag: Bag,
+    output: Annotated[Path, typer.Argument(help='Folder for the tables, one per topic.')],
+    *,
+    topics: Annotated[
+        list[str] | None, typer.Option(help='Export only this; one per option.')
+    ] = None,
+    field: Annotated[
+        list[str] | None, typer.Option(help='Only this field of each; one per option.')
+    ] = None,
+    table: Annotated[str, typer.Option('--format', '-f', help='csv or parquet.')] = 'csv',
+    start_offset: StartOffset = 0.0,
+    duration: Duration = -1.0,
+) -> None:
+    """Write topics as tables: a row a message, a column a field, log_time [ns] first.
+
+    Arrays of constant length take a column for each element; others stay in one cell, as JSON in
+    CSV and as a list in Parquet, which needs pip install "agv_motion[parquet]". Examples:
+
+    agv bag export walk tables
+
+    agv bag export walk tables --topics /odom --field header.stamp --field pose.pose -f parquet
+    """
+    from agv_motion.bag.columns import read_topic
+    from agv_motion.bag.reader import BagReader
+
+    console = Console(stderr=True)
+    writers = {'csv': _csv, 'parquet': _parquet}
+    if table not in writers:
+        msg = f"--format '{table}': choose csv or parquet"
+        raise ConfigurationError(msg)
+    with BagReader(bag) as reader:
+        limits = span(reader, start_offset, duration)
+        reader.require(topics or ())
+        chosen = topics or sorted(reader.topics)
+        paths = {t: output / f'{t.strip("/").replace("/", "__")}.{table}' for t in chosen}
+        for path in paths.values():
+            if path.exists():
+                msg = f'{path} exists: choose another folder, nothing is overwritten'
+                raise ConfigurationError(msg)
+        try:
+            output.mkdir(parents=True, exist_ok=True)
+            for topic in track(chosen, 'Exporting', console=console, transient=True):
+                columns = read_topic(reader, topic, field, *limits)
+                writers[table](paths[topic], columns)
+                typer.echo(f'{paths[topic]}: {len(columns.stamps)} rows')
+        except OSError as error:
+            if isinstance(error, SourceError):
+                raise
+            msg = f'{output} cannot be written: {error.strerror or error}'
+            raise SourceError(msg) from error
+
+
+def _cells(columns: Columns) -> Iterator[tuple[str, Column]]:
+    """Yield name and values of every column of the table."""
+    yield 'log_time', columns.stamps
+    for path, column in columns.fields.items():
+        shape: tuple[int, ...] = getattr(column, 'shape', ())
+        if len(shape) == 1:
+            yield path, column
+        elif len(shape) == 2 and shape[1] <= MOST_COLUMNS:
+            for i in range(shape[1]):
+                yield f'{path}[{i}]', column[:, i]
+        else:
+            yield path, column
+
+
+def _csv(path: Path, columns: Columns) -> None:
+    names, cells = zip(*_cells(columns), strict=True)
+    with path.open('w', newline='', encoding='utf-8') as file:
+        writer = csv.writer(file)
+        writer.writerow(names)
+        for first in range(0, len(columns.stamps), _BLOCK):
+            block = [_text(cell[first : first + _BLOCK]) for cell in cells]
+            writer.writerows(zip(*block, strict=True))
+
+
+def _text(column: Column) -> list[Any]:
+    """Return cells; whatever is in a cell, if it is a list, as JSON."""
+    values: list[Any] = column.tolist()
+    return [json.dumps(v) if isinstance(v, list) else v for v in values]
+
+
+def _parquet(path: Path, columns: Columns) -> None:
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError as error:
+        msg = 'Parquet needs pyarrow: pip install "agv_motion[parquet]"'
+        raise ConfigurationError(msg) from error
+    found = {
+        name: column if isinstance(column, np.ndarray) and column.ndim == 1 else column.tolist()
+        for name, column in _cells(columns)
+    }
+    parquet.write_table(pa.table(found), path)
