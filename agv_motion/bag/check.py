@@ -129,7 +129,7 @@ def _times(topic: str, times: NDArray[np.int64], limits: Limits) -> Iterator[Fin
     """Yield what is wrong with the log times of a topic."""
     yield from _back('warning', topic, 'log time', times)
     ordered = np.sort(times)
-    length = float(ordered[-1] - ordered[0]) * 1e-9 if len(ordered) else 0.0
+    length = (float(ordered[-1]) - float(ordered[0])) * 1e-9 if len(ordered) else 0.0
     rate = (len(ordered) - 1) / length if length else 0.0
     expected = limits.rates.get(topic)
     if expected is not None and abs(rate - expected) > limits.tolerance * expected:
