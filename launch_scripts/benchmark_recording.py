@@ -152,12 +152,14 @@ def record_tree(path: Path, start: str, seconds: int) -> None:
         Simulator: parameters('tree.yaml', 'simulator') | {'start_time': start},
     }
     with BagWriter(path) as writer:
-        world = World(Transcript(writer).record, begin * 1_000_000_000)
+        transcript = Transcript(writer)
+        world = World(transcript.record, begin * 1_000_000_000)
         for kind, given in kinds.items():
             add(world, kind, given, {'/pose': '/fix'})
         world.start()
         world.run((begin + seconds) * 1_000_000_000)
         world.stop()
+        transcript.flush()
 
 
 def reprocess_row(folder: Path) -> Row:

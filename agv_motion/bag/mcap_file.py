@@ -18,7 +18,7 @@ from agv_motion.bag.time_order import Run, in_time_order
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator, Mapping
+    from collections.abc import Callable, Collection, Container, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -61,6 +61,7 @@ class McapFile:
         self._validate = validate
         self._data = _mapped(path)
         self._cache: OrderedDict[int, Buffer] = OrderedDict()
+        self._cached = 0
         found, problems = None, []
         if not scan:
             try:
@@ -136,15 +137,26 @@ class McapFile:
         at = chunk.indexes.get(channel)
         return _NO_INDEX if at is None else self._indexed(channel, at)
 
-    def entries(self, chunk: Chunk, unpacked: Buffer | None = None) -> dict[int, Entries]:
-        """Return where the messages of each channel lie in a chunk (``unpacked``, if it is).
+    def entries(
+        self, chunk: Chunk, unpacked: Buffer | None = None, wanted: Container[int] | None = None
+    ) -> dict[int, Entries]:
+        """Return where the messages of each channel, or each wanted one, lie in a chunk.
+
+        Args:
+            chunk: Which.
+            unpacked: Its content, if that is at hand.
+            wanted: Ids of channels; None means all.
 
         Raises:
             DamagedBagError: The index or the chunk is damaged.
 
         """
         if chunk.indexes is not None:
-            tables = {channel: self._indexed(channel, at) for channel, at in chunk.indexes.items()}
+            tables = {
+                channel: self._indexed(channel, at)
+                for channel, at in chunk.indexes.items()
+                if wanted is None or channel in wanted
+            }
             return {channel: Entries(t[:, 0], t[:, 1]) for channel, t in tables.items()}
         unpacked = self.content(chunk) if unpacked is None else unpacked
         offsets = message_offsets(unpacked)
@@ -152,6 +164,8 @@ class McapFile:
         channels = found['channel']
         entries = {}
         for channel in np.unique(channels):
+            if wanted is not None and int(channel) not in wanted:
+                continue
             mine = channels == channel
             entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
         return entries
@@ -181,9 +195,9 @@ class McapFile:
         if unpacked is None:
             unpacked = self.unpacked(chunk)
             self._cache[chunk.offset] = unpacked
-            kept = sum(map(len, self._cache.values()))
-            while kept > CACHE and len(self._cache) > 1:
-                kept -= len(self._cache.popitem(last=False)[1])
+            self._cached += len(unpacked)
+            while self._cached > CACHE and len(self._cache) > 1:
+                self._cached -= len(self._cache.popitem(last=False)[1])
         return unpacked
 
     def heads(
@@ -238,6 +252,7 @@ class McapFile:
     def close(self) -> None:
         """Let go of the file; messages already read stay valid."""
         self._cache.clear()
+        self._cached = 0
         self._data = memoryview(b'')
 
     def _opener(
@@ -246,7 +261,7 @@ class McapFile:
         """Return what opens a chunk when its time has come."""
 
         def opened() -> Run | None:
-            found = [e for channel, e in self.entries(chunk).items() if channel in wanted]
+            found = list(self.entries(chunk, wanted=wanted).values())
             if not found:
                 return None
             stamps = np.concatenate([e.stamps for e in found])

@@ -13,13 +13,19 @@ from struct import error as StructError  # noqa: N812 - the module names it in l
 from typing import TYPE_CHECKING
 from zlib import crc32
 
+import numpy as np
+
 from agv_motion.bag import records
+from agv_motion.bag.chunk import HEAD
 from agv_motion.bag.compression import compressor
 from agv_motion.bag.quality_of_service import as_yaml
 from agv_motion.errors import SignalError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
+
+    from numpy.typing import NDArray
 
     from agv_motion.bag.metadata import Topic
 
@@ -104,6 +110,29 @@ class McapWriter:
         if not self.chunk_size:
             self.chunk_start = stamp
         self.chunk_size += records.MESSAGE_HEAD.size + len(data)
+
+    def write_several(
+        self, channels: NDArray[np.uint16], stamps: NDArray[np.uint64], data: Sequence[bytes]
+    ) -> None:
+        """Append messages that were sent when they were received, without a number of theirs."""
+        heads = np.zeros(len(data), HEAD)
+        heads['opcode'], heads['channel'] = records.MESSAGE, channels
+        heads['length'] = np.fromiter(map(len, data), np.uint64, len(data))
+        ends = np.cumsum(heads['length'] + np.uint64(HEAD.itemsize)) + np.uint64(self.chunk_size)
+        offsets = ends - heads['length'] - np.uint64(HEAD.itemsize)
+        heads['length'] += np.uint64(_MESSAGE_BODY)
+        heads['stamp'] = heads['publish'] = stamps
+        packed, size = heads.tobytes(), HEAD.itemsize
+        parts = [b''] * (2 * len(data))
+        parts[::2] = [packed[i : i + size] for i in range(0, len(packed), size)]
+        parts[1::2] = data
+        self._parts += parts
+        entries = np.column_stack((stamps, offsets))
+        for channel in np.unique(channels).tolist():
+            self._indexes[channel - 1].frombytes(entries[channels == channel].tobytes())
+        if not self.chunk_size:
+            self.chunk_start = int(stamps[0])
+        self.chunk_size = int(ends[-1])
 
     def flush(self) -> None:
         """Hand the chunk being filled to the operating system, with its index."""

@@ -6,10 +6,13 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, final
 
+import numpy as np
+
 from agv_motion.bag import definitions, metadata
 from agv_motion.bag.mcap_writer import McapWriter
 from agv_motion.bag.quality_of_service import OfferedQos
-from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.bag.records import MESSAGE_HEAD
+from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,6 +143,43 @@ class BagWriter:
         file.write(topic, stamp, data, stamp if publish is None else publish, sequence)
         if file.chunk_size >= self._chunk_size or stamp - file.chunk_start >= self._chunk_span:
             file.flush()
+
+    def write_several(
+        self, topics: Sequence[int], stamps: Sequence[int], data: Sequence[bytes]
+    ) -> None:
+        """Append messages by columns: several times as fast as one by one, and the same bytes.
+
+        Args:
+            topics: (n,) handles from :meth:`add_topic`.
+            stamps: (n,) log times, which are the publish times too [ns].
+            data: (n,) messages in CDR, their headers included.
+
+        Raises:
+            SignalError: A stamp does not fit its field.
+            OSError: The disk is full or failed; the file is as it was before the chunk.
+
+        """
+        channels = np.array(topics, np.uint16)
+        try:
+            times = np.array(stamps, np.uint64)
+        except OverflowError:
+            msg = f'log times from {min(stamps)} to {max(stamps)}: expected nanoseconds in [0, 2^64)'
+            raise SignalError(msg) from None
+        sizes = np.fromiter(map(len, data), np.int64, len(data)) + MESSAGE_HEAD.size
+        first = 0
+        while first < len(data):
+            start = self._file.chunk_start if self._file.chunk_size else stamps[first]
+            grown = self._file.chunk_size + np.cumsum(sizes[first:])
+            full = grown >= self._chunk_size
+            latest = start + self._chunk_span
+            if latest < 2**64:
+                full |= times[first:] >= np.uint64(latest)
+            ends = bool(full.any())
+            last = first + int(full.argmax()) + 1 if ends else len(data)
+            self._file.write_several(channels[first:last], times[first:last], data[first:last])
+            if ends:
+                self._file.flush()
+            first = last
 
     def flush(self, *, sync: bool = True) -> None:
         """Hand all messages to the system and, with ``sync``, to the disk: no power cut takes them.

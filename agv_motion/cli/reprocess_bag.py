@@ -81,26 +81,44 @@ def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
 
 
 class Transcript:
-    """What the nodes of a world say, in a bag; each topic begins with its first message."""
+    """What the nodes of a world say, in a bag; each topic begins with its first message.
+
+    Messages are written many together: `flush` when the last has come.
+    """
 
     def __init__(self, writer: BagWriter) -> None:
         """Start with no topic."""
         self.messages = 0
         self._writer = writer
         self._topics: dict[str, int] = {}
+        self._waiting: list[tuple[int, int, bytes]] = []
 
     def record(self, publisher: Publisher, stamp: int, data: bytes) -> None:
-        """Write a message of time ``stamp`` [ns]."""
+        """Take a message of time ``stamp`` [ns]."""
         topic = self._topics.get(publisher.topic)
         if topic is None:
-            topic = self._topics[publisher.topic] = self._add(publisher)
-        self.messages += 1
-        self._writer.write(topic, stamp, data)
+            topic = self._add(publisher)
+        self._waiting.append((topic, stamp, data))
+        if len(self._waiting) >= TOGETHER:
+            self.flush()
+
+    def flush(self) -> None:
+        """Hand what has come to the writer."""
+        if self._waiting:
+            self._writer.write_several(*zip(*self._waiting, strict=True))
+            self.messages += len(self._waiting)
+            self._waiting.clear()
 
     def _add(self, publisher: Publisher) -> int:
         kind, qos = publisher.kind, [offer(publisher.qos)]
         name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
-        return self._writer.add_topic(publisher.topic, name, qos=qos)
+        topic = self._writer.add_topic(publisher.topic, name, qos=qos)
+        self._topics[publisher.topic] = topic
+        return topic
+
+
+TOGETHER = 4096
+"""Messages that are written together."""
 
 
 def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
@@ -131,6 +149,7 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
                 feed(message.connection.topic, message.stamp, message.data)
             world.run(bag.end)
             world.stop()
+            transcript.flush()
             writer.close()
         except BaseException:
             with suppress(OSError):

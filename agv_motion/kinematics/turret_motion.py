@@ -23,5 +23,9 @@ def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:
         measured: (n,) angles as they are [rad].
 
     """
-    worst = max(abs(wrap(a - b)) for a, b in zip(angles, measured, strict=True))
+    worst = 0.0
+    for a, b in zip(angles, measured, strict=True):
+        error = abs(wrap(a - b))
+        if not error <= worst:  # also true when NaN
+            worst = error
     return max(cos(worst), 0.0)

@@ -112,7 +112,7 @@ class Limits:
         command, by = wanted, []
         for limit in self._limits:
             allowed = limit.apply(command, place, dt)
-            if allowed != command:
+            if allowed is not command and allowed != command:
                 by.append(limit.name)
             command = allowed
         self._last = command
@@ -192,7 +192,8 @@ class VRate:
 
     def apply(self, wanted: PolarCommand, place: Place, dt: float) -> PolarCommand:  # noqa: ARG002 - not asked
         """Follow v."""
-        return wanted._replace(v=self._ramp.advance(wanted.v, dt))
+        v = self._ramp.advance(wanted.v, dt)
+        return wanted if v == wanted.v else PolarCommand(v, wanted.theta, wanted.omega)
 
     def stop(self) -> None:
         """Be at rest."""
@@ -216,7 +217,8 @@ class OmegaRate:
         if not place.may_turn:
             self._ramp.set(0.0)
             return wanted
-        return wanted._replace(omega=self._ramp.advance(wanted.omega, dt))
+        omega = self._ramp.advance(wanted.omega, dt)
+        return wanted if omega == wanted.omega else PolarCommand(wanted.v, wanted.theta, omega)
 
     def stop(self) -> None:
         """Be at rest."""
@@ -246,7 +248,7 @@ class ThetaRate:
             theta = wanted.theta
         self._ramp.set(theta)
         self._moving = wanted.v > 0.0
-        return wanted._replace(theta=theta)
+        return wanted if theta == wanted.theta else PolarCommand(wanted.v, theta, wanted.omega)
 
     def stop(self) -> None:
         """Stand: the next heading may be any."""

@@ -126,6 +126,9 @@ class Memory:
         """Time of the latest of what is remembered [s]."""
         self._parts = np.array(zone.parts)
         self._zone = _digest(zone)
+        self._stood: tuple[float, float] | None = None
+        self._here: tuple[int, int] | None = None
+        self._under: tuple[NDArray[np.intp], ...] = ()
 
     def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
         """Return row and column of a point [m]; None where the trunk cannot be."""
@@ -148,13 +151,11 @@ class Memory:
         if time < self.newest - CLOCK_STEP:
             self._set_back(self.newest - time)
         self.newest = max(time, self.newest)
-        here = self.cell_of(x, y)
-        if here is not None:
-            self.flow[here], self.felt_at[here] = flow, time
-        rows, columns = self._near(y - self.south), self._near(x - self.west)
-        away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
-        under = (away <= self.parameters.reach**2) & self.walkable[rows, columns]
-        self.visited_at[rows, columns][under] = time
+        if (x, y) != self._stood:
+            self._stood, self._here, self._under = (x, y), self.cell_of(x, y), self._visited(x, y)
+        if self._here is not None:
+            self.flow[self._here], self.felt_at[self._here] = flow, time
+        self.visited_at[self._under] = time
 
     def remembered(self, time: float) -> Map:
         """Return the sap flow of each cell as it is remembered at ``time`` [s]; NaN where never.
@@ -211,6 +212,14 @@ class Memory:
         self.visited_at[inside] = grid.visited_at[source]
         self.newest = float(max(self.felt_at.max(), self.visited_at.max()))
         return same
+
+    def _visited(self, x: float, y: float) -> tuple[NDArray[np.intp], ...]:
+        """Return rows and columns of the cells that the platform visits at (x, y) [m]."""
+        rows, columns = self._near(y - self.south), self._near(x - self.west)
+        away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
+        under = (away <= self.parameters.reach**2) & self.walkable[rows, columns]
+        row, column = np.nonzero(under)
+        return row + rows.start, column + columns.start
 
     def _near(self, distance: float) -> slice:
         """Return the rows (or columns) within reach of a distance from the edge of the first."""

@@ -112,6 +112,8 @@ class Mind:
         self._hour, self._hour_from = ALWAYS, inf
         self._retry_at = -inf
         self._arrived = False
+        self._seen: Pose | None = None
+        self._inside, self._place = True, Place()
         self.refusals: list[str] = []
         """Why goals before the present one were not taken, in words."""
         self.goal: Goal | None = None
@@ -183,8 +185,10 @@ class Mind:
             self._homing.why = ''
             until = self._schedule.clock(hour.until)
             return self._stay(f'resting: {hour.phase.value} until {until}')
+        if pose != self._seen:
+            self._look(pose)
         here = pose.x, pose.y
-        if self.zone is not None and not self.zone.contains(*here):
+        if not self._inside:
             return self._outside(pose, flow, asleep=asleep)
         if self.memory is not None and not asleep:
             self.memory.feel(time, *here, flow.s3)
@@ -195,6 +199,14 @@ class Mind:
         if asleep:
             return self._stay('resting: the sap stands')
         return self._seek(time, pose, flow, surroundings)
+
+    def _look(self, pose: Pose) -> None:
+        """Ask the zone about a pose, once; poses come less often than thoughts."""
+        self._seen = pose
+        if self.zone is not None:
+            self._inside = self.zone.contains(pose.x, pose.y)
+            radius = self.parameters.platform_radius
+            self._place = Place(self.zone.may_turn(pose.x, pose.y, radius))
 
     def _outside(self, pose: Pose, flow: SapFlow, *, asleep: bool) -> Thought:
         """Refuse to move outside the zone, or return to it."""
@@ -242,7 +254,7 @@ class Mind:
         if self.goal is None and time >= self._retry_at:
             self._choose(time, pose, surroundings)
         if self.goal is None:
-            return self._turn(pose, flow, 'no goal can be reached: turning on the spot')
+            return self._turn(flow, 'no goal can be reached: turning on the spot')
         thought = self._walk(time, pose, flow, self.goal, surroundings)
         if not thought.way:  # the way has been taken by others: look for another goal
             self._take(None)
@@ -255,7 +267,7 @@ class Mind:
         if self.goal is None:
             return self._stay('resting: no goal; send one to goal_pose')
         if self._near(pose, self.goal.place, self.rest.arrival):
-            return self._turn(pose, flow, 'turning on the spot at the goal')
+            return self._turn(flow, 'turning on the spot at the goal')
         return self._walk(time, pose, flow, self.goal, surroundings)
 
     def _is_reached(self, pose: Pose, goal: Goal) -> bool:
@@ -289,21 +301,16 @@ class Mind:
             except GeometryError as error:
                 return self._stay(f'stopped: {error}', goal)
         if surroundings.wait:
-            return Thought(STILL, f'waiting: {surroundings.wait}', self._place(pose), goal, way)
+            return Thought(STILL, f'waiting: {surroundings.wait}', self._place, goal, way)
         wanted = polar_command(flow, pose, way[1])
-        return Thought(wanted, f'walking to {goal.reason}', self._place(pose), goal, way)
+        return Thought(wanted, f'walking to {goal.reason}', self._place, goal, way)
 
-    def _turn(self, pose: Pose, flow: SapFlow, activity: str) -> Thought:
+    def _turn(self, flow: SapFlow, activity: str) -> Thought:
         wanted = PolarCommand(0.0, 0.0, 2.0 * flow.s2 - 1.0)
-        return Thought(wanted, activity, self._place(pose), self.goal, ())
+        return Thought(wanted, activity, self._place, self.goal, ())
 
     def _stay(self, activity: str, goal: Goal | None = None) -> Thought:
         return Thought(STILL, activity, Place(), goal or self.goal, ())
-
-    def _place(self, pose: Pose) -> Place:
-        if self.zone is None:
-            return Place()
-        return Place(self.zone.may_turn(pose.x, pose.y, self.parameters.platform_radius))
 
     def _take(self, goal: Goal | None) -> None:
         self.goal, self._arrived = goal, False

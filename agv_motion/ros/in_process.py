@@ -161,12 +161,19 @@ class InProcessNode(_Rclpy):
         return self._remap.get(full, full)
 
 
+def _seconds(node: InProcessNode) -> float:
+    """Return the time of the world [s]."""
+    return float(node.world.now) * 1e-9
+
+
 def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
     """Return the class of nodes of ``kind`` that live in a :class:`World`."""
     return type(
         kind.__name__,
         (kind, InProcessNode),
         {
+            # what nodes ask most often, without an object for each answer
+            'seconds': _seconds,
             # ManagedNode measures silence for diagnostics with a steady clock of its own, and
             # publishes them every second of it; here there is one clock, and nobody to look
             '_steady': property(InProcessNode.get_clock, lambda *_: None),

@@ -112,9 +112,8 @@ class World:
         self._count += 1
         heapq.heappush(self._timers, (self.now + timer.period, self._count, timer))
 
-    def publish(self, publisher: Publisher, message: Any) -> None:
-        """Record a message, and let the other nodes hear what its bytes say."""
-        data = publisher.encode(message)
+    def publish(self, publisher: Publisher, data: bytes) -> None:
+        """Record a message, and let the other nodes hear it."""
         self.record(publisher, self.now, data)
         for listener in self.listeners.get(publisher.topic, ()):
             if listener.node is not publisher.node:
@@ -146,13 +145,13 @@ class Publisher:
     def __init__(self, node: Any, kind: Any, topic: str, qos: QoSProfile) -> None:
         """Join the topic."""
         self.node, self.kind, self.topic, self.qos = node, kind, topic, qos
-        self.encode = codec(kind).encode
+        self._encode = codec(kind).encode
         self._world: World = node.world
         self._world.publishers.setdefault(topic, []).append(self)
 
     def publish(self, message: Any) -> None:
         """Send a message."""
-        self._world.publish(self, message)
+        self._world.publish(self, self._encode(message))
 
     def get_subscription_count(self) -> int:
         """Return how many listen, a recording included."""

@@ -38,7 +38,8 @@ PLAN = Plan(
 def record(path, seconds, seed=1):
     """Write what the whole tree says in ``seconds`` before a June noon."""
     with BagWriter(path) as writer:
-        world = World(Transcript(writer).record, NOON)
+        transcript = Transcript(writer)
+        world = World(transcript.record, NOON)
         for kind, name in (
             (GranierProbe, 'granier_probe'),
             (MotionGenerator, 'motion_generator'),
@@ -52,6 +53,7 @@ def record(path, seconds, seed=1):
         world.start()
         world.run(NOON + seconds * SECOND)
         world.stop()
+        transcript.flush()
     return path
 
 
