@@ -163,7 +163,9 @@ class BagWriter:
         try:
             times = np.array(stamps, np.uint64)
         except OverflowError:
-            msg = f'log times from {min(stamps)} to {max(stamps)}: expected nanoseconds in [0, 2^64)'
+            msg = (
+                f'log times from {min(stamps)} to {max(stamps)}: expected nanoseconds in [0, 2^64)'
+            )
             raise SignalError(msg) from None
         sizes = np.fromiter(map(len, data), np.int64, len(data)) + MESSAGE_HEAD.size
         first = 0

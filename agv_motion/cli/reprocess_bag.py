@@ -6,29 +6,27 @@ import importlib
 import shutil
 import time
 from contextlib import suppress
-from functools import partial
+from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
-from sensor_msgs.msg import Temperature
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.nodes import require_node
+from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.errors import AgvMotionError, ConfigurationError
-from agv_motion.nodes.granier_probe import GranierProbe
-from agv_motion.probe.sources.recorded import RecordedSource
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process import add
-from agv_motion.ros.messages import seconds_of
-from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.world import Publisher, World
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from agv_motion.bag.connection import Message
 
 
 class Plan(NamedTuple):
@@ -59,25 +57,6 @@ class Outcome(NamedTuple):
     """warnings of the nodes, and how often"""
     failure: str
     """why there is no result; empty if there is"""
-
-
-class RecordedProbe(GranierProbe):
-    """The probe node on its recorded readings; its source is asked only for what came before."""
-
-    def open(self) -> None:
-        """Open as live, then listen to the recording in place of the source."""
-        super().open()
-        probes = self.parameters.probes()
-        recorded = self._source = RecordedSource(self._source, probes)
-        for i in range(probes):
-            self.listen(
-                Temperature, f'granier/probe_{i + 1}/temperature_difference',
-                partial(_take, recorded, i), SENSOR,
-            )  # fmt: skip
-
-
-def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
-    recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
 
 
 class Transcript:
@@ -118,7 +97,7 @@ class Transcript:
 
 
 TOGETHER = 4096
-"""Messages that are written together."""
+"""Messages that are looked at, and written, together."""
 
 
 def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
@@ -143,10 +122,8 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
             for name in plan.nodes:
                 add(world, node_class(name), parameters(plan.config, name), dict(plan.remap))
             world.start()
-            inputs, heard, feed = world.inputs(), 0, world.feed
-            for message in bag.messages(sorted(inputs & set(bag.topics))):
-                heard += 1
-                feed(message.connection.topic, message.stamp, message.data)
+            inputs = world.inputs()
+            heard = _feed(world, bag.messages(sorted(inputs & set(bag.topics))))
             world.run(bag.end)
             world.stop()
             transcript.flush()
@@ -163,6 +140,21 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
         return Outcome(str(source), *counts, span, took, missing, world.complaints, '')
 
 
+def _feed(world: World, messages: Iterator[Message]) -> int:
+    """Let all messages be heard, many shown beforehand; return how many."""
+    heard, feed = 0, world.feed
+    while together := list(islice(messages, TOGETHER)):
+        heard += len(together)
+        topics: dict[str, list[bytes]] = {}
+        for message in together:
+            topics.setdefault(message.connection.topic, []).append(message.data)
+        for topic, data in topics.items():
+            world.look_ahead(topic, data)
+        for message in together:
+            feed(message.connection.topic, message.stamp, message.data)
+    return heard
+
+
 def node_class(name: str) -> Any:
     """Return the class of a node of this package, for a recording.
 
@@ -170,8 +162,8 @@ def node_class(name: str) -> Any:
         ConfigurationError: There is none of this name.
 
     """
-    if name == 'granier_probe':
-        return RecordedProbe
+    if name in RECORDED:
+        return RECORDED[name]
     require_node(name)
     module = importlib.import_module(f'agv_motion.nodes.{name}')
     return getattr(module, ''.join(word.capitalize() for word in name.split('_')))

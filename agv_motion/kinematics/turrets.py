@@ -15,13 +15,21 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, isfinite, sin, sqrt
 from sys import float_info
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import numpy as np
 
 from agv_motion.errors import GeometryError, SignalError
+from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    Column = NDArray[np.float64]
+    T = TypeVar('T', float, Column)
 
 STANDSTILL = 1e-9
 """[m/s] Below this speed a wheel has no direction of its own, so its turret keeps its angle."""
@@ -145,25 +153,50 @@ class Turrets:
         if len(angles) != n or len(speeds) != n:
             msg = f'{len(angles)} angles and {len(speeds)} speeds for {n} turrets: give one each'
             raise SignalError(msg)
-        velocities = []
-        sum_x = sum_y = moment = 0.0
-        centre_x, centre_y = self._centre_x, self._centre_y
         if not (isfinite(sum(angles)) and isfinite(sum(speeds))):
             require_finite('turret angles', tuple(angles))
             require_finite('wheel speeds', tuple(speeds))
-        for (x, y), angle, speed in zip(self.positions, angles, speeds):  # noqa: B905 - hot
-            v_x, v_y = speed * cos(angle), speed * sin(angle)
-            velocities.append((v_x, v_y))
+        velocities = [
+            (speed * cos(angle), speed * sin(angle))
+            for angle, speed in zip(angles, speeds)  # noqa: B905 - hot
+        ]
+        vx, vy, wz, square = self._fit(velocities)
+        return vx, vy, wz, sqrt(square)
+
+    def solve_columns(
+        self, angles: Column, speeds: Column
+    ) -> tuple[Column, Column, Column, Column]:
+        """Return what :meth:`solve` does, to the bit, for columns.
+
+        Args:
+            angles: (n_turrets, n) [rad], finite.
+            speeds: (n_turrets, n) [m/s], finite.
+
+        """
+        velocities = list(
+            zip(speeds * elementwise(cos, angles), speeds * elementwise(sin, angles), strict=True)
+        )
+        vx, vy, wz, square = self._fit(velocities)
+        return vx, vy, wz, np.sqrt(square)
+
+    def _fit(self, velocities: Sequence[tuple[T, T]]) -> tuple[T, T, T, T]:
+        """Return the twist and its mean square error for the velocity of each wheel."""
+        n = len(velocities)
+        sum_x: Any = 0.0
+        sum_y: Any = 0.0
+        moment: Any = 0.0
+        error: Any = 0.0
+        centre_x, centre_y = self._centre_x, self._centre_y
+        for (x, y), (v_x, v_y) in zip(self.positions, velocities):  # noqa: B905 - hot
             sum_x += v_x
             sum_y += v_y
             moment += (x - centre_x) * v_y - (y - centre_y) * v_x
         wz = moment / self._spread
         vx, vy = sum_x / n + wz * centre_y, sum_y / n - wz * centre_x
-        error = 0.0
         for (x, y), (v_x, v_y) in zip(self.positions, velocities):  # noqa: B905
             left_x, left_y = vx - wz * y - v_x, vy + wz * x - v_y
             error += left_x * left_x + left_y * left_y
-        return vx, vy, wz, sqrt(error / n)
+        return vx, vy, wz, error / n
 
 
 def centre_of_rotation(twist: Twist) -> tuple[float, float] | None:

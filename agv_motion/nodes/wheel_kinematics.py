@@ -21,8 +21,7 @@ from agv_motion.kinematics.steering_state import Limiter, SteeringState
 from agv_motion.kinematics.turret_motion import alignment
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.nodes.platform_parameters import PlatformParameters
-from agv_motion.odometry.base import TurretBase
-from agv_motion.odometry.dead_reckoning import DeadReckoning
+from agv_motion.odometry.turret_reckoning import TurretReckoning
 from agv_motion.parameters import Spec
 from agv_motion.planar import REST, Twist, wrap
 from agv_motion.ros.covariances import fill_covariance
@@ -122,9 +121,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._measured: list[float] | None = None
         self._stopped_by = ''
         self._residual = 0.0
-        self._reckoning = DeadReckoning()
-        self._unit_covariance = TurretBase(self._turrets).unit_covariance
-        self._pose_time: float | None = None
+        self._reckoning = TurretReckoning(self._turrets, given.wheel_noise)
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
         self._message = self._joints.message()
@@ -328,38 +325,34 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         """Fit the twist that the turrets really make, and carry the odometry on."""
         told, rates = self._joints.read(message)
         angles = [angle + zero for angle, zero in zip(told, self._zero, strict=True)]
+        speeds = [rate * self.parameters.wheel_radius for rate in rates]
+        self._note_angles(angles)
+        stamp, odometry = message.header.stamp, self._odometry_message
+        reckoned = self._reckoning.take(seconds_of(stamp), angles, speeds)
+        self._fight.publish(Float64(data=reckoned.residual))
+        self._judge_residual(reckoned.residual)
+        odometry.header.stamp = stamp
+        fill_pose(odometry.pose.pose, reckoned.pose)
+        fill_covariance(odometry.pose.covariance, reckoned.covariance)
+        fill_twist(odometry.twist.twist, reckoned.twist)
+        self._odometry.publish(odometry)
+
+    def _note_angles(self, angles: list[float]) -> None:
         self._state_watchdog.feed()
         if self._measured is None:
             self._plan = SteeringState(angles)
         self._measured = angles
-        speeds = [rate * self.parameters.wheel_radius for rate in rates]
-        fit = self._turrets.twist(angles, speeds)
-        self._residual = fit.residual
-        self._fight.publish(Float64(data=fit.residual))
-        if fit.residual > self.parameters.residual_stop and not self._stopped_by:
-            self._stopped_by = f'turrets fight by {fit.residual:.4f} m/s'
+
+    def _judge_residual(self, residual: float) -> None:
+        """Stop when the turrets fight too hard."""
+        self._residual = residual
+        if residual > self.parameters.residual_stop and not self._stopped_by:
+            self._stopped_by = f'turrets fight by {residual:.4f} m/s'
             self.get_logger().error(
                 f'{self._stopped_by}, limit {self.parameters.residual_stop} m/s: stopped; '
                 'look at the turrets, then call ~/stop with data: false'
             )
             self._stand_still()
-        self._carry(fit.twist, speeds, message.header.stamp)
-
-    def _carry(self, twist: Twist, speeds: list[float], stamp: Any) -> None:
-        time, reckoning = seconds_of(stamp), self._reckoning
-        if self._pose_time is not None and time > self._pose_time:
-            passed = time - self._pose_time
-            rolled = passed * sum(map(abs, speeds)) / len(speeds)
-            displacement = (twist.vx * passed, twist.vy * passed, twist.wz * passed)
-            noise = self.parameters.wheel_noise
-            reckoning.carry(displacement, self._unit_covariance, noise * noise * rolled)
-        self._pose_time = time
-        odometry = self._odometry_message
-        odometry.header.stamp = stamp
-        fill_pose(odometry.pose.pose, reckoning.pose)
-        fill_covariance(odometry.pose.covariance, reckoning.covariance())
-        fill_twist(odometry.twist.twist, twist)
-        self._odometry.publish(odometry)
 
 
 def main() -> None:

@@ -16,9 +16,19 @@ Trans. Autom. Control 62(4), 2017.
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import numpy as np
+
+from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
 from agv_motion.planar import Pose, require_finite, wrap
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Column = NDArray[np.float64]
+    T = TypeVar('T', float, Column)
 
 Displacement = tuple[float, float, float]
 """Twist times duration, in the frame of the base [m, m, rad]."""
@@ -86,16 +96,90 @@ class DeadReckoning:
         self.y += step_y
         heading += half
         self.heading = heading if -pi <= heading < pi else wrap(heading)
-
-        xx, xy, xt, yy, yt, tt = covariance  # rotate() and shift(), written out: the hot path
-        mean, half_difference = 0.5 * (xx + yy), 0.5 * (xx - yy)
-        c2, s2 = c * c - s * s, 2.0 * c * s
-        along, across = half_difference * c2 - xy * s2, half_difference * s2 + xy * c2
-        turned_xt, turned_yt = c * xt - s * yt, s * xt + c * yt
-        xt, yt = turned_xt + y * tt, turned_yt - x * tt
-        self._xx += variance * (mean + along + y * (turned_xt + xt))
-        self._xy += variance * (across - x * xt + y * turned_yt)
+        xx, xy, xt, yy, yt, tt = _at_origin(covariance, c, s, x, y)
+        self._xx += variance * xx
+        self._xy += variance * xy
         self._xt += variance * xt
-        self._yy += variance * (mean - along - x * (turned_yt + yt))
+        self._yy += variance * yy
         self._yt += variance * yt
         self._tt += variance * tt
+
+    def carry_columns(
+        self, displacement: tuple[Column, Column, Column], covariance: Covariance, variance: Column
+    ) -> tuple[tuple[Column, Column, Column], Covariance]:
+        """Follow many displacements: to the bit what :meth:`carry` does one after the other.
+
+        Args:
+            displacement: (n,) columns of twist times duration.
+            covariance: In the frame of the base halfway.
+            variance: (n,) factor on it.
+
+        Returns:
+            Columns (n,) of the pose after each, and of its :meth:`covariance`.
+
+        """
+        dx, dy, turn = displacement
+        halves = 0.5 * turn
+        between, after = self._turn(halves.tolist())
+        c, s = elementwise(cos, between), elementwise(sin, between)
+        chord = np.array([sin(half) / half if half else 1.0 for half in halves.tolist()])
+        step_x, step_y = chord * (c * dx - s * dy), chord * (s * dx + c * dy)
+        x, y = _sums(self.x, step_x), _sums(self.y, step_y)
+        added: Any = _at_origin(covariance, c, s, x[:-1] + 0.5 * step_x, y[:-1] + 0.5 * step_y)
+        grown = [
+            _sums(before, variance * more)
+            for before, more in zip(self.origin_covariance, added, strict=True)
+        ]
+        self.x, self.y = float(x[-1]), float(y[-1])
+        self._xx, self._xy, self._xt, self._yy, self._yt, self._tt = (
+            float(column[-1]) for column in grown
+        )
+        columns: Any = [column[1:] for column in (*grown, x, y)]  # shift() takes them as numbers
+        return (x[1:], y[1:], after), shift(Covariance(*columns[:6]), *columns[6:])
+
+    def _turn(self, halves: list[float]) -> tuple[Column, Column]:
+        """Turn by each half angle twice; return the headings between and after."""
+        heading = self.heading
+        between, after = [], []
+        for half in halves:
+            heading += half
+            between.append(heading)
+            heading += half
+            heading = heading if -pi <= heading < pi else wrap(heading)
+            after.append(heading)
+        self.heading = heading
+        return np.array(between), np.array(after)
+
+
+def _at_origin(covariance: Covariance, c: T, s: T, x: T, y: T) -> tuple[T, T, T, T, T, float]:
+    """Return a covariance in the frame of the base as one about the origin, as plain numbers.
+
+    ``rotate`` and ``shift``, written out: the hot path.
+
+    Args:
+        covariance: In the frame of the base.
+        c: Cosine of its heading.
+        s: Sine of its heading.
+        x: Of the base [m].
+        y: Of the base [m].
+
+    """
+    xx, xy, xt, yy, yt, tt = covariance
+    mean, half_difference = 0.5 * (xx + yy), 0.5 * (xx - yy)
+    c2, s2 = c * c - s * s, 2.0 * c * s
+    along, across = half_difference * c2 - xy * s2, half_difference * s2 + xy * c2
+    turned_xt, turned_yt = c * xt - s * yt, s * xt + c * yt
+    shifted_xt, shifted_yt = turned_xt + y * tt, turned_yt - x * tt
+    return (
+        mean + along + y * (turned_xt + shifted_xt),
+        across - x * shifted_xt + y * turned_yt,
+        shifted_xt,
+        mean - along - x * (turned_yt + shifted_yt),
+        shifted_yt,
+        tt,
+    )
+
+
+def _sums(start: float, steps: Column) -> Column:
+    """Return ``start`` and what it becomes with each step, added one after the other."""
+    return np.cumsum(np.concatenate([[start], steps]))

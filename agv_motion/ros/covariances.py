@@ -6,7 +6,7 @@ The others of the six are left 0, which is how ROS says unknown.
 from __future__ import annotations
 
 from math import isclose
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from agv_motion.errors import SignalError
 from agv_motion.odometry.covariance import Covariance
@@ -39,10 +39,10 @@ def covariance_of(numbers: Sequence[float]) -> Covariance:
     return Covariance(xx, xy, xt, yy, yt, tt)
 
 
-def fill_covariance(numbers: Sequence[float], covariance: Covariance) -> None:
-    """Write ``covariance`` into the 36 numbers of a message, in place."""
+def fill_covariance(numbers: Any, covariance: Covariance) -> None:
+    """Write ``covariance`` into the 36 numbers of a message, or into (36, n) of many, in place."""
     xx, xy, xt, yy, yt, tt = covariance
     for place, value in (
         (XX, xx), (XY, xy), (XT, xt), (YX, xy), (YY, yy), (YT, yt), (TX, xt), (TY, yt), (TT, tt),
     ):  # fmt: skip
-        numbers[place] = value  # type: ignore[index]
+        numbers[place] = value

@@ -96,6 +96,8 @@ class TurretJoints:
         self._steering = [f'turret_{i}_steering' for i in range(count)]
         self._wheel = [f'turret_{i}_wheel' for i in range(count)]
         self._zeros = [0.0] * count
+        self._names: list[str] = []
+        self._places: tuple[list[int], list[int]] = [], []
 
     def message(self) -> JointState:
         """Return a message with the names set, to be filled again and again."""
@@ -122,20 +124,36 @@ class TurretJoints:
                 finite.
 
         """
-        index = {name: i for i, name in enumerate(message.name)}
-        missing = [name for name in self._steering + self._wheel if name not in index]
-        if missing:
-            msg = (
-                f'joint {missing[0]} is missing among {list(message.name)}: '
-                f'expected {len(self._steering)} turrets, each with _steering and _wheel'
-            )
-            raise SignalError(msg)
+        steering, wheel = self.places(message.name)
         for field, values in (('positions', message.position), ('velocities', message.velocity)):
             if len(values) != len(message.name):
                 msg = f'{len(values)} {field} for {len(message.name)} joints: give one each'
                 raise SignalError(msg)
-        angles = [message.position[index[name]] for name in self._steering]
-        rates = [message.velocity[index[name]] for name in self._wheel]
+        angles = [message.position[i] for i in steering]
+        rates = [message.velocity[i] for i in wheel]
         require_finite('turret angles', tuple(angles))
         require_finite('wheel rates', tuple(rates))
         return angles, rates
+
+    def places(self, names: list[str]) -> tuple[list[int], list[int]]:
+        """Return where among ``names`` the steering angles are, and where the wheels.
+
+        Raises:
+            SignalError: A joint is missing.
+
+        """
+        if names != self._names:
+            index = {name: i for i, name in enumerate(names)}
+            missing = [name for name in self._steering + self._wheel if name not in index]
+            if missing:
+                msg = (
+                    f'joint {missing[0]} is missing among {names}: '
+                    f'expected {len(self._steering)} turrets, each with _steering and _wheel'
+                )
+                raise SignalError(msg)
+            self._names = list(names)
+            self._places = (
+                [index[name] for name in self._steering],
+                [index[name] for name in self._wheel],
+            )
+        return self._places

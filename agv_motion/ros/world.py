@@ -70,6 +70,11 @@ class World:
             node.on_deactivate(None)
             self._pass_on()
 
+    def look_ahead(self, topic: str, messages: list[bytes]) -> None:
+        """Show the messages that :meth:`feed` will bring next on a topic, all together."""
+        for listener in self.listeners.get(topic, ()):
+            listener.look_ahead(messages)
+
     def feed(self, topic: str, stamp: int, data: bytes) -> None:
         """Let timers run up to ``stamp`` [ns], then let a message from outside be heard.
 
@@ -150,8 +155,8 @@ class Publisher:
         self._world.publishers.setdefault(topic, []).append(self)
 
     def publish(self, message: Any) -> None:
-        """Send a message."""
-        self._world.publish(self, self._encode(message))
+        """Send a message, or the bytes of one."""
+        self._world.publish(self, message if type(message) is bytes else self._encode(message))
 
     def get_subscription_count(self) -> int:
         """Return how many listen, a recording included."""
@@ -170,10 +175,18 @@ class Listener:
         """Pass the messages of one topic on to ``callback``."""
         self.node, self.callback = node, callback
         self._decode = codec(kind).decode
+        self.prepare: Callable[[list[bytes]], list[Any]] | None = None
+        """makes of many messages what the callback takes; of none if it cannot"""
+        self._prepared: deque[Any] = deque()
+
+    def look_ahead(self, messages: list[bytes]) -> None:
+        """Prepare what will be heard next."""
+        if self.prepare is not None:
+            self._prepared.extend(self.prepare(messages))
 
     def hear(self, data: bytes) -> None:
         """Take a message."""
-        self.callback(self._decode(data))
+        self.callback(self._prepared.popleft() if self._prepared else self._decode(data))
 
 
 class Timer:

@@ -182,3 +182,29 @@ def test_a_stamp_that_fits_no_field_is_refused_and_the_bag_goes_on(tmp_path, sta
 def test_an_option_out_of_range_is_refused(tmp_path, options):
     with pytest.raises(ConfigurationError):
         BagWriter(tmp_path / 'bag', **options)
+
+
+@pytest.mark.parametrize(('size', 'span'), [(2000, 1e9), (1 << 20, 10.0), (1, 1.0)])
+def test_several_messages_at_once_make_the_same_file(tmp_path, size, span):
+    messages = [(i % 3 // 2, i // 2 * SECOND, text(i)) for i in range(300)]
+    written = []
+    for name in ('one', 'many'):
+        folder = tmp_path / name / 'bag'
+        with BagWriter(folder, chunk_size=size, chunk_duration=span) as writer:
+            topics = [writer.add_topic(topic, TEXT, **known(TEXT)) for topic in ('/a', '/b')]
+            rows = [(topics[topic], stamp, data) for topic, stamp, data in messages]
+            if name == 'one':
+                for row in rows:
+                    writer.write(*row)
+            else:
+                for part in (rows[:7], rows[7:130], rows[130:]):
+                    writer.write_several(*zip(*part, strict=True))
+        written.append((folder / 'bag_0.mcap').read_bytes())
+    assert written[0] == written[1]
+
+
+def test_several_messages_with_a_stamp_that_does_not_fit_are_refused(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/a', TEXT, **known(TEXT))
+        with pytest.raises(SignalError, match='from -1 to 5'):
+            writer.write_several([topic, topic], [5, -1], [text(0), text(1)])

@@ -17,6 +17,7 @@ rclpy = pytest.importorskip('rclpy')
 from agv_motion.bag.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.cli.reprocess_bag import Plan, Transcript, parameters, reprocess
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
@@ -83,6 +84,13 @@ def test_what_was_decided_is_decided_again(recorded, tmp_path):
         assert any(
             m.data != next(after.messages(['/cmd_vel'])).data for m in after.messages(['/cmd_vel'])
         )
+
+
+def test_states_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch):
+    reprocess(recorded / 'a', tmp_path / 'together' / 'out', PLAN)
+    monkeypatch.setitem(RECORDED, 'wheel_kinematics', WheelKinematics)
+    reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
+    assert content(tmp_path / 'together') == content(tmp_path / 'apart')
 
 
 def test_another_configuration_decides_otherwise(recorded, tmp_path):

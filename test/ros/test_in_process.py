@@ -150,6 +150,24 @@ def test_what_is_refused_is_counted_and_the_node_lives_on(diary):
     assert diary.said == [(0.3, '/out', 2.0)]
 
 
+def test_what_was_looked_at_together_is_heard_one_by_one(diary):
+    shown = []
+
+    def prepare(messages):
+        shown.append(len(messages))
+        return [Float64(data=10.0 + FLOAT.decode(data).data) for data in messages]
+
+    echo = add(diary.world, Echo, {}, {})
+    echo.prepare('in', prepare)
+    diary.world.start()
+    diary.world.look_ahead('/in', [FLOAT.encode(Float64(data=float(i))) for i in range(2)])
+    diary.feed('/in', 0.1, 0.0)
+    diary.feed('/in', 0.2, 1.0)
+    diary.feed('/in', 0.3, 2.0)
+    assert shown == [2]
+    assert diary.said == [(0.1, '/out', 20.0), (0.2, '/out', 22.0), (0.3, '/out', 4.0)]
+
+
 class Broken(Echo):
     """Cannot be opened."""
 

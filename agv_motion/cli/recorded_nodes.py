@@ -1,0 +1,131 @@
+"""What some nodes do otherwise on a recording: take its readings, and take many states at once."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import cos, sin
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from sensor_msgs.msg import JointState, Temperature
+from std_msgs.msg import Float64
+
+from agv_motion.bag.message_rows import MessageRows
+from agv_motion.errors import SignalError
+from agv_motion.kinematics.elementwise import elementwise
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.probe.sources.recorded import RecordedSource
+from agv_motion.ros.cdr import codec
+from agv_motion.ros.covariances import fill_covariance
+from agv_motion.ros.messages import seconds_of
+from agv_motion.ros.qos import SENSOR
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from agv_motion.odometry.turret_reckoning import ReckonedColumns
+
+
+class RecordedProbe(GranierProbe):
+    """The probe node on its recorded readings; its source is asked only for what came before."""
+
+    def open(self) -> None:
+        """Open as live, then listen to the recording in place of the source."""
+        super().open()
+        probes = self.parameters.probes()
+        recorded = self._source = RecordedSource(self._source, probes)
+        for i in range(probes):
+            self.listen(
+                Temperature, f'granier/probe_{i + 1}/temperature_difference',
+                partial(_take, recorded, i), SENSOR,
+            )  # fmt: skip
+
+
+def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
+    recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
+
+
+class _State(NamedTuple):
+    """What a recorded state of the turrets tells, and the messages that it leads to."""
+
+    angles: list[float]
+    residual: float
+    fight: bytes
+    odometry: bytes
+
+
+class RecordedWheels(WheelKinematics):
+    """The wheel node; of many states together it reckons by columns, to the bit the same."""
+
+    world: Any
+    prepare: Any
+
+    def open(self) -> None:
+        """Open as live, then ask for the states many together."""
+        super().open()
+        self._fights = _rows(Float64(), 'std_msgs/msg/Float64')
+        self._odometries = _rows(self._odometry_message, 'nav_msgs/msg/Odometry')
+        self.prepare('turrets/state', self._prepare)
+
+    def _prepare(self, messages: list[bytes]) -> list[_State]:
+        """Return what the states tell; none unless all are alike and of use."""
+        try:
+            names = codec(JointState).decode(messages[0]).name
+            steering, wheel = self._joints.places(names)
+            table = MessageRows('sensor_msgs/msg/JointState', messages[0]).read(messages)
+        except (SignalError, ValueError):
+            return []
+        if table is None or not {'position', 'velocity'} <= set(table.dtype.names or ()):
+            return []
+        positions, velocities = table['position'], table['velocity']
+        if not positions.shape == velocities.shape == (len(messages), len(names)):
+            return []
+        angles = (positions[:, steering] + np.array(self._zero)).T
+        speeds = (velocities[:, wheel] * self.parameters.wheel_radius).T
+        if not (np.isfinite(angles).all() and np.isfinite(speeds).all()):
+            return []
+        times = table['header.stamp.sec'] + table['header.stamp.nanosec'] * 1e-9
+        reckoned = self._reckoning.take_columns(times, angles, speeds)
+        fights = self._fights.table(len(messages))
+        fights['data'] = reckoned.residual
+        return list(
+            map(
+                _State,
+                angles.T.tolist(),
+                reckoned.residual.tolist(),
+                self._fights.messages(fights),
+                self._odometries.messages(self._odometry_table(table, reckoned)),
+            )
+        )
+
+    def _odometry_table(self, states: NDArray[Any], reckoned: ReckonedColumns) -> NDArray[Any]:
+        table = self._odometries.table(len(states))
+        for part in ('header.stamp.sec', 'header.stamp.nanosec'):
+            table[part] = states[part]
+        x, y, heading = reckoned.pose
+        table['pose.pose.position.x'], table['pose.pose.position.y'] = x, y
+        table['pose.pose.orientation.z'] = elementwise(sin, heading / 2.0)
+        table['pose.pose.orientation.w'] = elementwise(cos, heading / 2.0)
+        fill_covariance(table['pose.covariance'].T, reckoned.covariance)
+        for axis, column in zip(('linear.x', 'linear.y', 'angular.z'), reckoned.twist, strict=True):
+            table[f'twist.twist.{axis}'] = column
+        return table
+
+    def _on_state(self, message: JointState | _State) -> None:
+        if not isinstance(message, _State):
+            super()._on_state(message)
+            return
+        self._note_angles(message.angles)
+        self._fight.publish(message.fight)
+        self._judge_residual(message.residual)
+        self._odometry.publish(message.odometry)
+
+
+def _rows(example: Any, message_type: str) -> MessageRows:
+    kind: Any = type(example)
+    return MessageRows(message_type, codec(kind).encode(example))
+
+
+RECORDED: dict[str, Any] = {'granier_probe': RecordedProbe, 'wheel_kinematics': RecordedWheels}
+"""Nodes that are others on a recording, by name."""
