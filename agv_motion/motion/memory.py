@@ -128,7 +128,7 @@ class Memory:
         self._zone = _digest(zone)
         self._stood: tuple[float, float] | None = None
         self._here: tuple[int, int] | None = None
-        self._under: tuple[NDArray[np.intp], ...] = ()
+        self._under = np.empty(0, np.intp)
 
     def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
         """Return row and column of a point [m]; None where the trunk cannot be."""
@@ -155,7 +155,7 @@ class Memory:
             self._stood, self._here, self._under = (x, y), self.cell_of(x, y), self._visited(x, y)
         if self._here is not None:
             self.flow[self._here], self.felt_at[self._here] = flow, time
-        self.visited_at[self._under] = time
+        self.visited_at.put(self._under, time)
 
     def remembered(self, time: float) -> Map:
         """Return the sap flow of each cell as it is remembered at ``time`` [s]; NaN where never.
@@ -213,13 +213,13 @@ class Memory:
         self.newest = float(max(self.felt_at.max(), self.visited_at.max()))
         return same
 
-    def _visited(self, x: float, y: float) -> tuple[NDArray[np.intp], ...]:
-        """Return rows and columns of the cells that the platform visits at (x, y) [m]."""
+    def _visited(self, x: float, y: float) -> NDArray[np.intp]:
+        """Return the cells that the platform visits at (x, y) [m], counted row by row."""
         rows, columns = self._near(y - self.south), self._near(x - self.west)
         away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
         under = (away <= self.parameters.reach**2) & self.walkable[rows, columns]
         row, column = np.nonzero(under)
-        return row + rows.start, column + columns.start
+        return (row + rows.start) * len(self.x) + column + columns.start
 
     def _near(self, distance: float) -> slice:
         """Return the rows (or columns) within reach of a distance from the edge of the first."""

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 MOST_LAYOUTS = 1000
 """of one class that are remembered"""
 
+GATHER = 'v = []; k = []'
+"""First line where a message has sequences of messages, whose values must be gathered in a loop."""
+
 
 class Encoder:
     """Writes a function that gathers the values of a message and the lengths of what may vary.
@@ -36,25 +39,28 @@ class Encoder:
         self._kind = kind
         self._source = Source()
         self._simple: list[str] = []
+        self._lengths: list[str] = []
 
     def function(self) -> Callable[[Any], bytes]:
         """Return the encoder."""
         kind = self._kind
         self._message(kind, 'm', '')
-        self._tell('')
-        self._source.lines.append('return v, k')
-        head = 'def function(m):\n    v = []; k = []; add = v.append; key = k.append'
-        gather = self._source.compiled(head, f'encode {kind.__name__}')
+        lines = self._source.lines
+        if GATHER in lines:
+            self._tell('')
+            lines.append('return v, tuple(k)')
+        else:
+            lines.append(f'return ({_joined(self._simple)}), ({_joined(self._lengths)})')
+        gather = self._source.compiled('def function(m):', f'encode {kind.__name__}')
         layouts: dict[tuple[int, ...], Callable[..., bytes]] = {}
 
         def encode(message: Any) -> bytes:
             values, lengths = gather(message)
-            key = tuple(lengths)
-            pack = layouts.get(key)
+            pack = layouts.get(lengths)
             if pack is None:
                 if len(layouts) >= MOST_LAYOUTS:
                     layouts.clear()
-                pack = layouts[key] = _Layout(kind, key).pack
+                pack = layouts[lengths] = _Layout(kind, lengths).pack
             try:
                 return pack(HEADER, *values)
             except StructError as error:
@@ -64,10 +70,14 @@ class Encoder:
         return encode
 
     def _tell(self, indent: str) -> None:
-        """Write down the values that have come together."""
-        if self._simple:
-            self._source.lines.append(f'{indent}v += ({", ".join(self._simple)},)')
-            self._simple.clear()
+        """Write down the values and lengths that have come together."""
+        lines = self._source.lines
+        if GATHER not in lines:
+            lines.insert(0, GATHER)
+        for target, found in (('v', self._simple), ('k', self._lengths)):
+            if found:
+                lines.append(f'{indent}{target} += ({_joined(found)})')
+                found.clear()
 
     def _message(self, kind: type[Any], name: str, indent: str) -> None:
         for slot, field in fields(kind):
@@ -83,7 +93,8 @@ class Encoder:
             self._message(message_class_of(field), inner, indent)
         elif isinstance(field, AbstractString):
             text = self._source.name()
-            lines.append(f'{indent}{text} = {value}.encode(); key(len({text}) + 1)')
+            lines.append(f'{indent}{text} = {value}.encode()')
+            self._lengths.append(f'len({text}) + 1')
             simple += [f'len({text}) + 1', text]
         else:
             self._several(value, field, indent)
@@ -91,7 +102,7 @@ class Encoder:
     def _several(self, value: str, field: AbstractNestedType, indent: str) -> None:
         lines, element = self._source.lines, field.value_type
         if not isinstance(field, Array):
-            lines.append(f'{indent}key(len({value}))')
+            self._lengths.append(f'len({value})')
             self._simple.append(f'len({value})')
         if isinstance(element, BasicType):
             form = {'boolean': 'bytes({})', 'octet': "b''.join({})"}
@@ -103,6 +114,10 @@ class Encoder:
         lines.append(f'{indent}    pass')
         self._field(item, element, indent + '    ')
         self._tell(indent + '    ')
+
+
+def _joined(parts: list[str]) -> str:
+    return ''.join(f'{part}, ' for part in parts)
 
 
 class _Layout:
