@@ -1,4 +1,4 @@
-"""What some nodes do otherwise on a recording: take its readings, and take many states at once."""
+"""What some nodes do otherwise on a recording: take its readings, and take many rows at once."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from agv_motion.bag.message_rows import MessageRows
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.planar import Twist
 from agv_motion.probe.sources.recorded import RecordedSource
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.covariances import fill_covariance
@@ -22,9 +24,17 @@ from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.qos import SENSOR
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geometry_msgs.msg import TwistStamped
     from numpy.typing import NDArray
 
     from agv_motion.odometry.turret_reckoning import ReckonedColumns
+    from agv_motion.ros.world import Listener
+
+SECOND = 1_000_000_000
+TWIST = ('linear.x', 'linear.y', 'angular.z')
+"""The planar part of a geometry_msgs/Twist."""
 
 
 class RecordedProbe(GranierProbe):
@@ -55,18 +65,61 @@ class _State(NamedTuple):
     odometry: bytes
 
 
-class RecordedWheels(WheelKinematics):
-    """The wheel node; of many states together it reckons by columns, to the bit the same."""
+class RecordedMotion(MotionGenerator):
+    """The motion node; its twists become messages many together."""
 
-    world: Any
-    prepare: Any
+    def open(self) -> None:
+        """Open as live, then tell how twists become messages."""
+        super().open()
+        if self.parameters.stamped:
+            self._twists = _rows(self._message, 'geometry_msgs/msg/TwistStamped')
+            self._command.together = self._messages
+
+    def _tell_twist(self, twist: Twist) -> None:
+        if not self._command.publish_row(twist):
+            super()._tell_twist(twist)
+
+    def _messages(self, stamps: NDArray[np.int64], twists: list[Any]) -> list[bytes]:
+        table = self._twists.table(len(twists))
+        table['header.stamp.sec'], table['header.stamp.nanosec'] = np.divmod(stamps, SECOND)
+        for axis, column in zip(TWIST, np.array(twists).reshape(-1, 3).T, strict=True):
+            table[f'twist.{axis}'] = column
+        return self._twists.messages(table)
+
+
+class RecordedWheels(WheelKinematics):
+    """The wheel node; it reckons many states together by columns, to the bit the same."""
+
+    listener: Callable[[str], Listener]
 
     def open(self) -> None:
         """Open as live, then ask for the states many together."""
         super().open()
         self._fights = _rows(Float64(), 'std_msgs/msg/Float64')
         self._odometries = _rows(self._odometry_message, 'nav_msgs/msg/Odometry')
-        self.prepare('turrets/state', self._prepare)
+        self._joints.fill(self._message, self._zero, self._zero)
+        self._commands = _rows(self._message, 'sensor_msgs/msg/JointState')
+        self._command.together = self._messages
+        self.listener('cmd_vel').takes_rows = self.parameters.stamped
+        self.listener('turrets/state').prepare = self._prepare
+
+    def _on_stamped_twist(self, message: TwistStamped | Twist) -> None:
+        if isinstance(message, Twist):
+            self._drive(message)
+        else:
+            super()._on_stamped_twist(message)
+
+    def _tell_turrets(self, angles: list[float], rates: list[float]) -> None:
+        if not self._command.publish_row((angles, rates)):
+            super()._tell_turrets(angles, rates)
+
+    def _messages(self, stamps: NDArray[np.int64], commands: list[Any]) -> list[bytes]:
+        table = self._commands.table(len(commands))
+        table['header.stamp.sec'], table['header.stamp.nanosec'] = np.divmod(stamps, SECOND)
+        angles, rates = np.array(commands).reshape(len(commands), 2, -1).transpose(1, 0, 2)
+        table['position'][:, : angles.shape[1]] = angles
+        table['velocity'][:, angles.shape[1] :] = rates
+        return self._commands.messages(table)
 
     def _prepare(self, messages: list[bytes]) -> list[_State]:
         """Return what the states tell; none unless all are alike and of use."""
@@ -108,7 +161,7 @@ class RecordedWheels(WheelKinematics):
         table['pose.pose.orientation.z'] = elementwise(sin, heading / 2.0)
         table['pose.pose.orientation.w'] = elementwise(cos, heading / 2.0)
         fill_covariance(table['pose.covariance'].T, reckoned.covariance)
-        for axis, column in zip(('linear.x', 'linear.y', 'angular.z'), reckoned.twist, strict=True):
+        for axis, column in zip(TWIST, reckoned.twist, strict=True):
             table[f'twist.twist.{axis}'] = column
         return table
 
@@ -127,5 +180,9 @@ def _rows(example: Any, message_type: str) -> MessageRows:
     return MessageRows(message_type, codec(kind).encode(example))
 
 
-RECORDED: dict[str, Any] = {'granier_probe': RecordedProbe, 'wheel_kinematics': RecordedWheels}
+RECORDED: dict[str, Any] = {
+    'granier_probe': RecordedProbe,
+    'motion_generator': RecordedMotion,
+    'wheel_kinematics': RecordedWheels,
+}
 """Nodes that are others on a recording, by name."""

@@ -10,6 +10,7 @@ from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
 import yaml
 
 from agv_motion.bag.reader import BagReader
@@ -70,30 +71,39 @@ class Transcript:
         self.messages = 0
         self._writer = writer
         self._topics: dict[str, int] = {}
-        self._waiting: list[tuple[int, int, bytes]] = []
+        self._waiting: list[tuple[Publisher, int, Any]] = []
 
-    def record(self, publisher: Publisher, stamp: int, data: bytes) -> None:
-        """Take a message of time ``stamp`` [ns]."""
-        topic = self._topics.get(publisher.topic)
-        if topic is None:
-            topic = self._add(publisher)
-        self._waiting.append((topic, stamp, data))
+    def record(self, publisher: Publisher, stamp: int, data: Any) -> None:
+        """Take a message, or a row, of time ``stamp`` [ns]."""
+        self._waiting.append((publisher, stamp, data))
         if len(self._waiting) >= TOGETHER:
             self.flush()
 
     def flush(self) -> None:
         """Hand what has come to the writer."""
-        if self._waiting:
-            self._writer.write_several(*zip(*self._waiting, strict=True))
-            self.messages += len(self._waiting)
-            self._waiting.clear()
+        if not self._waiting:
+            return
+        publishers, stamps, found = zip(*self._waiting, strict=True)
+        data = list(found)
+        for publisher in dict.fromkeys(publishers):
+            if publisher.topic not in self._topics:
+                self._add(publisher)
+            if publisher.together is not None:
+                rows = [i for i, one in enumerate(publishers) if one is publisher]
+                rows = [i for i in rows if type(data[i]) is not bytes]
+                times = np.array([stamps[i] for i in rows], np.int64)
+                made = publisher.together(times, [data[i] for i in rows])
+                for i, message in zip(rows, made, strict=True):
+                    data[i] = message
+        topics = [self._topics[publisher.topic] for publisher in publishers]
+        self._writer.write_several(topics, stamps, data)
+        self.messages += len(data)
+        self._waiting.clear()
 
-    def _add(self, publisher: Publisher) -> int:
+    def _add(self, publisher: Publisher) -> None:
         kind, qos = publisher.kind, [offer(publisher.qos)]
         name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
-        topic = self._writer.add_topic(publisher.topic, name, qos=qos)
-        self._topics[publisher.topic] = topic
-        return topic
+        self._topics[publisher.topic] = self._writer.add_topic(publisher.topic, name, qos=qos)
 
 
 TOGETHER = 4096

@@ -26,7 +26,7 @@ from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.company_keeper import CompanyKeeper
 from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import Pose
+from agv_motion.planar import Pose, Twist
 from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
@@ -280,9 +280,10 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
                 self._company.stay(self.seconds(), self._pose)
             return
         think = self._mind.think if self._company is None else self._company.think
-        thought = think(self.seconds(), self._pose, self._sap_flow)
+        now = self.seconds()
+        thought = think(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
-        dt = min(max(self.seconds() - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
+        dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
         self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
         if thought.goal is not self._told_goal:
             self._tell_goal(thought.goal)
@@ -292,18 +293,20 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _publish(self, limited: Limited, state: str) -> None:
         self._limited_by, self._commanded_at = limited.by, self.seconds()
         given = self.parameters
-        twist = to_twist(limited.command, given.linear_speed, given.platform_radius)
-        if given.stamped:
-            self.stamp(self._message)
-            fill_twist(self._message.twist, twist)
-        else:
-            fill_twist(self._message, twist)
-        self._command.publish(self._message)
+        self._tell_twist(to_twist(limited.command, given.linear_speed, given.platform_radius))
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
         if state != self._told:
             self._told = state
             self._state.publish(String(data=state))
+
+    def _tell_twist(self, twist: Twist) -> None:
+        if self.parameters.stamped:
+            self.stamp(self._message)
+            fill_twist(self._message.twist, twist)
+        else:
+            fill_twist(self._message, twist)
+        self._command.publish(self._message)
 
     def _tell_goal(self, goal: Goal | None) -> None:
         """Publish and log a new goal with its reason, and why others were not taken."""

@@ -248,13 +248,16 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         share = alignment(plan.angles, self._measured) if self._measured else 1.0
         factor = share / self.parameters.wheel_radius
         rates = [factor * speed for speed in plan.speeds]
-        self.stamp(self._message)
         angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
-        self._joints.fill(self._message, angles, rates)
-        self._command.publish(self._message)
+        self._tell_turrets(angles, rates)
         if self._arrays_wanted:
             self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
+
+    def _tell_turrets(self, angles: list[float], rates: list[float]) -> None:
+        self.stamp(self._message)
+        self._joints.fill(self._message, angles, rates)
+        self._command.publish(self._message)
 
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent; say so before."""

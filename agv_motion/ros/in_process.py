@@ -124,11 +124,9 @@ class InProcessNode(_Rclpy):
         self.world.listeners.setdefault(self._full(topic), []).append(listener)
         return listener
 
-    def prepare(self, topic: str, prepare: Callable[[list[bytes]], list[Any]]) -> None:
-        """Let ``prepare`` make of many recorded messages what the node's own callback takes."""
-        for listener in self.world.listeners[self._full(topic)]:
-            if listener.node is self:
-                listener.prepare = prepare
+    def listener(self, topic: str) -> Listener:
+        """Return the node's own end of a topic."""
+        return next(one for one in self.world.listeners[self._full(topic)] if one.node is self)
 
     def create_timer(self, seconds: float, callback: Any, *_: Any, **__: Any) -> Any:
         """Return a timer of the world, whatever clock was asked for: there is one time."""

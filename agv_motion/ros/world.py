@@ -19,6 +19,8 @@ from agv_motion.ros.messages import stamp_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
+    import numpy as np
+    from numpy.typing import NDArray
     from rclpy.qos import QoSProfile
 
 
@@ -35,11 +37,12 @@ class Instant(NamedTuple):
 class World:
     """Topics by name, timers by time, and the clock of all nodes in it."""
 
-    def __init__(self, record: Callable[[Publisher, int, bytes], None], now: int) -> None:
+    def __init__(self, record: Callable[[Publisher, int, Any], None], now: int) -> None:
         """Start at a time, with no node.
 
         Args:
-            record: Called with each message that a node publishes, and its time [ns].
+            record: Called with each message that a node publishes, and its time [ns]; of a
+                publisher whose rows become messages many together, with the row.
             now: [ns] of the clock.
 
         """
@@ -54,7 +57,7 @@ class World:
         self.publishers: dict[str, list[Publisher]] = {}
         self._timers: list[tuple[int, int, Timer]] = []
         self._count = 0
-        self._waiting: deque[tuple[Listener, bytes]] = deque()
+        self._waiting: deque[tuple[Listener, Any]] = deque()
         self._running = False
 
     def start(self) -> None:
@@ -117,8 +120,8 @@ class World:
         self._count += 1
         heapq.heappush(self._timers, (self.now + timer.period, self._count, timer))
 
-    def publish(self, publisher: Publisher, data: bytes) -> None:
-        """Record a message, and let the other nodes hear it."""
+    def publish(self, publisher: Publisher, data: Any) -> None:
+        """Record a message in bytes, or a row, and let the other nodes hear it."""
         self.record(publisher, self.now, data)
         for listener in self.listeners.get(publisher.topic, ()):
             if listener.node is not publisher.node:
@@ -151,12 +154,22 @@ class Publisher:
         """Join the topic."""
         self.node, self.kind, self.topic, self.qos = node, kind, topic, qos
         self._encode = codec(kind).encode
+        self.together: Callable[[NDArray[np.int64], list[Any]], list[bytes]] | None = None
+        """makes messages of the times [ns] and values of many rows"""
         self._world: World = node.world
         self._world.publishers.setdefault(topic, []).append(self)
 
     def publish(self, message: Any) -> None:
         """Send a message, or the bytes of one."""
         self._world.publish(self, message if type(message) is bytes else self._encode(message))
+
+    def publish_row(self, row: Any) -> bool:
+        """Send a row, unless someone listens who takes nothing but messages."""
+        listeners = self._world.listeners.get(self.topic, ())
+        if self.together is None or not all(listener.takes_rows for listener in listeners):
+            return False
+        self._world.publish(self, row)
+        return True
 
     def get_subscription_count(self) -> int:
         """Return how many listen, a recording included."""
@@ -178,15 +191,20 @@ class Listener:
         self.prepare: Callable[[list[bytes]], list[Any]] | None = None
         """makes of many messages what the callback takes; of none if it cannot"""
         self._prepared: deque[Any] = deque()
+        self.takes_rows = False
+        """whether the callback takes the rows of other nodes"""
 
     def look_ahead(self, messages: list[bytes]) -> None:
         """Prepare what will be heard next."""
         if self.prepare is not None:
             self._prepared.extend(self.prepare(messages))
 
-    def hear(self, data: bytes) -> None:
-        """Take a message."""
-        self.callback(self._prepared.popleft() if self._prepared else self._decode(data))
+    def hear(self, data: Any) -> None:
+        """Take a message in bytes, or a row."""
+        if type(data) is not bytes:
+            self.callback(data)
+        else:
+            self.callback(self._prepared.popleft() if self._prepared else self._decode(data))
 
 
 class Timer:

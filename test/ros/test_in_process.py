@@ -158,7 +158,7 @@ def test_what_was_looked_at_together_is_heard_one_by_one(diary):
         return [Float64(data=10.0 + FLOAT.decode(data).data) for data in messages]
 
     echo = add(diary.world, Echo, {}, {})
-    echo.prepare('in', prepare)
+    echo.listener('in').prepare = prepare
     diary.world.start()
     diary.world.look_ahead('/in', [FLOAT.encode(Float64(data=float(i))) for i in range(2)])
     diary.feed('/in', 0.1, 0.0)
