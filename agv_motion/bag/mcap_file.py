@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import mmap
 from collections import OrderedDict
+from functools import partial
 from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,11 +15,12 @@ from agv_motion.bag import mcap_scan, mcap_summary, records
 from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.successive import joined, successive
 from agv_motion.bag.time_order import Run, in_time_order
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Container, Iterator, Mapping
+    from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -226,14 +228,7 @@ class McapFile:
             DamagedBagError: What comes next is damaged.
 
         """
-        chunks = sorted((c for c in self.chunks if self._filled(c)), key=lambda c: c.start)
-        wanted = frozenset(channels)
-        opened = (
-            (chunk.start, chunk.offset, self._opener(chunk, wanted, start, stop))
-            for chunk in chunks
-            if chunk.end >= start and chunk.start < stop
-        )
-        return in_time_order(opened)
+        return in_time_order(self._runs(frozenset(channels), start, stop))
 
     def walk(self, chunk: Chunk) -> Iterator[Message]:
         """Yield the whole messages of a chunk as they lie in it, whatever its index says.
@@ -254,6 +249,25 @@ class McapFile:
         self._cache.clear()
         self._cached = 0
         self._data = memoryview(b'')
+
+    def _runs(
+        self, wanted: frozenset[int], start: int, stop: int
+    ) -> Iterator[tuple[int, int, Callable[[], Run | None]]]:
+        """Yield earliest stamp, place and opener of chunks; small ones, if sound, together."""
+
+        def unpack(chunk: Chunk) -> tuple[Buffer, Iterable[Entries]]:
+            unpacked = self.unpacked(chunk)
+            return unpacked, self.entries(chunk, unpacked, wanted).values()
+
+        channels, span = list(self.channels), range(start, stop)
+        chunks = [c for c in self.chunks if self._filled(c) and c.end >= start and c.start < stop]
+        for group in successive(chunks):
+            run = joined(group, unpack, self._messages, channels, span) if group[1:] else None
+            if run is not None:
+                yield group[0].start, group[0].offset, partial(Run, *run)
+                continue
+            for chunk in group:
+                yield chunk.start, chunk.offset, self._opener(chunk, wanted, start, stop)
 
     def _opener(
         self, chunk: Chunk, wanted: frozenset[int], start: int, stop: int

@@ -219,7 +219,8 @@ class Memory:
         away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
         under = (away <= self.parameters.reach**2) & self.walkable[rows, columns]
         row, column = np.nonzero(under)
-        return (row + rows.start) * len(self.x) + column + columns.start
+        cells: NDArray[np.intp] = (row + rows.start) * len(self.x) + column + columns.start
+        return cells
 
     def _near(self, distance: float) -> slice:
         """Return the rows (or columns) within reach of a distance from the edge of the first."""

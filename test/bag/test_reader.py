@@ -9,6 +9,7 @@ from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.rosbag2.enums import CompressionFormat, CompressionMode
 from rosbags.typesys import Stores, get_typestore
 
+from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter, OfferedQos
 from agv_motion.errors import ConfigurationError, SourceError
@@ -73,6 +74,24 @@ def test_messages_come_in_the_order_of_time_though_chunks_overlap(tmp_path):
     stamps = [5, 4, 3, 2, 1, 9, 8, 1, 7, 6] * 30 + list(range(300))
     written = ours(tmp_path / 'bag', stamps)
     assert read(tmp_path / 'bag') == sorted(written, key=lambda row: row[1])
+
+
+def test_the_messages_before_a_damaged_chunk_are_read_and_then_it_is_named(tmp_path):
+    written = ours(tmp_path / 'bag', range(100))
+    file = tmp_path / 'bag' / 'bag_0.mcap'
+    with BagReader(file) as bag:
+        chunks = bag.files[0].chunks
+        assert len(chunks) > 10
+        damaged = chunks[len(chunks) // 2]
+    data = bytearray(file.read_bytes())
+    data[damaged.offset + damaged.length - 1] ^= 0xFF
+    file.write_bytes(data)
+    found = []
+    with BagReader(file) as bag, pytest.raises(DamagedBagError, match=f'byte {damaged.offset}'):
+        found.extend((m.connection.topic, m.stamp, m.data) for m in bag.messages())
+    before = [row for row in written if row[1] < damaged.start]
+    assert found == before
+    assert len(before) > 10
 
 
 def test_topics_and_times_are_selected(tmp_path):
