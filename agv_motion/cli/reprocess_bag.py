@@ -84,29 +84,34 @@ class Transcript:
         if not self._waiting:
             return
         publishers, stamps, found = zip(*self._waiting, strict=True)
-        data = list(found)
-        for publisher in dict.fromkeys(publishers):
-            if publisher.topic not in self._topics:
-                self._add(publisher)
-            if publisher.together is not None:
-                rows = [i for i, one in enumerate(publishers) if one is publisher]
-                rows = [i for i in rows if type(data[i]) is not bytes]
-                times = np.array([stamps[i] for i in rows], np.int64)
-                made = publisher.together(times, [data[i] for i in rows])
-                for i, message in zip(rows, made, strict=True):
-                    data[i] = message
-        topics = [self._topics[publisher.topic] for publisher in publishers]
-        self._writer.write_several(topics, stamps, data)
-        self.messages += len(data)
+        topics = {publisher: self._topic(publisher) for publisher in dict.fromkeys(publishers)}
+        rows: dict[Publisher, list[int]] = {}
+        for i, (publisher, data) in enumerate(zip(publishers, found, strict=True)):
+            if type(data) is not bytes:
+                rows.setdefault(publisher, []).append(i)
+        messages = list(found)
+        for publisher, places in rows.items():
+            assert publisher.together is not None
+            times = np.array([stamps[i] for i in places], np.int64)
+            made = publisher.together(times, [found[i] for i in places])
+            for i, message in zip(places, made, strict=True):
+                messages[i] = message
+        self._writer.write_several([topics[one] for one in publishers], stamps, messages)
+        self.messages += len(messages)
         self._waiting.clear()
 
-    def _add(self, publisher: Publisher) -> None:
+    def _topic(self, publisher: Publisher) -> int:
+        if publisher.topic not in self._topics:
+            self._topics[publisher.topic] = self._add(publisher)
+        return self._topics[publisher.topic]
+
+    def _add(self, publisher: Publisher) -> int:
         kind, qos = publisher.kind, [offer(publisher.qos)]
         name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
-        self._topics[publisher.topic] = self._writer.add_topic(publisher.topic, name, qos=qos)
+        return self._writer.add_topic(publisher.topic, name, qos=qos)
 
 
-TOGETHER = 4096
+TOGETHER = 1024
 """Messages that are looked at, and written, together."""
 
 

@@ -57,7 +57,9 @@ class Watchdog:
         """
         if self._heard:
             self._heard, self._last = False, now
-        age = self.age(now)
-        if age is None or abs(age) >= self._stop_after:
+        if self._last is None:
             return Silence.LOST
-        return Silence.LATE if abs(age) >= self._report_after else Silence.FRESH
+        age = abs(now - self._last)
+        if age >= self._stop_after:
+            return Silence.LOST
+        return Silence.LATE if age >= self._report_after else Silence.FRESH

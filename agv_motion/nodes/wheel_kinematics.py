@@ -262,9 +262,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent; say so before."""
         now = self.seconds()
-        self._arrays_wanted = any(
-            publisher.get_subscription_count() for publisher in (self._steering, self._wheels)
-        )
+        listeners = self._steering.get_subscription_count() + self._wheels.get_subscription_count()
+        self._arrays_wanted = listeners > 0
         self._watch_state(now)
         silence = self._watchdog.judge(now)
         if silence is Silence.FRESH:

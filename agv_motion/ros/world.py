@@ -165,9 +165,11 @@ class Publisher:
 
     def publish_row(self, row: Any) -> bool:
         """Send a row, unless someone listens who takes nothing but messages."""
-        listeners = self._world.listeners.get(self.topic, ())
-        if self.together is None or not all(listener.takes_rows for listener in listeners):
+        if self.together is None:
             return False
+        for listener in self._world.listeners.get(self.topic, ()):
+            if not listener.takes_rows:
+                return False
         self._world.publish(self, row)
         return True
 
