@@ -17,7 +17,7 @@ from agv_motion.motion.goals import Goal, GoalParameters
 from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.limits import Limited, LimitParameters, Limits
 from agv_motion.motion.memory import MemoryParameters
-from agv_motion.motion.mind import Mind, MindParameters
+from agv_motion.motion.mind import Mind, MindParameters, Thought
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
 from agv_motion.motion.schedule import ScheduleParameters
 from agv_motion.motion.traffic.parameters import TrafficParameters
@@ -32,6 +32,9 @@ from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
+
+THINK_PERIOD = 1.0
+"""[s] after which the tree thinks again though nothing is new: of the hour, and of other ways."""
 
 
 @dataclass(frozen=True)
@@ -127,6 +130,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._pose: Pose | None = None
         self._valid = True
         self._paused = False
+        self._thought: Thought | None = None
+        self._thought_at = 0.0
         self._told = ''
         self._told_goal: Goal | None = None
         self._told_way: tuple[tuple[float, float], ...] = ()
@@ -182,6 +187,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def accept(self, parameters: MotionGeneratorParameters) -> None:
         """Take over new thresholds."""
         self._mind.rest = parameters.rest
+        self._thought = None
 
     def diagnose(self) -> Diagnosis:
         """Tell what the tree does, why, and what it misses."""
@@ -198,6 +204,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         vector = message.vector
         self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
         self._watchdogs['sap flow'].feed()
+        self._thought = None
         if self._obstacle:
             self._judge()
         self._move()
@@ -212,12 +219,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._require_map(message.header.frame_id)
         self._pose = pose_of(message.pose.pose)
         self._watchdogs['pose'].feed()
+        self._thought = None
         self._judge()
 
     def _on_goal(self, message: PoseStamped) -> None:
         self._require_map(message.header.frame_id)
         goal = pose_of(message.pose)
         self._mind.set_goal(goal.x, goal.y, 'asked for')
+        self._thought = None
         self._tell_goal(self._mind.goal)
 
     def _require_map(self, frame: str) -> None:
@@ -233,11 +242,13 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _on_next_goal(self, _: Any) -> str:
         self._mind.next_goal()
+        self._thought = None
         self._move()
         return self._mind.goal.reason if self._mind.goal else f'chosen later; {self._told}'
 
     def _on_go_home(self, _: Any) -> str:
         self._mind.go_home()
+        self._thought = None
         self._move()
         return self._told
 
@@ -279,9 +290,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             if self._company is not None and self._pose is not None:
                 self._company.stay(self.seconds(), self._pose)
             return
-        think = self._mind.think if self._company is None else self._company.think
         now = self.seconds()
-        thought = think(now, self._pose, self._sap_flow)
+        thought = self._think(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
         self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
@@ -289,6 +299,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._tell_goal(thought.goal)
         if thought.way[1:] != self._told_way[1:]:
             self._tell_way(thought.way)
+
+    def _think(self, now: float, pose: Pose, flow: SapFlow) -> Thought:
+        """Think when something is new; also now and then, and always where others walk."""
+        if self._company is not None:
+            return self._company.think(now, pose, flow)
+        if self._thought is None or not 0.0 <= now - self._thought_at < THINK_PERIOD:
+            self._thought, self._thought_at = self._mind.think(now, pose, flow), now
+        return self._thought
 
     def _publish(self, limited: Limited, state: str) -> None:
         self._limited_by, self._commanded_at = limited.by, self.seconds()
