@@ -44,6 +44,7 @@ setup(
     packages=find_packages(include=[NAME, f'{NAME}.*']),
     python_requires='>=3.10',
     install_requires=[
+        'isal>=1.6; platform_machine in "x86_64 AMD64 aarch64 arm64"',
         'mcap>=1.1',
         'numpy>=1.26',
         'pyserial>=3.5',

@@ -12,6 +12,7 @@ import zstandard
 
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.metadata import FILE_NAME
+from agv_motion.bag.yaml_text import parse
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def _in_folder(folder: Path) -> BagFiles:
 def _described(path: Path) -> dict[str, Any] | None:
     """Return what the metadata says; None where there is none that can be read."""
     try:
-        entries = yaml.safe_load(path.read_text(encoding='utf-8'))['rosbag2_bagfile_information']
+        entries = parse(path.read_text(encoding='utf-8'))['rosbag2_bagfile_information']
     except (OSError, ValueError, yaml.YAMLError, KeyError, TypeError, RecursionError):
         return None
     return entries if isinstance(entries, dict) else None

@@ -104,12 +104,12 @@ def of_mcap(file: McapFile, channels: Collection[int], start: int, stop: int) ->
         and (chunk.indexes is None or not chunk.indexes.keys().isdisjoint(channels))
     )
 
+    wanted = sorted(channels)
     buffers: list[NDArray[np.uint8]] = []
 
     def batches(chunks: list[Chunk], buffer: NDArray[np.uint8]) -> list[Batch]:
         together = _unpacked(file, chunks, buffer.data)
-        found = (_batch(file, together, channel, start, stop) for channel in channels)
-        return [batch for batch in found if batch is not None]
+        return _batches(file, together, wanted, start, stop)
 
     with ThreadPoolExecutor(2) as pool:
 
@@ -161,48 +161,50 @@ def _unpacked(file: McapFile, chunks: Sequence[Chunk], buffer: memoryview) -> _T
     return _Together(chunks, buffer[:begin], np.array(ends, np.int64))
 
 
-def _batch(
-    file: McapFile, together: _Together, channel: int, start: int, stop: int
-) -> Batch | None:
-    """Return the messages of a channel, after a look whether they are where the index says."""
-    tables, counts = [], []
-    begin = 0
-    for chunk, end in zip(together.chunks, together.ends.tolist(), strict=True):
-        tables.append(file.index_of(chunk, channel, together.data[begin:end]))
-        counts.append(len(tables[-1]))
-        begin = end
-    table = tables[0] if len(tables) == 1 else np.concatenate(tables)
-    if not len(table):
-        return None
-    stamps, offsets = table[:, 0], table[:, 1]
-    ends = together.ends
-    begins = np.concatenate([[0], ends[:-1]])
-    outside = offsets >= len(together.data)
-    places = np.where(outside, len(together.data), offsets).astype(np.int64)
-    places += np.repeat(begins, counts)
-    limits = np.repeat(ends, counts)
+def _batches(
+    file: McapFile, together: _Together, channels: Sequence[int], start: int, stop: int
+) -> list[Batch]:
+    """Return the messages of each channel, after a look whether they are where the index says."""
+    data, ends = together.data, together.ends
+    begins = [0, *ends[:-1].tolist()]
+    origins = [(begin, chunk.offset) for begin, chunk in zip(begins, together.chunks, strict=True)]
+    parts = list(zip(together.chunks, begins, ends.tolist(), strict=True))
+    tables = [file.index_of(c, n, data[a:b]) for n in channels for c, a, b in parts]
+    counts = [len(table) for table in tables]
+    table = np.concatenate(tables)
+    stamps, offsets = table[:, 0], np.minimum(table[:, 1], len(data)).astype(np.int64)
+    places = offsets + np.repeat(begins * len(channels), counts)
+    limits = np.repeat(np.tile(ends, len(channels)), counts)
+    numbers = np.repeat(np.array(channels), np.reshape(counts, (len(channels), -1)).sum(axis=1))
     if start > 0 or stop < 1 << 63:
-        inside = (stamps >= np.uint64(min(start, _LATEST))) & (
-            stamps < np.uint64(min(stop, _LATEST))
-        )
-        stamps, places, limits = stamps[inside], places[inside], limits[inside]
-        if not len(stamps):
-            return None
-    origins = [(e, chunk.offset) for e, chunk in zip(begins.tolist(), together.chunks, strict=True)]
+        inside = stamps >= np.uint64(min(start, _LATEST))
+        inside &= stamps < np.uint64(min(stop, _LATEST))
+        stamps, places = stamps[inside], places[inside]
+        limits, numbers = limits[inside], numbers[inside]
+    if not len(places):
+        return []
     try:
-        found = heads(together.data, places, _HEAD)
+        found = heads(data, places, _HEAD)
     except ValueError as error:
         place = _origin(origins, int(places.min()))
         raise DamagedBagError(file.path, place, f'near this chunk, {error}') from None
     sizes = found['length'].astype(np.int64) - (_HEAD.itemsize - records.PREFIX.size)
     starts = places + _HEAD.itemsize
-    wrong = (found['channel'] != channel) | (found['stamp'] != stamps) | (starts + sizes > limits)
-    if wrong.any() or int(sizes.sum()) + len(sizes) * _HEAD.itemsize > len(together.data):
-        place = _origin(origins, int(places[int(wrong.argmax())]))
-        finding = f'in this chunk, messages that are not those of the index of channel {channel}'
+    wrong = (found['channel'] != numbers) | (found['stamp'] != stamps) | (starts + sizes > limits)
+    if wrong.any() or int(sizes.sum()) + len(sizes) * _HEAD.itemsize > len(data):
+        row = int(wrong.argmax())
+        place = _origin(origins, int(places[row]))
+        finding = (
+            f'in this chunk, messages that are not those of the index of channel {numbers[row]}'
+        )
         raise DamagedBagError(file.path, place, finding)
-    times = stamps.astype(np.int64)
-    return Batch(channel, together.data, starts, sizes, found['form'], times, file.path, origins)
+    times, forms = stamps.astype(np.int64), found['form'].astype(np.uint16)
+    bounds = np.searchsorted(numbers, channels, 'left'), np.searchsorted(numbers, channels, 'right')
+    return [
+        Batch(n, data, starts[a:b], sizes[a:b], forms[a:b], times[a:b], file.path, origins)
+        for n, a, b in zip(channels, *bounds, strict=True)
+        if b > a
+    ]
 
 
 def _origin(origins: Sequence[tuple[int, int]], place: int) -> int:

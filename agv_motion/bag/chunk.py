@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
-from zlib import crc32
 
 import numpy as np
 
 from agv_motion.bag import record_parsing as parsing
 from agv_motion.bag import records
+from agv_motion.bag.checksum import crc32
 from agv_motion.bag.compression import decompress, decompress_into, salvage
 from agv_motion.bag.damage import DamagedBagError
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import pairwise
 from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
-from zlib import crc32
 
 from agv_motion.bag import record_parsing as parsing
 from agv_motion.bag import records
+from agv_motion.bag.checksum import crc32
 from agv_motion.bag.chunk import Chunk
 from agv_motion.bag.damage import DamagedBagError
 

@@ -11,11 +11,11 @@ import os
 from array import array
 from struct import error as StructError  # noqa: N812 - the module names it in lower case
 from typing import TYPE_CHECKING
-from zlib import crc32
 
 import numpy as np
 
 from agv_motion.bag import records
+from agv_motion.bag.checksum import crc32
 from agv_motion.bag.chunk import HEAD
 from agv_motion.bag.compression import compressor
 from agv_motion.bag.quality_of_service import as_yaml

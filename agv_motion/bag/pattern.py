@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import DTypeLike, NDArray
 
-    from agv_motion.bag.cdr import Leaf, Segment, Walk
+    from agv_motion.bag.cdr import Leaf, Walk
     from agv_motion.bag.record_parsing import Buffer
     from agv_motion.bag.text_codes import TextCodes
 
@@ -21,24 +21,10 @@ NUMPY |= {
 }
 NUMPY |= {'float32': 'f4', 'float64': 'f8'}
 """numpy's names of the primitives (``byte`` is signed, as in rosbags), texts and lengths"""
-_WORD = 8
-
-
-class _Span(NamedTuple):
-    """Words that tell messages of a layout from others."""
-
-    words: slice
-    mask: NDArray[np.uint64]
-    expected: NDArray[np.uint64]
-    plain: NDArray[np.uint64]
-    """what is expected, without the mask"""
-
-    def differ(self, words: NDArray[np.uint64]) -> bool:
-        """Return whether any row differs, be it in bytes that are not compared."""
-        return bool((words[:, self.words] != self.plain).any())
-
-    def differences(self, words: NDArray[np.uint64]) -> NDArray[np.uint64]:
-        return (words[:, self.words] ^ self.expected) & self.mask
+_LENGTH = 4
+"""[bytes] of a length"""
+_GAP = 8
+"""[bytes] Padding between texts is shorter."""
 
 
 class Pattern:
@@ -57,127 +43,112 @@ class Pattern:
             order: '<' little-endian or '>' big-endian.
 
         """
-        self._order = order
-        self._segments = {leaf.number: walk.found[leaf.number] for leaf in leaves}
-        self._leaves = leaves
-        texts = [s for leaf in leaves if leaf.type == 'string' for s in self._segments[leaf.number]]
-        spans = [
-            (first, last)
-            for leaf in leaves
-            for first, last in map(_extent, self._segments[leaf.number])
-            if leaf.type != 'length' and last > first
-        ]
-        reach = max([last for _, last in spans], default=0)
-        lengths = [
-            s[2] for leaf in leaves if leaf.type == 'length' for s in walk.found[leaf.number]
-        ]
-        reach = min(max([reach, *(position + 4 for position in lengths)]), walk.size)
-        guards = [(position, position + 4) for position in walk.guards if position < reach]
-        first = min((begin for begin, _ in [*spans, *guards]), default=0)
-        self._first = first - first % _WORD
-        self._pitch = max(_WORD, (reach - self._first + _WORD - 1) // _WORD * _WORD)
-        content = bytes(data[start + self._first : start + reach])
-        content = content.ljust(self._pitch, b'\0')
-        self._guards = self._spans(content, guards)
-        self._texts = self._spans(content, [*guards, *((o, o + n) for o, n, _ in texts)])
-        self._content = content
-        self._plain = True
+        self._dtypes = {leaf.number: np.dtype(order + NUMPY[leaf.type]) for leaf in leaves}
+        found = {leaf: walk.found[leaf.number] for leaf in leaves}
+        lengths = {leaf: found.pop(leaf) for leaf in leaves if leaf.type == 'length'}
+        wanted = [(at, at + n * step) for segments in found.values() for at, n, step in segments]
+        wanted += [(at, at + _LENGTH) for segments in lengths.values() for _, _, at in segments]
+        reach = min(max((last for _, last in wanted), default=0), walk.size)
+        guards = [at for at in walk.guards if at < reach]
+        first = min([reach, *guards, *(begin for begin, _ in wanted)])
+        self._first, self._size = first, max(reach - first, 1)
+        self._content = bytes(data[start + first : start + reach])
+        self._places = {
+            leaf.number: [(at - first, n, step) for at, n, step in segments]
+            for leaf, segments in found.items()
+        }
+        self._constant = {
+            leaf.number: np.array([[length for length, _, _ in segments]], np.uint32)
+            for leaf, segments in lengths.items()
+        }
+        """rows that are the same in all messages"""
+        self._guards = [(at - first, self._bytes(at - first, _LENGTH)) for at in guards]
+        texts = [p for leaf in found if leaf.type == 'string' for p in self._places[leaf.number]]
+        told = [(at, len(length)) for at, length in self._guards]
+        told += [(at, size) for at, size, _ in texts]
+        self._told = [self._together(told, _GAP), self._together(told, 0)]
+        """what all messages with the same lengths and texts have in common: first with the padding
+        in between, which seldom changes, then without"""
 
-    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> NDArray[np.uint64]:
-        """Return the bytes of messages, padded to whole words, as a matrix of words."""
-        places, room = starts + self._first, len(data) - self._pitch + 1
-        short = np.flatnonzero(places >= room)
-        if room < 1:
-            data, room = bytes(data).ljust(self._pitch + len(data), b'\0'), len(data) + 1
-            short = short[:0]
-        windows = np.ndarray((room,), np.dtype((np.void, self._pitch)), data, strides=(1,))
-        if not len(short):
-            rows = windows[places]
-        else:
-            rows = windows[np.minimum(places, room - 1)]
-            for row in short:
-                tail = bytes(data[places[row] : places[row] + self._pitch])
-                rows[row] = np.void(tail.ljust(self._pitch, b'\0'))
-        return rows.view('<u8').reshape(len(starts), -1)
+    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> NDArray[np.uint8]:
+        """Return the wanted bytes of messages as rows of a matrix."""
+        raw, room = np.dtype((np.void, self._size)), len(data) - self._size + 1
+        windows = np.ndarray((room,), raw, data, strides=(1,))
+        return windows[starts + self._first].view(np.uint8).reshape(len(starts), self._size)
 
-    def agree(self, rows: NDArray[np.uint64]) -> NDArray[np.bool_] | None:
-        """Return which rows have this layout; None if all have, and the same texts too."""
-        if self._plain and not any(span.differ(rows) for span in self._texts):
-            return None
-        if not any(span.differences(rows).any() for span in self._texts):
-            self._plain = False  # the bytes in between change: they must be masked
-            return None
+    def same(self, rows: NDArray[np.uint8]) -> bool:
+        """Return whether all rows have this layout, and the same texts too."""
+        for i, told in enumerate(self._told):
+            if all(rows[:, at : at + len(part)].tobytes() == part * len(rows) for at, part in told):
+                del self._told[:i]
+                return True
+        return False
+
+    def agree(self, rows: NDArray[np.uint8]) -> NDArray[np.bool_]:
+        """Return which rows have this layout."""
         agree = np.ones(len(rows), bool)
-        for span in self._guards:
-            agree &= ~span.differences(rows).any(axis=1)
+        for at, length in self._guards:
+            agree &= _values(rows, '<u4', at)[:, 0] == int.from_bytes(length, 'little')
         return agree
 
     def values(
-        self,
-        rows: NDArray[np.uint64],
-        leaf: Leaf,
-        texts: Mapping[int, TextCodes],
-        *,
-        same_texts: bool,
+        self, rows: NDArray[np.uint8], leaf: Leaf, texts: Mapping[int, TextCodes], *, same: bool
     ) -> NDArray[Any]:
-        """Return the values of a leaf in rows that agree, of shape (rows, values)."""
-        segments = self._segments[leaf.number]
+        """Return the values of a leaf in rows that agree.
+
+        Args:
+            rows: The messages.
+            leaf: The field.
+            texts: Codes of the texts, by the number of their leaf.
+            same: All rows have the texts of this pattern.
+
+        Returns:
+            Of shape (rows, values), or (1, values) if they are the same in all rows.
+
+        """
+        number = leaf.number
         if leaf.type == 'length':
-            lengths = np.array([length for length, _, _ in segments], np.uint32)
-            return np.broadcast_to(lengths, (len(rows), len(segments)))
+            return self._constant[number]
         if leaf.type == 'string':
-            return self._codes(rows, segments, texts[leaf.number], same_texts=same_texts)
-        dtype = np.dtype(self._order + NUMPY[leaf.type])
-        parts = [
-            np.ndarray((len(rows), n), dtype, rows, at - self._first, (self._pitch, step))
-            for at, n, step in segments
-        ]
+            return self._codes(rows, number, texts[number].code, same=same)
+        dtype = self._dtypes[number]
+        parts = [_values(rows, dtype, *place) for place in self._places[number]]
         if len(parts) == 1:
             return parts[0]
         return np.concatenate(parts, axis=1) if parts else np.empty((len(rows), 0), dtype)
 
     def _codes(
-        self,
-        rows: NDArray[np.uint64],
-        segments: Sequence[Segment],
-        texts: TextCodes,
-        *,
-        same_texts: bool,
+        self, rows: NDArray[np.uint8], number: int, code: Callable[[bytes], int], *, same: bool
     ) -> NDArray[np.uint32]:
-        places = [
-            (at - self._first, max(at - self._first, at - self._first + size - 1))
-            for at, size, _ in segments
-        ]
-        if same_texts:
-            same = np.array([texts.code(self._content[a:b]) for a, b in places], np.uint32)
-            return np.broadcast_to(same, (len(rows), len(segments)))
-        codes = np.empty((len(rows), len(segments)), np.uint32)
-        data = rows.tobytes()
-        for column, (a, b) in enumerate(places):
-            begins = range(a, a + len(data), self._pitch)
-            size = b - a
-            codes[:, column] = [texts.code(data[i : i + size]) for i in begins]
-        return codes
+        places = [(at, max(size - 1, 0)) for at, size, _ in self._places[number]]  # no final zero
+        if same:
+            if number not in self._constant:
+                codes = [code(self._bytes(*place)) for place in places]
+                self._constant[number] = np.array([codes], np.uint32)
+            return self._constant[number]
+        found = np.empty((len(rows), len(places)), np.uint32)
+        for column, (at, size) in enumerate(places):
+            data = rows[:, at : at + size].tobytes()
+            parts = [data[i : i + size] for i in range(0, len(data), size)] if size else [b'']
+            found[:, column] = [code(part) for part in parts]
+        return found
 
-    def _spans(self, content: bytes, intervals: Sequence[tuple[int, int]]) -> list[_Span]:
-        """Return the words that hold the bytes of some intervals."""
-        mask = np.zeros(self._pitch, np.uint8)
-        for first, last in intervals:
-            mask[first - self._first : last - self._first] = 0xFF
-        words = mask.view('<u8')
-        plain = np.frombuffer(content, '<u8')
-        expected = plain & words
-        used = np.flatnonzero(words)
-        if not len(used):
-            return []
-        breaks = np.flatnonzero(np.diff(used) > 1) + 1
-        return [
-            _Span(slice(part[0], part[-1] + 1), words[part], expected[part], plain[part])
-            for part in np.split(used, breaks)
-        ]
+    def _bytes(self, at: int, size: int) -> bytes:
+        return self._content[at : at + size]
+
+    def _together(self, places: Iterable[tuple[int, int]], gap: int) -> list[tuple[int, bytes]]:
+        """Return place and bytes of places, those together that lie at most ``gap`` apart."""
+        together: list[list[int]] = []
+        for at, size in sorted(places):
+            if together and at <= together[-1][1] + gap:
+                together[-1][1] = max(at + size, together[-1][1])
+            else:
+                together.append([at, at + size])
+        return [(first, self._bytes(first, last - first)) for first, last in together]
 
 
-def _extent(segment: Segment) -> tuple[int, int]:
-    """Return where a segment begins and ends."""
-    offset, count, stride = segment
-    return offset, offset + count * stride
+def _values(
+    rows: NDArray[np.uint8], dtype: DTypeLike, at: int, count: int = 1, step: int = 1
+) -> NDArray[Any]:
+    """Return ``count`` values of every row, the first one at byte ``at``, ``step`` bytes apart."""
+    return np.ndarray((len(rows), count), dtype, rows, at, (rows.shape[1], step))

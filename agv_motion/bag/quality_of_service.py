@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
+from agv_motion.bag.yaml_text import parse
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -42,7 +44,7 @@ class OfferedQos(NamedTuple):
     def from_yaml(cls, text: str) -> tuple[OfferedQos, ...]:
         """Return the profiles of a topic's publishers; what cannot be read counts as not given."""
         try:
-            entries = yaml.safe_load(text) if text else []
+            entries = parse(text) if text else []
             return tuple(cls.from_entries(entry) for entry in entries or [])
         except (yaml.YAMLError, TypeError, ValueError, KeyError, RecursionError):
             return ()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.bag.cdr import Leaf, Walk, layout
-from agv_motion.bag.column_builder import ColumnBuilder, Growing, Part
+from agv_motion.bag.column_builder import ColumnBuilder, Growing, Memory, Part
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.message_type import unfold
 from agv_motion.bag.pattern import NUMPY, Pattern
@@ -62,13 +62,14 @@ class TopicDecoder:
         self._layout = layout(kind)
         self.leaves = _wanted(self._layout.leaves, fields, connection)
         self.texts = {leaf.number: TextCodes() for leaf in self.leaves if leaf.type == 'string'}
+        memory = Memory()
         self.builders = {
             leaf.number: ColumnBuilder(
-                'bool' if leaf.type == 'bool' else NUMPY[leaf.type], rows, limit
+                memory, 'bool' if leaf.type == 'bool' else NUMPY[leaf.type], rows, limit
             )
             for leaf in self.leaves
         }
-        self.stamps = Growing(np.int64, rows)
+        self.stamps = Growing(memory.take(np.dtype(np.int64), rows))
         self._patterns: defaultdict[tuple[int, int], list[Pattern]] = defaultdict(list)
 
     def put(self, batch: Batch) -> None:
@@ -136,16 +137,17 @@ class TopicDecoder:
     ) -> NDArray[np.intp]:
         """Decode those rows that agree with a pattern; return the others."""
         every = len(rows) == len(batch.starts)
-        words = pattern.rows(batch.data, batch.starts if every else batch.starts[rows])
-        agree = pattern.agree(words)
-        rest = rows[:0]
-        if agree is not None and not agree.all():
-            rest, rows, words, every = rows[~agree], rows[agree], words[agree], False
-        if not len(rows):
-            return rest
+        found = pattern.rows(batch.data, batch.starts if every else batch.starts[rows])
+        rest, same = rows[:0], pattern.same(found)
+        if not same and not (agree := pattern.agree(found)).all():
+            rest, rows, every = rows[~agree], rows[agree], False
+            if not len(rows):
+                return rest
+            found = pattern.rows(batch.data, batch.starts[rows])
+            same = pattern.same(found)
         for leaf in self.leaves:
             try:
-                values = pattern.values(words, leaf, self.texts, same_texts=agree is None)
+                values = pattern.values(found, leaf, self.texts, same=same)
             except UnicodeDecodeError as error:
                 raise self._damaged(
                     batch, int(rows[0]), f'field {leaf.path} is not UTF-8'
