@@ -5,7 +5,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,7 +15,7 @@ from agv_motion.bag.compression import decompress_message
 from agv_motion.bag.damage import DamagedBagError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -32,8 +31,8 @@ ENCAPSULATION = 4
 _HEAD = np.dtype([*((n, HEAD[n]) for n in HEAD.names or ()), ('form', '>u2'), ('options', '>u2')])
 _GROUP = 1 << 23
 """[bytes] Chunks are decoded together up to this size."""
-_AHEAD = 2
-"""Groups of chunks that are unpacked while another one is decoded."""
+_THREADS = 2
+"""Decoding, one at a time, takes as long as unpacking by one of them."""
 _LATEST = 2**64 - 1
 _TOGETHER = 2048
 """Messages that are taken together where there are no chunks."""
@@ -81,21 +80,41 @@ class _Together(NamedTuple):
     """[bytes] where the content of each ends"""
 
 
-def of_mcap(file: McapFile, channels: Collection[int], start: int, stop: int) -> Iterator[Batch]:
-    """Yield the messages of an MCAP file as they lie in it, some chunks together.
+def read_mcap(
+    file: McapFile,
+    channels: Collection[int],
+    start: int,
+    stop: int,
+    put: Callable[[Batch], None],
+) -> None:
+    """Give the messages of an MCAP file to ``put`` as they lie in it, some chunks together.
 
-    Chunks are unpacked by threads, a few ahead.
+    Threads take turns: while one gives what it has unpacked, and has in its cache, the others
+    unpack what comes next.
 
     Args:
         file: The file.
         channels: Their ids.
         start: [ns] first log time.
         stop: [ns] log time before which to stop.
+        put: Takes the messages of one channel; never called by two threads at once.
 
     Raises:
         DamagedBagError: A chunk is damaged.
 
     """
+    wanted = sorted(channels)
+    buffers: list[NDArray[np.uint8]] = []
+
+    def give(chunks: list[Chunk], before: Future[None] | None) -> None:
+        buffer = buffers.pop() if buffers else np.empty(_GROUP, np.uint8)
+        found = _batches(file, _unpacked(file, chunks, buffer.data), wanted, start, stop)
+        if before:
+            before.result()
+        for batch in found:
+            put(batch)
+        buffers.append(buffer)
+
     groups = _groups(
         chunk
         for chunk in file.chunks
@@ -103,29 +122,14 @@ def of_mcap(file: McapFile, channels: Collection[int], start: int, stop: int) ->
         and chunk.start < stop
         and (chunk.indexes is None or not chunk.indexes.keys().isdisjoint(channels))
     )
-
-    wanted = sorted(channels)
-    buffers: list[NDArray[np.uint8]] = []
-
-    def batches(chunks: list[Chunk], buffer: NDArray[np.uint8]) -> list[Batch]:
-        together = _unpacked(file, chunks, buffer.data)
-        return _batches(file, together, wanted, start, stop)
-
-    with ThreadPoolExecutor(2) as pool:
-
-        def begun(count: int) -> None:
-            for group in islice(groups, count):
-                buffer = buffers.pop() if buffers else np.empty(_GROUP, np.uint8)
-                waiting.append((buffer, pool.submit(batches, group, buffer)))
-
-        waiting: deque[tuple[NDArray[np.uint8], Future[list[Batch]]]] = deque()
-        begun(_AHEAD)
+    with ThreadPoolExecutor(_THREADS) as pool:
+        waiting: deque[Future[None]] = deque()
+        for group in groups:
+            waiting.append(pool.submit(give, group, waiting[-1] if waiting else None))
+            if len(waiting) > _THREADS:
+                waiting.popleft().result()
         while waiting:
-            buffer, future = waiting.popleft()
-            found = future.result()
-            begun(1)
-            yield from found
-            buffers.append(buffer)
+            waiting.popleft().result()
 
 
 def _groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:

@@ -19,7 +19,8 @@ from agv_motion.bag.topic_decoder import TopicDecoder
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
+    from typing import TypeGuard
 
     from numpy.typing import NDArray
 
@@ -39,17 +40,30 @@ class Columns(NamedTuple):
     ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes"""
 
     def nanoseconds(self, field: str) -> NDArray[np.int64]:
-        """Return a ``builtin_interfaces/Time`` such as ``header.stamp`` [ns]."""
-        sec, nanosec = self.fields[f'{field}.sec'], self.fields[f'{field}.nanosec']
-        assert isinstance(sec, np.ndarray)
-        assert isinstance(nanosec, np.ndarray)
-        return sec.astype(np.int64) * 1_000_000_000 + nanosec
+        """Return a ``builtin_interfaces/Time`` such as ``header.stamp`` [ns].
+
+        Raises:
+            ConfigurationError: The field is no such time, or was not read.
+
+        """
+        sec, nanosec = self.fields.get(f'{field}.sec'), self.fields.get(f'{field}.nanosec')
+        if not (_whole(sec) and _whole(nanosec)):
+            kind, topic = self.connection.type, self.connection.topic
+            msg = f'{kind} on {topic}: {field} was not read, or is no time of sec and nanosec'
+            raise ConfigurationError(msg)
+        times: NDArray[np.int64] = sec.astype(np.int64) * 1_000_000_000 + nanosec.astype(np.int64)
+        return times
 
     def seconds(self, field: str = '') -> NDArray[np.float64]:
         """Return a time of every message, by default its log time, since the first one [s]."""
         times = self.nanoseconds(field) if field else self.stamps
         since: NDArray[np.float64] = (times - times[:1]).astype(np.float64) * 1e-9
         return since
+
+
+def _whole(column: Column | None) -> TypeGuard[NDArray[Any]]:
+    """Return whether a column holds one whole number of every message."""
+    return isinstance(column, np.ndarray) and column.dtype.kind in 'iu' and column.ndim == 1
 
 
 def read_topic(
@@ -93,10 +107,9 @@ def read(
         topic: _decoder(bag, topic, fields, expected[topic]) for topic, fields in wanted.items()
     }
     for file in bag.files:
-        channels = {n: c.topic for n, c in file.channels.items() if c.topic in decoders}
-        if channels:
-            for part in _batches(bag, file, channels.keys(), *span):
-                decoders[channels[part.channel]].put(part)
+        chosen = {n: decoders[c.topic] for n, c in file.channels.items() if c.topic in decoders}
+        if chosen:
+            _read_file(bag, file, chosen, *span)
     return {topic: _columns(decoder) for topic, decoder in decoders.items()}
 
 
@@ -120,13 +133,20 @@ def _connection(bag: BagReader, topic: str) -> Connection:
     return bag.topics[topic]
 
 
-def _batches(
-    bag: BagReader, file: File, channels: Iterable[int], start: int, stop: int
-) -> Iterator[batch.Batch]:
-    chosen = frozenset(channels)
+def _read_file(
+    bag: BagReader, file: File, decoders: Mapping[int, TopicDecoder], start: int, stop: int
+) -> None:
+    """Decode the messages of a file; ``decoders`` are those of the wanted channels."""
+
+    def put(part: batch.Batch) -> None:
+        decoders[part.channel].put(part)
+
     if isinstance(file, McapFile) and not bag.messages_compressed:
-        return batch.of_mcap(file, chosen, start, stop)
-    return batch.of_messages(file, chosen, start, stop, compressed=bag.messages_compressed)
+        batch.read_mcap(file, decoders.keys(), start, stop, put)
+        return
+    compressed = bag.messages_compressed
+    for part in batch.of_messages(file, decoders.keys(), start, stop, compressed=compressed):
+        put(part)
 
 
 def _expected(

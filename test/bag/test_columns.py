@@ -165,3 +165,11 @@ def test_an_empty_message_has_the_one_byte_that_ros_gives_it(tmp_path):
     write(tmp_path / 'bag', [b'\0\1\0\0\0'] * 9, kind=kind, text='# nothing\n')
     found = columns(tmp_path / 'bag').fields
     assert [len(column) for column in found.values()] == [9]
+
+
+@pytest.mark.parametrize('field', ['position', 'header.frame_id', 'header.stamp'])
+def test_a_field_that_is_no_time_or_was_not_read_is_refused_as_a_time(tmp_path, field):
+    write(tmp_path / 'bag', [joints(['a'], 1, 1)], kind=JOINTS)
+    found = columns(tmp_path / 'bag', ['position', 'header.frame_id', 'header.stamp.sec'])
+    with pytest.raises(ConfigurationError, match=f'{field} was not read, or is no time'):
+        found.nanoseconds(field)
