@@ -26,6 +26,7 @@ ARGUMENTS = (
     ('simulate', 'true', 'whether to simulate the robot, its encoders and a camera over it'),
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
+    ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
 )
 
 
@@ -61,7 +62,7 @@ def generate_launch_description() -> LaunchDescription:
             ),
             node(
                 'differential_simulator',
-                {'time_factor': time_factor},
+                {'time_factor': time_factor, 'clock': value['clock']},
                 condition=IfCondition(value['simulate']),
             ),
         ]

@@ -18,6 +18,7 @@ ARGUMENTS = (
     ('simulate', 'true', 'whether to simulate the robot, its encoders, gyroscope and UWB'),
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
+    ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
 )
 
 
@@ -45,7 +46,7 @@ def generate_launch_description() -> LaunchDescription:
             node('localization', sim_time),
             node(
                 'omni_simulator',
-                {'time_factor': time_factor},
+                {'time_factor': time_factor, 'clock': value['clock']},
                 condition=IfCondition(value['simulate']),
             ),
         ]

@@ -19,6 +19,7 @@ ARGUMENTS = (
     ('simulate', 'true', 'whether to simulate platform, localisation and sun'),
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
+    ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
 )
 
 
@@ -48,7 +49,7 @@ def generate_launch_description() -> LaunchDescription:
             node('localization', sim_time),
             node(
                 'simulator',
-                {'time_factor': time_factor},
+                {'time_factor': time_factor, 'clock': value['clock']},
                 condition=IfCondition(value['simulate']),
             ),
         ]

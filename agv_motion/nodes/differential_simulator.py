@@ -43,6 +43,11 @@ class DifferentialSimulatorParameters(SimulatedParameters, DifferentialBaseParam
     robot: DifferentialRobotParameters = field(default_factory=DifferentialRobotParameters)
     fixes: CameraParameters = field(default_factory=CameraParameters)
 
+    def __post_init__(self) -> None:
+        """Check every row, the start time and the wheels."""
+        SimulatedParameters.__post_init__(self)
+        DifferentialBaseParameters.__post_init__(self)
+
 
 class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
     """`wheels/command` -> `wheels/state`, `fix`, `ground_truth`, `/clock`."""

@@ -6,22 +6,16 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from nav_msgs.msg import Odometry
-from nav_msgs.srv import SetMap
-from rclpy.clock import Clock, ClockType
-from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rosgraph_msgs.msg import Clock as ClockMessage
 from sensor_msgs.msg import Imu, JointState
-from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
+from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters
 from agv_motion.parameters import Spec
 from agv_motion.planar import Pose
 from agv_motion.ros.covariances import fill_covariance
-from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
-from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.messages import fill_pose, stamp_of
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.wheel_joints import WheelJoints
@@ -29,11 +23,9 @@ from agv_motion.simulation.gyro import Gyro, GyroParameters
 from agv_motion.simulation.omni import OmniRobot, OmniRobotParameters
 from agv_motion.simulation.uwb import Uwb, UwbParameters
 
-CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-
 
 @dataclass(frozen=True)
-class OmniSimulatorParameters(OmniBaseParameters):
+class OmniSimulatorParameters(SimulatedParameters, OmniBaseParameters):
     """The robot as drawn and as it really is, where it starts, and how fast time passes."""
 
     real_distances: Annotated[
@@ -44,19 +36,6 @@ class OmniSimulatorParameters(OmniBaseParameters):
         Spec('of the wheels, where they differ from the drawing', 'm', (0.001, 10)),
     ] = (0.05, 0.05, 0.05)
     rate: Annotated[float, Spec('steps per simulated second', 'Hz', (1.0, 1000.0))] = 20.0
-    time_factor: Annotated[
-        float,
-        Spec(
-            'simulated seconds per second; less where the machine is too slow', '1', (0.01, 1000.0)
-        ),
-    ] = 1.0
-    start_time: Annotated[
-        float, Spec('simulated time at the start, since 1970', 's', (0.0, 4e9))
-    ] = 1000.0
-    seed: Annotated[int, Spec('of all noise', '1', (0, 2**31))] = 1
-    start_x: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
-    start_y: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
-    start_heading: Annotated[float, Spec('where it looks', 'rad', (-7.0, 7.0))] = 0.0
     faulty_wheel: Annotated[
         int, Spec('wheel whose encoder is wrong, from 0; -1: none', '', (-1, 100), dynamic=True)
     ] = -1
@@ -69,7 +48,8 @@ class OmniSimulatorParameters(OmniBaseParameters):
 
     def __post_init__(self) -> None:
         """Check every row, and that every wheel is real."""
-        super().__post_init__()
+        SimulatedParameters.__post_init__(self)
+        OmniBaseParameters.__post_init__(self)
         count = len(self.wheel_radii)
         if not len(self.real_distances) == len(self.real_radii) == count:
             msg = (
@@ -95,7 +75,7 @@ class OmniSimulatorParameters(OmniBaseParameters):
         )
 
 
-class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
+class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
     """`wheels/command` -> `wheels/state`, `fix`, `imu`, `ground_truth`, `/clock`."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -104,56 +84,42 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
 
     def open(self) -> None:
         """Put the robot at its start and open the topics."""
-        given = self.parameters
-        self._paused = False
-        self._joints = WheelJoints(given.joint_names)
-        self._reset()
-        self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
+        self._joints = WheelJoints(self.parameters.joint_names)
+        super().open()
         self._state = self.publisher(JointState, 'wheels/state', SENSOR)
         self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         self._imu = self.publisher(Imu, 'imu', SENSOR)
-        self._truth = self.publisher(Odometry, 'ground_truth', SENSOR)
         self.listen(JointState, 'wheels/command', self._on_command, COMMAND)
-        self.serve(SetBool, '~/pause', self._on_pause)
-        self.serve(Trigger, '~/reset', self._on_reset)
-        self.serve(SetMap, '~/carry', self._on_carry)
-        period = 1.0 / (given.rate * given.time_factor)
-        self.every(period, self._step, Clock(clock_type=ClockType.STEADY_TIME))
 
     def accept(self, parameters: OmniSimulatorParameters) -> None:
         """Break or mend an encoder."""
         self._break(parameters)
 
-    def diagnose(self) -> Diagnosis:
-        """Tell the simulated time."""
-        level, word = (WARN, 'paused') if self._paused else (OK, 'running')
-        return Diagnosis(level, word, {'simulated time [s]': f'{self.elapsed:.1f}'})
-
-    @property
-    def elapsed(self) -> float:
-        """Simulated time since the start [s]."""
-        return self._steps / self.parameters.rate
-
-    @property
-    def time(self) -> float:
-        """Simulated time [s]."""
-        return self.parameters.start_time + self.elapsed
-
-    def carry_to(self, pose: Pose) -> None:
-        """Lift the robot and set it down elsewhere, its wheels still."""
-        self._robot.carry_to(pose)
-
-    def _reset(self) -> None:
+    def reset(self) -> OmniRobot:
+        """Return a robot at its start, its wheels still."""
         given = self.parameters
-        start = Pose(given.start_x, given.start_y, given.start_heading)
         self._robot = OmniRobot(
-            given.real_wheels(), given.real_radii, given.robot, start, given.seed
+            given.real_wheels(), given.real_radii, given.robot, given.start(), given.seed
         )
         self._break(given)
-        self._uwb = Uwb(given.uwb, given.seed, given.start_time)
+        self._uwb = Uwb(given.uwb, given.seed, self.time)
         self._gyro = Gyro(given.gyro, given.seed)
         self._wanted = [0.0] * len(given.wheel_radii)
-        self._steps = 0
+        return self._robot
+
+    def step(self, duration: float) -> None:
+        """Let the wheels follow their commands."""
+        self._robot.step(self._wanted, duration)
+
+    def show(self, stamp: Any) -> None:
+        """Publish what encoders and gyroscope tell, and what comes of the UWB."""
+        given = self.parameters
+        self._publish_state(stamp)
+        self._publish_imu(stamp)
+        if self.steps % max(round(given.rate / given.uwb.rate), 1) == 0:
+            self._uwb.measure(self.time, self._robot.pose)
+        for fix in self._uwb.arrivals(self.time):
+            self._publish_fix(fix)
 
     def _break(self, parameters: OmniSimulatorParameters) -> None:
         self._robot.encoder_gains = [
@@ -168,37 +134,6 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
             raise SignalError(msg)
         radii = self.parameters.real_radii
         self._wanted = [rate * r for rate, r in zip(rates, radii, strict=True) if rate is not None]
-
-    def _on_pause(self, request: Any) -> str:
-        self._paused = request.data
-        return 'time stands still' if self._paused else 'time goes on'
-
-    def _on_reset(self, _: Any) -> str:
-        self._reset()
-        return 'back at the start'
-
-    def _on_carry(self, request: Any) -> str:
-        pose = pose_of(request.initial_pose.pose.pose)
-        self.carry_to(pose)
-        return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
-
-    def _step(self) -> None:
-        """Let one step of simulated time pass and publish what there is to see."""
-        if self._paused:
-            return
-        given, robot = self.parameters, self._robot
-        robot.step(self._wanted, 1.0 / given.rate)
-        self._steps += 1
-        nanoseconds = round(given.start_time * 1e9) + round(self._steps * 1e9 / given.rate)
-        stamp = stamp_of(nanoseconds)
-        self._clock_publisher.publish(ClockMessage(clock=stamp))
-        self._publish_state(stamp)
-        self._publish_imu(stamp)
-        self._publish_truth(stamp)
-        if self._steps % max(round(given.rate / given.uwb.rate), 1) == 0:
-            self._uwb.measure(nanoseconds * 1e-9, robot.pose)
-        for fix in self._uwb.arrivals(nanoseconds * 1e-9):
-            self._publish_fix(fix)
 
     def _publish_state(self, stamp: Any) -> None:
         radii = self.parameters.real_radii
@@ -217,13 +152,6 @@ class OmniSimulator(ManagedNode[OmniSimulatorParameters]):
         message.orientation_covariance[0] = -1.0  # as REP-145 says of what is not measured
         message.linear_acceleration_covariance[0] = -1.0
         self._imu.publish(message)
-
-    def _publish_truth(self, stamp: Any) -> None:
-        message = Odometry(child_frame_id='base_link')
-        message.header.stamp, message.header.frame_id = stamp, 'map'
-        fill_pose(message.pose.pose, self._robot.pose)
-        fill_twist(message.twist.twist, self._robot.twist)
-        self._truth.publish(message)
 
     def _publish_fix(self, fix: Any) -> None:
         message = PoseWithCovarianceStamped()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import datetime, timezone
 from typing import Annotated, Any, Protocol, TypeVar
 
 from nav_msgs.msg import Odometry
@@ -12,13 +13,17 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.parameters import Spec
+from agv_motion.errors import ConfigurationError
+from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import SENSOR
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+LEAP = 60 * 10**9
+"""[ns] A clock that goes on by more at once, or back, is not caught up with but taken over."""
 
 
 @dataclass(frozen=True)
@@ -32,17 +37,37 @@ class SimulatedParameters:
             'simulated seconds per second; less where the machine is too slow', '1', (0.01, 1000.0)
         ),
     ] = 1.0
-    start_time: Annotated[
-        float, Spec('simulated time at the start, since 1970', 's', (0.0, 4e9))
-    ] = 1000.0
+    clock: Annotated[
+        str,
+        Spec(
+            'lead: make time pass and tell it on /clock; follow: another simulator does',
+            choices=('lead', 'follow'),
+        ),
+    ] = 'lead'
+    start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00:00'
     seed: Annotated[int, Spec('of all noise', '1', (0, 2**31))] = 1
     start_x: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
     start_y: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
     start_heading: Annotated[float, Spec('where it looks', 'rad', (-7.0, 7.0))] = 0.0
 
+    def __post_init__(self) -> None:
+        """Check every row, and the start time."""
+        check(self)
+        self.start_nanoseconds()
+
     def start(self) -> Pose:
         """Return where the robot starts."""
         return Pose(self.start_x, self.start_y, self.start_heading)
+
+    def start_nanoseconds(self) -> int:
+        """Return the start time since 1970 [ns]."""
+        try:
+            start = datetime.fromisoformat(self.start_time.replace('Z', '+00:00'))
+        except ValueError as error:
+            msg = f"start_time = '{self.start_time}': give ISO 8601 such as 2015-06-15T08:00:00"
+            raise ConfigurationError(msg) from error
+        seconds = start.replace(tzinfo=start.tzinfo or timezone.utc).timestamp()
+        return round(seconds * 1e6) * 1000
 
 
 P = TypeVar('P', bound=SimulatedParameters)
@@ -81,20 +106,23 @@ class SimulatedNode(ManagedNode[P]):
         """Put the robot at its start, and open the topics."""
         given = self.parameters
         self._paused = False
-        self.steps = 0
-        self._body = self.reset()
-        self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
+        self._put_at_start()
         self._truth = self.publisher(Odometry, 'ground_truth', SENSOR)
         self.serve(SetBool, '~/pause', self._on_pause)
         self.serve(Trigger, '~/reset', self._on_reset)
         self.serve(SetMap, '~/carry', self._on_carry)
+        if given.clock == 'follow':
+            self.listen(ClockMessage, '/clock', self._follow, CLOCK)
+            return
+        self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
         period = 1.0 / (given.rate * given.time_factor)
-        self.every(period, self._step, Clock(clock_type=ClockType.STEADY_TIME))
+        self.every(period, self._lead, Clock(clock_type=ClockType.STEADY_TIME))
 
     def diagnose(self) -> Diagnosis:
         """Tell the simulated time."""
         level, word = (WARN, 'paused') if self._paused else (OK, 'running')
-        return Diagnosis(level, word, {'simulated time [s]': f'{self.elapsed:.1f}'})
+        time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
+        return Diagnosis(level, word, {'simulated time': time})
 
     @property
     def elapsed(self) -> float:
@@ -103,36 +131,54 @@ class SimulatedNode(ManagedNode[P]):
 
     @property
     def time(self) -> float:
-        """Simulated time [s]."""
-        return self.parameters.start_time + self.elapsed
+        """Simulated time, since 1970 [s]."""
+        return self._nanoseconds(self.steps) * 1e-9
 
     def carry_to(self, pose: Pose) -> None:
         """Lift the robot and set it down elsewhere, its wheels still."""
         self._body.carry_to(pose)
+
+    def _put_at_start(self) -> None:
+        self.steps, self._start = 0, self.parameters.start_nanoseconds()
+        self._body = self.reset()
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
         return 'time stands still' if self._paused else 'time goes on'
 
     def _on_reset(self, _: Any) -> str:
-        self.steps, self._body = 0, self.reset()
-        return 'back at the start'
+        self._put_at_start()
+        return f'back at the start, {self.parameters.start_time}'
 
     def _on_carry(self, request: Any) -> str:
         pose = pose_of(request.initial_pose.pose.pose)
         self.carry_to(pose)
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
 
+    def _nanoseconds(self, steps: int) -> int:
+        """Return the time after so many steps, since 1970 [ns]."""
+        return self._start + round(steps * 1e9 / self.parameters.rate)
+
+    def _lead(self) -> None:
+        """Let one step of simulated time pass, and tell it."""
+        if not self._paused:
+            stamp = stamp_of(self._nanoseconds(self.steps + 1))
+            self._clock_publisher.publish(ClockMessage(clock=stamp))
+            self._step()
+
+    def _follow(self, message: ClockMessage) -> None:
+        """Take the steps up to the time that another simulator tells."""
+        now = message.clock.sec * 10**9 + message.clock.nanosec
+        if self._paused or not 0 <= now - self._nanoseconds(self.steps) <= LEAP:
+            self._start += now - self._nanoseconds(self.steps)
+        while self._nanoseconds(self.steps + 1) <= now:
+            self._step()
+
     def _step(self) -> None:
-        """Let one step of simulated time pass and publish what there is to see."""
-        if self._paused:
-            return
-        given = self.parameters
-        self.step(1.0 / given.rate)
+        """Let the robot go on by one step, and publish what there is to see."""
+        self.step(1.0 / self.parameters.rate)
         self.steps += 1
-        nanoseconds = round(given.start_time * 1e9) + round(self.steps * 1e9 / given.rate)
-        stamp = stamp_of(nanoseconds)
-        self._clock_publisher.publish(ClockMessage(clock=stamp))
+        stamp = stamp_of(self._nanoseconds(self.steps))
         self.show(stamp)
         message = Odometry(child_frame_id='base_link')
         message.header.stamp, message.header.frame_id = stamp, 'map'

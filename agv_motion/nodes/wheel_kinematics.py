@@ -205,7 +205,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _step(self, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
-        now, plan, period = self.seconds(), self._plan, 1.0 / self.parameters.rate
+        self.stamp(self._message)  # a command is stamped with the instant it is planned for
+        now, plan = seconds_of(self._message.header.stamp), self._plan
+        period = 1.0 / self.parameters.rate
         elapsed = period if self._planned_at is None else now - self._planned_at
         if plan is None or 0.0 <= elapsed <= soonest:
             return False
@@ -298,6 +300,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self._command.publish(message)
         else:
             self._planner.stop(self._plan)
+            self.stamp(self._message)
             self._send()
 
     def _on_stop(self, request: Any) -> str:

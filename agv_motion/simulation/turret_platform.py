@@ -67,6 +67,10 @@ class TurretPlatform:
         self.twist = Twist(*((a + b) / 2.0 for a, b in zip(before, after, strict=True)))
         self.pose = integrate(self.pose, self.twist, duration)
 
+    def carry_to(self, pose: Pose) -> None:
+        """Lift the platform and set it down elsewhere, its turrets and wheels as they are."""
+        self.pose = pose
+
 
 def _share(duration: float, lag: float) -> float:
     return 1.0 - exp(-duration / lag) if lag > 0.0 else 1.0

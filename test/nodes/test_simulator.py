@@ -86,3 +86,20 @@ def test_pause_and_reset(tester):
 def test_parameters_that_make_no_sense_are_refused(tester, parameters, word):
     with pytest.raises(ConfigurationError, match=word):
         tester.start(Simulator, **parameters)
+
+
+def test_of_two_simulated_trees_one_follows_the_clock_of_the_other(tester):
+    """The second makes no clock; its truth has the stamps of the first, also after a reset."""
+    clock = tester.listen(Clock, '/clock', SENSOR)
+    truth = tester.listen(Odometry, 'ash/ground_truth', SENSOR)
+    leader = tester.start(Simulator, **FAST)
+    tester.start(Simulator, remap=['__ns:=/ash'], clock='follow', start_x=4.0)
+    assert tester.wait(truth).pose.pose.position.x == 4.0
+    tester.graph.spin_until(lambda: len(truth) > 50)
+    stamps = {seconds_of(message.header.stamp) for message in truth}
+    assert len(stamps) == len(truth)
+    assert stamps <= {seconds_of(message.clock) for message in clock}
+    assert tester.ask(Trigger, 'simulator/reset', Trigger.Request()).success
+    truth.clear()
+    back = tester.wait(truth)
+    assert seconds_of(back.header.stamp) == pytest.approx(leader.time, abs=5.0)
