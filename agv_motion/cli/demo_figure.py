@@ -82,7 +82,8 @@ def _draw_map(axes: Any, run: Run, zone: Zone) -> None:
         aspect='equal', xlabel='x [m]', ylabel='y [m]',
         xlim=(west - 0.5, east + 0.5), ylim=(south - 0.5, north + 0.5),
     )  # fmt: skip
-    axes.legend(loc='upper left', fontsize='small')
+    if len(run.path):
+        axes.legend(loc='upper left', fontsize='small')
 
 
 def _list_goals(axes: Any, run: Run) -> None:

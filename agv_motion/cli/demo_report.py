@@ -16,8 +16,12 @@ if TYPE_CHECKING:
     from agv_motion.motion.zone import Zone
 
 
-READ = ('ground_truth', 'granier/sap_flow', 'turrets/command', 'turrets/residual', 'goal')
-"""Topics of the bag that the report needs, in the order of the fields of `Run`."""
+READ = {
+    'ground_truth': 3, 'granier/sap_flow': 4, 'turrets/command': 4, 'turrets/residual': 2,
+    'goal': 3,
+}  # fmt: skip
+"""Topics of the bag that the report needs, in the order of the fields of `Run`, and the columns
+of each, where nothing came."""
 
 
 WALKING = 'walking to '
@@ -84,7 +88,9 @@ def read_run(bag: Path, wheel_radius: float) -> Run:
                 rows[name].append((time, *_numbers(name, message, wheel_radius)))
             else:
                 maps[name] = _remembered(message)
-    columns = (np.array(rows[n], dtype=float).reshape(len(rows[n]), -1) for n in READ)
+    columns = (
+        np.array(rows[name] or np.empty((0, width)), dtype=float) for name, width in READ.items()
+    )
     path, flow, speeds, residual, goals = columns
     return Run(
         path, flow, speeds, residual, goals, _reasons(goals, states),
@@ -99,7 +105,7 @@ def _reasons(goals: NDArray[np.float64], states: list[tuple[float, str]]) -> lis
         for t, text in states
         if text.startswith(WALKING)
     ]
-    ends = [*(goal[0] for goal in goals[1:]), np.inf]
+    ends = [*(goal[0] for goal in goals[1:]), np.inf][: len(goals)]
     return [
         next((text for t, text in walking if goal[0] - 1.0 < t < end), '')
         for goal, end in zip(goals, ends, strict=True)

@@ -5,12 +5,18 @@ from __future__ import annotations
 import signal
 import time
 
+import numpy as np
 import pytest
 
 pytest.importorskip('rclpy')
 
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
+
+from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.demo_figure import draw
+from agv_motion.cli.demo_report import Outcome, read_run, summary
+from agv_motion.motion.zone import Zone
 
 
 def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
@@ -48,8 +54,28 @@ def test_a_recording_without_probes_is_refused(alone, tmp_path):
 
 def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path):
     process = alone.start('demo', '--output', tmp_path)
-    time.sleep(6.0)
+    _wait_for_messages(tmp_path / 'bag')
     process.send_signal(signal.SIGINT)
     out, errors = process.communicate(timeout=30.0)
     assert process.returncode == 0, errors
     assert 'distance' in out
+
+
+def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp_path):
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/goal', 'geometry_msgs/msg/PoseStamped')
+    run = read_run(tmp_path / 'bag', 0.1)
+    zone = Zone([[0, 0], [4, 0], [4, 3], [0, 3]])
+    assert run.distance() == 0.0
+    outcome = Outcome(0.0, 0.0, np.empty(0), {})
+    assert summary(run, outcome, zone, 0.02).row_count > 4
+    draw(run, zone, 0.02, tmp_path / 'walk.png')
+    assert (tmp_path / 'walk.png').stat().st_size > 10_000
+
+
+def _wait_for_messages(bag):
+    """Wait until the walk has begun: its bag holds a chunk."""
+    end = time.monotonic() + 40.0
+    while not any(file.stat().st_size > 1000 for file in bag.glob('*.mcap')):
+        assert time.monotonic() < end, 'nothing is recorded'
+        time.sleep(0.1)
