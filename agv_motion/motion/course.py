@@ -66,9 +66,9 @@ class Course:
             self._planned_at = -inf
             self._from, self._rest = here, tuple(wanted[1].way(here, goal)[1:])
             self._planned_at, self._planned_for = time, wanted
-        target = self._waypoints.target((here, *self._rest))
-        if target != self._rest[0]:
-            self._from, self._rest = here, self._rest[self._rest.index(target) :]
+        reached = self._waypoints.reached(here, self._rest)
+        if reached:
+            self._from, self._rest = here, self._rest[reached:]
         return (here, *self._rest)
 
     def distance(self, here: Point, goal: Point) -> float:

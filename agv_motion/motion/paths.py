@@ -160,7 +160,7 @@ def _reflex(ring: shapely.LinearRing) -> Column:
 
 def length(way: Sequence[Point]) -> float:
     """Return the length of a way [m]."""
-    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(way))
+    return sum(_distance(a, b) for a, b in pairwise(way))
 
 
 class Waypoints:
@@ -179,12 +179,36 @@ class Waypoints:
         self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0))
         shapely.prepare(self._floor)
 
-    def target(self, way: Sequence[Point]) -> Point:
-        """Return the first corner of ``way`` not yet reached from its start."""
-        x, y = way[0]
-        for corner, following in pairwise(way[1:]):
-            if hypot(corner[0] - x, corner[1] - y) > self._reach or not shapely.covers(
-                self._floor, LineString([(x, y), following])
-            ):
-                return corner
-        return way[-1]
+    def reached(self, place: Point, corners: Sequence[Point]) -> int:
+        """Return how many of ``corners``, all ahead of ``place`` [m], count as reached."""
+        for i, (corner, following) in enumerate(pairwise(corners)):
+            if _distance(place, corner) > self._reach or not self._leads(place, following):
+                return i
+        return len(corners) - 1
+
+    def ahead(self, place: Point, way: Sequence[Point]) -> tuple[Point, ...]:
+        """Return the points to go to, each straight, so as to keep to a way that one may be off.
+
+        Args:
+            place: Where the platform is, in the map [m].
+            way: The rest of its way, from the point nearest to ``place`` on [m].
+
+        Returns:
+            The corners not yet reached; where something stands before the next one, a point of
+            the way ``reach`` ahead comes first.
+
+        """
+        start, corners = way[0], tuple(way[1:] or way)
+        corners = corners[self.reached(place, corners) :]
+        away = _distance(start, corners[0])
+        if away <= self._reach or self._leads(place, corners[0]):
+            return corners
+        (x, y), share = corners[0], self._reach / away
+        return (start[0] + share * (x - start[0]), start[1] + share * (y - start[1])), *corners
+
+    def _leads(self, place: Point, to: Point) -> bool:
+        return bool(shapely.covers(self._floor, LineString([place, to])))
+
+
+def _distance(a: Point, b: Point) -> float:
+    return hypot(b[0] - a[0], b[1] - a[1])

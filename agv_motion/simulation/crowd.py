@@ -192,7 +192,9 @@ def grid(zone: Zone, spacing: float) -> NDArray[np.float64]:
 
 
 def scattered(zone: Zone, count: int, clearance: float, chance: random.Random) -> list[Point]:
-    """Return ``count`` places that keep ``clearance`` [m] and leave the rest in one piece.
+    """Return ``count`` places that keep ``clearance`` [m] and block no way.
+
+    When all but one of the trees stand at these places, that one can go everywhere else.
 
     Raises:
         GeometryError: Chance finds none.
@@ -201,11 +203,15 @@ def scattered(zone: Zone, count: int, clearance: float, chance: random.Random) -
     candidates = grid(zone, 0.5)
     for _ in range(1000):
         places = [candidates[chance.randrange(len(candidates))] for _ in range(count)]
-        points = shapely.MultiPoint(places)
+        discs = shapely.buffer(shapely.points(places), clearance)
         away = shapely.distance(*np.meshgrid(shapely.points(places), shapely.points(places)))
         np.fill_diagonal(away, inf)
-        rest = zone.parts[0].difference(points.buffer(clearance))
-        if away.min() > clearance + 0.1 and isinstance(rest, shapely.Polygon):
+        if away.min() > clearance + 0.1 and all(
+            isinstance(
+                zone.parts[0].difference(shapely.union_all(np.delete(discs, i))), shapely.Polygon
+            )
+            for i in range(count)
+        ):
             return [(float(x), float(y)) for x, y in places]
     msg = f'{count} trees do not fit into this zone with {clearance:.2f} m between them'
     raise GeometryError(msg)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import shapely
 
 from agv_motion.motion.goals import GoalParameters
+from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.paths import Paths
 from agv_motion.motion.polar import LINEAR_SPEED, STILL, to_twist
@@ -166,8 +167,8 @@ class Season:
         self._needed = given.traffic.body if self.zone.margin > given.traffic.body else 0.0
         self._deep_inside = self.zone.floor.buffer(-self.zone.margin)
         shapely.prepare(self._deep_inside)
-        clearance = 2.0 * given.traffic.radius
-        homes = scattered(self.zone, given.trees, clearance + 0.2, chance)
+        clearance = 2.0 * given.traffic.radius + HomeParameters().arrival + 0.1
+        homes = scattered(self.zone, given.trees, clearance, chance)
         self._obstacles = _obstacles(self.zone, chance)
         paths = Paths(self.zone)
         names = [f'tree_{i}' for i in range(given.trees)]

@@ -88,7 +88,7 @@ ZONES: dict[str, Callable[[random.Random], Plan]] = {
     'house': house,
 }
 
-MOST_TREES = {'square': 5, 'garden': 3, 'hall': 2, 'rooms': 2, 'house': 3}
+MOST_TREES = {'square': 5, 'garden': 3, 'hall': 2, 'rooms': 2, 'house': 2}
 """How many trees a zone of each kind gets at the most."""
 
 

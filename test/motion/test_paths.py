@@ -85,14 +85,27 @@ def test_a_goal_behind_too_narrow_a_passage_is_refused():
 
 def test_a_corner_is_skipped_when_near_and_the_next_can_be_seen():
     waypoints = Waypoints(AROUND, reach=0.3, slack=0.1)
-    assert waypoints.target([(1.0, 1.0), (1.1, 1.0), (2.0, 1.0), (5.0, 2.0)]) == (2.0, 1.0)
-    assert waypoints.target([(1.0, 1.0), (1.1, 1.0)]) == (1.1, 1.0)
+    way = [(1.0, 1.0), (1.1, 1.0), (2.0, 1.0), (5.0, 2.0)]
+    assert waypoints.reached(way[0], way[1:]) == 1
+    assert waypoints.ahead(way[0], way) == tuple(way[2:])
+    assert waypoints.ahead((1.0, 1.0), [(1.0, 1.0), (1.1, 1.0)]) == ((1.1, 1.0),)
+    assert waypoints.ahead((1.0, 1.0), [(1.1, 1.0)]) == ((1.1, 1.0),)
 
 
 def test_a_near_corner_is_not_cut_by_more_than_the_slack():
     """0.29 m before the end of the wall, the line to the other side would pass through it."""
     way = [(4.3, 8.21), (4.4, 8.5), (5.6, 8.5), (8.0, 1.0)]
-    assert Waypoints(ALONG, reach=0.31, slack=0.1).target(way) == (4.4, 8.5)
+    waypoints = Waypoints(ALONG, reach=0.31, slack=0.1)
+    assert waypoints.reached(way[0], way[1:]) == 0
+    assert waypoints.ahead(way[0], way) == tuple(way[1:])
+
+
+def test_off_the_way_behind_an_edge_one_goes_back_to_the_way_first():
+    """A metre beside the way, the wall stands before its corner: not straight there."""
+    waypoints = Waypoints(ALONG, reach=0.3, slack=0.02)
+    way = [(4.4, 8.0), (4.4, 9.0), (8.0, 9.0)]
+    assert waypoints.ahead((4.4, 8.0), way) == tuple(way[1:])
+    assert waypoints.ahead((4.8, 8.0), way) == ((4.4, pytest.approx(8.3)), *way[1:])
 
 
 ROOMS = Zone(
@@ -108,7 +121,7 @@ ROOMS = Zone(
 
 def test_through_a_narrow_door():
     way = Paths(ROOMS).way((2.0, 2.0), (10.0, 2.0))
-    floor = ROOMS.floor.buffer(-1.18 * 0.98)  # arcs round corners are polygons: 2 % nearer
+    floor = ROOMS.floor.buffer(-1.18 * 0.995)  # arcs round corners are polygons
     assert floor.covers(shapely.LineString(way))
     assert any(4.4 < y < 4.8 and 4.7 < x < 7.3 for x, y in way)
 

@@ -1,13 +1,15 @@
 """One tree among others: which way it takes, when it waits, and when it gives way.
 
 Safety is the matter of :class:`RightOfWay`; what is here only decides what to ask for, so a defect
-here can cost time but no bark. Four habits let all go on:
+here can cost time but no bark. Five habits let all go on:
 
 - Who set out first goes first; the others keep off the next metres of its way.
 - Who cannot go on takes a way round what the others hold.
 - Who cannot go on and stands in the way of one that goes first walks to a refuge, and out of a
   narrow passage backwards if need be.
 - Who is blocked for long looks for another goal, and is then the youngest.
+- Who goes first, yet is blocked for longer still, and has only that goal, becomes the youngest:
+  where the others found no refuge, it may.
 
 The oldest journey has everybody's way out of it, and each journey becomes the oldest.
 """
@@ -21,22 +23,20 @@ import numpy as np
 import shapely
 
 from agv_motion.errors import GeometryError
+from agv_motion.motion.paths import Waypoints
 from agv_motion.motion.traffic.claim import IDLE, Claim, apart
 from agv_motion.motion.traffic.detour import free_floor, refuge, taken, way_round
+from agv_motion.motion.traffic.needs import COURTESY, Needs
 from agv_motion.motion.traffic.polyline import Way, cut, joined, length, line, nearest
 from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
 
 if TYPE_CHECKING:
     from agv_motion.motion.paths import Paths
-    from agv_motion.motion.traffic.peers import Peer
     from agv_motion.motion.traffic.polyline import Point
     from agv_motion.motion.zone import Zone
 
 STRETCH = 1.0
 """[m] asked for at a time, and held ahead: a minute's walk at the most."""
-
-COURTESY = 4.0
-"""[m] of the way of who goes first that the others keep off."""
 
 ARRIVED = 0.05
 """[m] The end of what is held counts as reached from here."""
@@ -47,8 +47,11 @@ STUCK = 5.0
 LONG_WAY = 60.0
 """[s] A way round of more than twice the length is taken only when stuck for so long."""
 
-SAMPLE = 0.1
-"""[m] between the places at which a way is tested for how far it is free."""
+CORNER = 0.3
+"""[m] A corner counts as reached from here ..."""
+
+SLACK = 0.02
+"""[m] ... unless the short cut would cut so deep into the margin."""
 
 
 class Passage(NamedTuple):
@@ -76,8 +79,9 @@ class Traffic:
             paths: The ways in it.
 
         """
-        self.right = right
+        self.right, self._needs = right, Needs(right)
         self._zone, self._paths = zone, paths
+        self._waypoints = Waypoints(zone, CORNER, SLACK)
         self._goal: Point | None = None
         self._route: Way = ()
         self._after_piece: Way = ()
@@ -105,7 +109,7 @@ class Traffic:
         """
         right = self.right
         along = self._track(place)
-        if goal != self._goal:
+        if goal != self._goal or self._has_waited(now):
             self._set_out(goal, along, now)
             along = 0.0
         self._settle(now)
@@ -119,7 +123,7 @@ class Traffic:
         if not right.asked and ahead < STRETCH:
             self._ask()
             self._settle(now)
-        way = joined(cut(right.held, along + ARRIVED)[1][1:], self._route)
+        way = joined(self._waypoints.ahead(place, cut(right.held, along)[1]), self._route)
         blocked = stuck if goal is not None else 0.0
         if right.ahead - along <= ARRIVED:
             return Passage(None, self._reason, blocked, way)
@@ -138,12 +142,12 @@ class Traffic:
 
     def occupied(self) -> shapely.Geometry:
         """Return the floor that others hold or ask for, with the clearance to keep from it."""
-        return taken(self._needs_of_all(wishes=False))
+        return taken(self._needs.of_all(wishes=False))
 
     def closed(self) -> shapely.Geometry:
         """Return the floor on which no goal makes sense now: occupied, or left to a silent tree."""
         sides = [
-            peer.sides.closed(self._zone.bounds, self._clearance(peer))
+            peer.sides.closed(self._zone.bounds, self._needs.clearance(peer))
             for peer in self.right.peers
             if peer.sides is not None
         ]
@@ -177,14 +181,21 @@ class Traffic:
         self._let_go(along)
         self.right.set_out(IDLE if goal is None else round(now * 1e9))
         self._goal, self._going_at, self._planned_at = goal, now, now
-        self._reason = ''
+        self._reason, self._needs.courtesy = '', COURTESY
         self._plan()
+
+    def _has_waited(self, now: float) -> bool:
+        """Return whether those who go after this tree have had time to get out of its way."""
+        begun = self._needs.last_begun()
+        if begun is None:
+            return False
+        return now - max(begun, self._going_at) > 2.0 * self.right.parameters.patience
 
     def _plan(self) -> None:
         """Take the shortest way, unless it leads past a tree that stands there."""
         self._go_direct()
         way = line(self._route)
-        if not all(apart(way, *need) for need in self._needs_of_all(standing=True)):
+        if not all(apart(way, *need) for need in self._needs.of_all(standing=True)):
             self._take_way_round(length(self._route))
 
     def _plan_again(self, along: float, stuck: float, now: float) -> None:
@@ -212,7 +223,7 @@ class Traffic:
         if self._goal is None:
             return False
         place = self.right.held[0]
-        floor = free_floor(self._zone, place, taken(self._needs_of_all()))
+        floor = free_floor(self._zone, place, taken(self._needs.of_all()))
         if floor is None:
             return False
         way = way_round(self._zone, place, self._goal, floor, near=0.8)
@@ -225,17 +236,17 @@ class Traffic:
         """Walk to a refuge if the tree stands in the way of one that goes first; return whether."""
         place = self.right.held[0]
         here = shapely.Point(place)
-        first = [peer for peer in self.right.peers if self._goes_first(peer)]
-        if all(apart(here, p.claim.wish_line, self._clearance(p)) for p in first):
+        if all(apart(here, *wish) for wish in self._needs.wishes(np.inf, 0.0)):
             return False
         floor = free_floor(self._zone, place, self.occupied())
         if floor is None:
             return False
         for reach in (np.inf, COURTESY):
-            wished = taken((line(cut(p.claim.wish, reach)[0]), self._clearance(p)) for p in first)
+            wished = taken(self._needs.wishes(reach, 2.0 * ARRIVED))
             way = refuge(self._zone, place, floor, wished)
             if way is not None:
                 self._route, self._yielding = way, True
+                self._needs.courtesy = np.inf
                 return True
         return False
 
@@ -245,7 +256,9 @@ class Traffic:
         """Ask for the next stretch of the route, as far as it is free by all that is known."""
         if len(self._route) < 2:
             return
-        piece, blocker = self._free(cut(self._route, STRETCH)[0])
+        piece, blocker = self._needs.leave(
+            cut(self._route, STRETCH)[0], ARRIVED, wishes=not self._yielding
+        )
         if length(piece) > ARRIVED:
             self._after_piece = cut(self._route, length(piece))[1]
             self.right.ask(piece)
@@ -264,54 +277,3 @@ class Traffic:
             self._reason = str(verdict)
             if verdict.answer is Answer.TAKEN:
                 right.withdraw()
-
-    def _free(self, piece: Way) -> tuple[Way, str]:
-        """Return how much of ``piece`` keeps clear of all others, and who is in the way."""
-        blocker = ''
-        for peer in self.right.peers:
-            for way, clearance in self._needs(peer, wishes=not self._yielding):
-                if len(piece) > 1 and not apart(line(piece), way, clearance):
-                    piece, blocker = _prefix(piece, way, clearance), peer.claim.name
-        return piece, blocker
-
-    def _needs_of_all(
-        self, *, wishes: bool = True, standing: bool = False
-    ) -> list[tuple[shapely.Geometry, float]]:
-        """Return the ways that others need, each with the clearance to keep from it."""
-        return [
-            need
-            for peer in self.right.peers
-            if not standing or not peer.claim.asked
-            for need in self._needs(peer, wishes=wishes)
-        ]
-
-    def _needs(self, peer: Peer, *, wishes: bool) -> list[tuple[shapely.Geometry, float]]:
-        claim, clearance = peer.claim, self._clearance(peer)
-        needs = [(claim.held_line, clearance)]
-        if claim.asked and (not wishes or self._goes_first(peer)):
-            needs.append((claim.asked_line, clearance))
-        if wishes and claim.wish and self._goes_first(peer):
-            needs.append((line(cut(claim.wish, COURTESY)[0]), clearance))
-        return needs
-
-    def _goes_first(self, peer: Peer) -> bool:
-        return peer.claim.precedence < self.right.precedence
-
-    def _clearance(self, peer: Peer) -> float:
-        return self.right.radius + peer.claim.radius
-
-
-def _prefix(piece: Way, way: shapely.Geometry, clearance: float) -> Way:
-    """Return ``piece`` up to where it comes too near to ``way``, or nearer than it begins."""
-    count = max(int(length(piece) / SAMPLE) + 1, 2)
-    share = np.linspace(0.0, 1.0, count)
-    places = shapely.line_interpolate_point(line(piece), share, normalized=True)
-    away = shapely.distance(places, way)
-    bad = np.flatnonzero(away < min(clearance, float(away[0])))
-    upto = length(piece) * float(share[bad[0] - 1]) if len(bad) else length(piece)
-    while upto > ARRIVED:
-        short = cut(piece, upto)[0]
-        if apart(line(short), way, min(clearance, float(away[0]))):
-            return short
-        upto /= 2.0
-    return piece[:1]

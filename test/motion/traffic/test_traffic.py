@@ -1,0 +1,109 @@
+"""Which way a tree takes among others, when it waits, and when it gives way."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import dist
+
+import pytest
+
+from agv_motion.motion.paths import Paths
+from agv_motion.motion.traffic.claim import Claim
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.motion.zone import Zone
+
+PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
+CLEARANCE = 2.0
+"""[m] twice 0.7 + 0.2 + 0.2 / 2"""
+HALL = Zone([[0, 0], [30, 0], [30, 20], [0, 20]], margin=1.0)
+CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
+
+
+def tree(name, x, y, zone=HALL):
+    return Traffic(RightOfWay(name, (x, y), PARAMETERS), zone, Paths(zone))
+
+
+def other(now, *held, **rest):
+    """Return what `ash` says, which has heard all there is to hear."""
+    return Claim('ash', round(now * 1e9), 1.0, held, heard={'oak': 10**18}, **rest)
+
+
+def walk(oak, goal, seconds, ash=lambda now: None, start=0):
+    """Let a tree walk 5 cm a second, and hear what ``ash`` says; return where it comes by."""
+    place = oak.right.held[0]
+    places = [place]
+    for now in range(start, start + seconds):
+        word = ash(now)
+        if word is not None:
+            oak.hear(word, now)
+        oak.claim(now)
+        target = oak.towards(goal, place, now).target
+        if target is not None and (away := dist(place, target)) > 0.0:
+            share = min(0.05 / away, 1.0)
+            place = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
+        places.append(place)
+    return places
+
+
+def test_alone_it_walks_straight_to_its_goal():
+    places = walk(tree('oak', 2.0, 5.0), (10.0, 5.0), 200)
+    assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
+    assert all(y == pytest.approx(5.0) for _, y in places)
+
+
+def test_it_goes_round_one_that_stands_in_its_way():
+    ash = (6.0, 5.0)
+    places = walk(tree('oak', 2.0, 5.0), (10.0, 5.0), 400, ash=lambda now: other(now, ash))
+    assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
+    assert min(dist(place, ash) for place in places) >= CLEARANCE - PARAMETERS.tolerance
+    assert sum(dist(a, b) for a, b in pairwise(places)) < 11.0
+
+
+def test_in_a_corridor_it_waits_and_says_for_whom():
+    oak = tree('oak', 2.0, 1.25, CORRIDOR)
+    places = walk(oak, (20.0, 1.25), 300, ash=lambda now: other(now, (10.0, 1.25)))
+    assert dist(places[-1], (10.0, 1.25)) >= CLEARANCE
+    passage = oak.towards((20.0, 1.25), places[-1], 300.0)
+    assert passage.target is None
+    assert passage.reason == 'waits for ash'
+    assert passage.blocked > 100.0
+
+
+@pytest.mark.parametrize('silent', [False, True])
+def test_courtesy_leaves_the_way_to_who_goes_first_while_it_speaks(silent):
+    """A tree that fell silent may never walk the way that it meant to go."""
+
+    def ash(now):
+        if silent and now > 10:
+            return None
+        return other(now, (6.0, 10.0), journey=-1, wish=((6.0, 10.0), (6.0, 5.0)))
+
+    places = walk(tree('oak', 2.0, 5.0), (6.0, 5.0), 500, ash)
+    assert (dist(places[-1], (6.0, 5.0)) < 0.1) is silent
+
+
+def test_who_stands_in_the_way_of_one_that_goes_first_walks_out_of_it():
+    """In the corridor the only refuge lies behind, beyond where the other goes; there it waits."""
+
+    def ash(now):
+        return other(now, (6.0, 1.25), journey=-1, wish=((6.0, 1.25), (14.0, 1.25)))
+
+    places = walk(tree('oak', 10.0, 1.25, CORRIDOR), (2.0, 1.25), 600, ash)
+    assert places[-1][0] == pytest.approx(14.0 + CLEARANCE, abs=0.11)
+
+
+def test_who_goes_first_but_is_blocked_for_long_becomes_the_youngest():
+    """The other found no refuge: let this one look for one."""
+    oak = tree('oak', 10.0, 1.25, CORRIDOR)
+
+    def ash(now):
+        return other(now, (6.0, 1.25), journey=2 * 10**9, wish=((6.0, 1.25), (14.0, 1.25)))
+
+    places = walk(oak, (2.0, 1.25), 250, ash)
+    assert oak.right.journey == 0
+    assert places[-1][0] == pytest.approx(8.0, abs=0.1)
+    places = walk(oak, (2.0, 1.25), 600, ash, start=250)
+    assert oak.right.journey > 2 * 10**9
+    assert places[-1][0] == pytest.approx(14.0 + CLEARANCE, abs=0.11)
