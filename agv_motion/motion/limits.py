@@ -78,6 +78,9 @@ class Limited(NamedTuple):
     """names of the limits in force"""
 
 
+STOP = Limited(STILL, ())
+
+
 class Limits:
     """All limits, in their order."""
 
@@ -120,10 +123,11 @@ class Limits:
 
     def stop(self) -> Limited:
         """Return a stop, which no limit delays."""
-        for limit in self._limits:
-            limit.stop()
-        self._last = STILL
-        return Limited(STILL, ())
+        if self._last is not STILL:
+            for limit in self._limits:
+                limit.stop()
+            self._last = STILL
+        return STOP
 
 
 class MinimumSpeed:

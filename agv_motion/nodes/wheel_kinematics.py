@@ -233,10 +233,12 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _is_lost(self, plan: SteeringState) -> bool:
         """Return whether a turret stands elsewhere than the plan has it, and nothing moves."""
-        return not any(plan.rates) and any(
-            abs(told - seen) > LOST_TURRET
-            for told, seen in zip(plan.angles, self._seen(plan), strict=True)
-        )
+        if self._measured is None or any(plan.rates):
+            return False
+        for told, seen in zip(plan.angles, self._measured, strict=True):
+            if abs(wrap(seen - told)) > LOST_TURRET:
+                return True
+        return False
 
     def _wants_unwinding(self, plan: SteeringState) -> bool:
         after = self.parameters.unwind_after
@@ -247,7 +249,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         plan = self._plan
         if plan is None:
             return
-        share = alignment(plan.angles, self._measured) if self._measured else 1.0
+        share = alignment(plan.angles, self._measured) if plan.speed and self._measured else 1.0
         factor = share / self.parameters.wheel_radius
         rates = [factor * speed for speed in plan.speeds]
         angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]

@@ -101,7 +101,8 @@ class World:
             heapq.heapreplace(timers, (due + timer.period, order, timer))
             self.now = due
             timer.callback()
-            self._pass_on()
+            if self._waiting:
+                self._pass_on()
 
     def inputs(self) -> set[str]:
         """Return the topics that have to come from outside: no other node publishes them."""
