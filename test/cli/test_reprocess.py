@@ -86,9 +86,12 @@ def test_what_was_decided_is_decided_again(recorded, tmp_path):
         )
 
 
-def test_states_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch):
+@pytest.mark.parametrize('plain', [[WheelKinematics], [MotionGenerator, WheelKinematics]])
+def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch, plain):
     reprocess(recorded / 'a', tmp_path / 'together' / 'out', PLAN)
-    monkeypatch.setitem(RECORDED, 'wheel_kinematics', WheelKinematics)
+    for kind in plain:
+        name = 'motion_generator' if kind is MotionGenerator else 'wheel_kinematics'
+        monkeypatch.setitem(RECORDED, name, kind)
     reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
     assert content(tmp_path / 'together') == content(tmp_path / 'apart')
 

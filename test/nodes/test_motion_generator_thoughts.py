@@ -1,0 +1,82 @@
+"""When the motion node thinks: at once when something is new, and of the hour within a second."""
+
+from __future__ import annotations
+
+from datetime import datetime, timezone
+
+import pytest
+
+pytest.importorskip('rclpy')
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, Vector3, Vector3Stamped
+
+from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.ros.cdr import codec
+from agv_motion.ros.in_process import add
+from agv_motion.ros.world import World
+
+SECOND = 1_000_000_000
+CLOSING = int(datetime(2015, 6, 15, 18, 0, tzinfo=timezone.utc).timestamp()) * SECOND
+SILENT = {'report_after': 100.0, 'stop_after': 100.0}
+FIXED = {'goals.strategy': 'fixed', 'goal': (9.0, 0.0)}
+
+
+class Tree:
+    """A motion node in a world of its own, and what it said [s since the beginning]."""
+
+    def __init__(self, start, **given):
+        self.states, self.twists, self.start = [], [], start
+        self.world = World(self.record, start)
+        add(self.world, MotionGenerator, SILENT | FIXED | given, {})
+        self.world.start()
+
+    def record(self, publisher, stamp, data):
+        message, seconds = codec(publisher.kind).decode(data), (stamp - self.start) / SECOND
+        if publisher.topic == '/state':
+            self.states.append((seconds, message.data))
+        elif publisher.topic == '/cmd_vel':
+            linear = message.twist.linear
+            self.twists.append((seconds, linear.x, linear.y))
+
+    def feed(self, seconds, y=0.0, flow=1.0):
+        pose, sap = PoseWithCovarianceStamped(), Vector3Stamped()
+        pose.pose.pose.position.y, sap.vector = y, Vector3(x=flow, y=0.5, z=0.5)
+        for topic, message in (('/pose', pose), ('/granier/sap_flow', sap)):
+            stamp = self.start + int(seconds * SECOND)
+            self.world.feed(topic, stamp, codec(type(message)).encode(message))
+
+
+def test_the_closing_hour_is_noticed_though_nothing_is_new():
+    hours = {'schedule.enabled': True, 'schedule.time_zone': 'UTC'}
+    tree = Tree(CLOSING - 10 * SECOND, **hours)
+    tree.feed(0.05)
+    tree.world.run(CLOSING + 2 * SECOND)
+    (walked, walking), (rested, resting) = tree.states[-2:]
+    assert 'walking' in walking
+    assert walked <= 0.1
+    assert 'resting: closed' in resting
+    assert 10.0 <= rested <= 11.1
+
+
+def test_a_new_pose_and_a_new_flow_count_at_once():
+    tree = Tree(CLOSING)
+    tree.feed(0.05)
+    tree.feed(0.35, y=9.0)
+    tree.feed(0.55, y=9.0, flow=0.0)
+    tree.world.run(CLOSING + SECOND)
+    straight = [(x, y) for t, x, y in tree.twists if 0.05 < t < 0.35]
+    aside = [(x, y) for t, x, y in tree.twists if 0.35 <= t < 0.55]
+    assert straight
+    assert all(x > 0.0 and y == pytest.approx(0.0) for x, y in straight)
+    assert len(aside) == 3
+    assert all(y == pytest.approx(-x) for x, y in aside)
+    assert all(x > 0.0 for x, _ in aside)
+    assert tree.twists[-1][1:] == (0.0, 0.0)
+
+
+def test_commands_go_on_between_thoughts():
+    tree = Tree(CLOSING)
+    tree.feed(0.05)
+    tree.world.run(CLOSING + 5 * SECOND)
+    assert len(tree.twists) >= 50
+    assert all(x > 0.0 for t, x, _ in tree.twists if t > 0.05)
