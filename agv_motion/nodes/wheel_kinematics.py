@@ -259,7 +259,6 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
 
     def _tell_turrets(self, angles: list[float], rates: list[float]) -> None:
-        self.stamp(self._message)
         self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)
 

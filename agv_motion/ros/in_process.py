@@ -170,6 +170,12 @@ def _seconds(node: InProcessNode) -> float:
     return float(node.world.now) * 1e-9
 
 
+def _stamp(node: InProcessNode, message: Any) -> None:
+    """Set the stamp of a message's header to the time of the world."""
+    stamp = message.header.stamp
+    stamp.sec, stamp.nanosec = divmod(node.world.now, 1_000_000_000)
+
+
 def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
     """Return the class of nodes of ``kind`` that live in a :class:`World`."""
     return type(
@@ -178,6 +184,7 @@ def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
         {
             # what nodes ask most often, without an object for each answer
             'seconds': _seconds,
+            'stamp': _stamp,
             # ManagedNode measures silence for diagnostics with a steady clock of its own, and
             # publishes them every second of it; here there is one clock, and nobody to look
             '_steady': property(InProcessNode.get_clock, lambda *_: None),
