@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 from typing import Annotated, Any
@@ -41,6 +42,8 @@ def demo(
     agv demo
     agv demo --probes spruce.csv --days 7
     """
+    # what drives a simulated robot must never reach a real one on the network
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     if context.invoked_subcommand:
         return
     from agv_motion.cli.demo_graph import DemoGraph

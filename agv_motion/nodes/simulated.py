@@ -17,7 +17,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
-from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import SENSOR
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -105,7 +105,7 @@ class SimulatedNode(ManagedNode[P]):
     def open(self) -> None:
         """Put the robot at its start, and open the topics."""
         given = self.parameters
-        self._paused = False
+        self._paused, self._clocks = False, 1
         self._put_at_start()
         self._truth = self.publisher(Odometry, 'ground_truth', SENSOR)
         self.serve(SetBool, '~/pause', self._on_pause)
@@ -116,11 +116,15 @@ class SimulatedNode(ManagedNode[P]):
             return
         self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
         period = 1.0 / (given.rate * given.time_factor)
-        self.every(period, self._lead, Clock(clock_type=ClockType.STEADY_TIME))
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.every(period, self._lead, steady)
+        self.every(1.0, self._watch_clocks, steady)
 
     def diagnose(self) -> Diagnosis:
         """Tell the simulated time."""
         level, word = (WARN, 'paused') if self._paused else (OK, 'running')
+        if self._clocks > 1:
+            level, word = ERROR, f'{self._clocks} nodes tell the time on /clock'
         time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
         return Diagnosis(level, word, {'simulated time': time})
 
@@ -158,6 +162,16 @@ class SimulatedNode(ManagedNode[P]):
     def _nanoseconds(self, steps: int) -> int:
         """Return the time after so many steps, since 1970 [ns]."""
         return self._start + round(steps * 1e9 / self.parameters.rate)
+
+    def _watch_clocks(self) -> None:
+        """Tell when another node makes time pass as well: it would leap to and fro."""
+        self._clocks = self.count_publishers('/clock')
+        if self._clocks > 1:
+            self.get_logger().error(
+                f'{self._clocks} nodes tell the time on /clock, which leaps to and fro: let all '
+                'simulators but one follow (clock: follow), or choose another ROS_DOMAIN_ID',
+                throttle_duration_sec=10.0,
+            )
 
     def _lead(self) -> None:
         """Let one step of simulated time pass, and tell it."""
