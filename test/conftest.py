@@ -35,7 +35,7 @@ class Graph:
         self.executor.add_node(node)
         return node
 
-    def spin_until(self, condition, timeout=20.0):
+    def spin_until(self, condition, timeout=60.0):
         """Spin until ``condition()``; fail after ``timeout`` seconds."""
         end = time.monotonic() + timeout
         while not condition():

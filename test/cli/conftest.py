@@ -22,7 +22,7 @@ class Agv:
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options,
         )  # fmt: skip
 
-    def __call__(self, *arguments, interrupt_after=0.0, timeout=20.0):
+    def __call__(self, *arguments, interrupt_after=0.0, timeout=60.0):
         """Return exit status, output and errors of the command."""
         process = self.start(*arguments)
         if self.graph is not None:

@@ -56,7 +56,7 @@ def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path):
     process = alone.start('demo', '--output', tmp_path)
     _wait_for_messages(tmp_path / 'bag')
     process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=30.0)
+    out, errors = process.communicate(timeout=60.0)
     assert process.returncode == 0, errors
     assert 'distance' in out
 

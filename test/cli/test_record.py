@@ -28,7 +28,7 @@ def test_until_ctrl_c_and_then_what_was_lost(agv, graph, publisher, tmp_path):
         time.sleep(0.0005)
     graph.spin_for(0.3)
     process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=20)
+    out, errors = process.communicate(timeout=60.0)
     assert process.returncode == 0, errors
     line = next(line for line in out.splitlines() if line.startswith('/number'))
     assert line.split()[1] == '500'

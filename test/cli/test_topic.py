@@ -22,7 +22,7 @@ def talker(alone):
     alone('topic', 'echo', '/chatter', '--once')
     yield process
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=10.0)
+    process.communicate(timeout=60.0)
 
 
 def test_list(alone, talker):
@@ -64,7 +64,7 @@ def test_echo_goes_on_until_interrupted(alone, talker):
     for _ in range(10):
         assert process.stdout.readline() in {'data: hello\n', '---\n'}
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=10.0)
+    process.communicate(timeout=60.0)
     assert process.returncode == 0
 
 

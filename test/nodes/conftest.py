@@ -57,7 +57,7 @@ class Tester:
         self.graph.spin_until(future.done)
         return future.result()
 
-    def wait(self, inbox, condition=lambda message: True, timeout=20.0):
+    def wait(self, inbox, condition=lambda message: True, timeout=60.0):
         """Return the first message in ``inbox`` that fulfils ``condition``."""
         self.graph.spin_until(lambda: any(map(condition, inbox)), timeout)
         return next(message for message in inbox if condition(message))

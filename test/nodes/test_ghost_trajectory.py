@@ -47,7 +47,7 @@ class Course:
         self.node = tester.start(GhostTrajectory, **(SWIFT | parameters))
         self.goal = tester.publisher(PoseStamped, 'goal_pose')
 
-    def says(self, words, timeout=20.0):
+    def says(self, words, timeout=60.0):
         return self.tester.wait(self.states, lambda m: words in m.data, timeout)
 
     def ask(self, service, data=None):

@@ -41,7 +41,7 @@ class Course:
             message.poses.append(pose)
         self.route.publish(message)
 
-    def says(self, words, timeout=20.0):
+    def says(self, words, timeout=60.0):
         return self.tester.wait(self.states, lambda m: words in m.data, timeout)
 
     def ask(self, service, data=None):

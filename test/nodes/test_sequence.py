@@ -46,7 +46,7 @@ class Mission:
             self.robot.find()
             tester.graph.spin_until(lambda: not self.node.lost)
 
-    def says(self, words, timeout=30.0):
+    def says(self, words, timeout=60.0):
         return self.tester.wait(self.states, lambda m: words in m.data, timeout)
 
     def ask(self, service, data=None):
