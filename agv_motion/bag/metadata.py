@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
+from agv_motion.bag.yaml_text import parse
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
@@ -77,7 +79,7 @@ def describe(
 
 def inside_mcap(description: str) -> str:
     """Return a description as rosbag2 repeats it inside an MCAP file."""
-    entries = yaml.safe_load(description)['rosbag2_bagfile_information']
+    entries = parse(description)['rosbag2_bagfile_information']
     return yaml.safe_dump(entries, sort_keys=False)
 
 

@@ -15,6 +15,7 @@ import yaml
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
+from agv_motion.bag.yaml_text import parse
 from agv_motion.cli.nodes import require_node
 from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.errors import AgvMotionError, ConfigurationError
@@ -195,7 +196,7 @@ def parameters(config: str, node: str) -> dict[str, Any]:
         return {}
     path = find_config(config)
     try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8')) or {}
+        content = parse(path.read_text(encoding='utf-8')) or {}
         values: dict[str, Any] = {}
         for pattern, section in content.items():
             if pattern == '/**' or pattern.rpartition('/')[2] == node:
