@@ -205,9 +205,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _step(self, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
-        self.stamp(self._message)  # a command is stamped with the instant it is planned for
-        now, plan = seconds_of(self._message.header.stamp), self._plan
-        period = 1.0 / self.parameters.rate
+        now = self.stamp(self._message)  # a command is stamped with the instant it is planned for
+        plan, period = self._plan, 1.0 / self.parameters.rate
         elapsed = period if self._planned_at is None else now - self._planned_at
         if plan is None or 0.0 <= elapsed <= soonest:
             return False

@@ -170,10 +170,11 @@ def _seconds(node: InProcessNode) -> float:
     return float(node.world.now) * 1e-9
 
 
-def _stamp(node: InProcessNode, message: Any) -> None:
-    """Set the stamp of a message's header to the time of the world."""
-    stamp = message.header.stamp
-    stamp.sec, stamp.nanosec = divmod(node.world.now, 1_000_000_000)
+def _stamp(node: InProcessNode, message: Any) -> float:
+    """Set the stamp of a message's header to the time of the world; return it [s]."""
+    stamp, now = message.header.stamp, node.world.now
+    stamp.sec, stamp.nanosec = divmod(now, 1_000_000_000)
+    return float(now) * 1e-9
 
 
 def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:

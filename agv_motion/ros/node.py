@@ -101,10 +101,11 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """Return the time of the node's clock [s], simulated where `use_sim_time` is set."""
         return float(self._now().nanoseconds) * 1e-9
 
-    def stamp(self, message: Any) -> None:
-        """Set the stamp of a message's header to now, without a new object on the hot path."""
-        stamp = message.header.stamp
-        stamp.sec, stamp.nanosec = divmod(self._now().nanoseconds, 1_000_000_000)
+    def stamp(self, message: Any) -> float:
+        """Set the stamp of a message's header to now, without a new object; return now [s]."""
+        stamp, now = message.header.stamp, self._now().nanoseconds
+        stamp.sec, stamp.nanosec = divmod(now, 1_000_000_000)
+        return float(now) * 1e-9
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
         """Return a publisher that lives until cleanup."""
