@@ -112,6 +112,10 @@ class InProcessNode(_Rclpy):
     def add_on_set_parameters_callback(self, _: Any) -> None:
         """Leave it: parameters stay as they are."""
 
+    def count_publishers(self, topic: str) -> int:
+        """Return how many speak on a topic."""
+        return len(self.world.publishers.get(self._full(topic), ()))
+
     def create_publisher(self, kind: type[Any], topic: str, qos: Any, **_: Any) -> Any:
         """Return a publisher in the world."""
         return Publisher(self, kind, self._full(topic), qos)
