@@ -118,9 +118,11 @@ def _lowest_within(way: Column, values: Column, reach: Column) -> Column:
     first = np.maximum(np.searchsorted(way, way - reach) - 1, 0)
     final = np.minimum(np.searchsorted(way, way + reach, side='right'), last)
     level = np.log2(final - first + 1).astype(int)
-    minima = [values]
-    for k in range(int(level.max())):
-        minima.append(np.minimum(minima[-1], np.roll(minima[-1], -(2**k))))
-    table = np.stack(minima)
+    table = np.empty((int(level.max()) + 1, len(values)))
+    table[0] = values
+    for k in range(1, len(table)):
+        half = 2 ** (k - 1)
+        np.minimum(table[k - 1, :-half], table[k - 1, half:], out=table[k, :-half])
+        table[k, -half:] = table[k - 1, -half:]
     lowest: Column = np.minimum(table[level, first], table[level, final + 1 - 2**level])
     return lowest
