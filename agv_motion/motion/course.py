@@ -6,7 +6,8 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.paths import Paths, Waypoints, length
+from agv_motion.motion.paths import Paths, Waypoints
+from agv_motion.motion.polyline import cut, length, nearest
 
 if TYPE_CHECKING:
     import shapely
@@ -20,22 +21,19 @@ PLAN_PERIOD = 1.0
 PLAN_LIFETIME = 60.0
 """[s] after which the way is looked for anew in any case."""
 
-OFF_COURSE = 0.05
-"""[m] from the line to the next corner: the way from here is another."""
-
 
 class Course:
     """The way to the goal, looked for now and then; and the ways that others leave free."""
 
     def __init__(self, zone: Zone, corner_reach: float, corner_slack: float) -> None:
         """Make the graph of all ways; see :class:`Waypoints` for the other two."""
+        self._zone, self._reach = zone, corner_reach
         self._all = Paths(zone)
         self._taken: shapely.Geometry | None = None
         self._free = self._all
         self._waypoints = Waypoints(zone, corner_reach, corner_slack)
         self._planned_at, self._planned_for = -inf, ((0.0, 0.0), self._all)
-        self._from: Point = (0.0, 0.0)
-        self._rest: tuple[Point, ...] = ()
+        self._way: tuple[Point, ...] = ((0.0, 0.0),)
 
     def free(self, avoid: shapely.Geometry | None = None) -> Paths:
         """Return the ways off what others need; worked out once for each area."""
@@ -58,18 +56,24 @@ class Course:
         """
         wanted = goal, self.free(avoid)
         age = time - self._planned_at
+        along, away = nearest(self._way, here)
         if (
             wanted != self._planned_for
             or not 0.0 <= age < PLAN_LIFETIME
-            or (age >= PLAN_PERIOD and _off(here, self._from, self._rest[0]) > OFF_COURSE)
+            or (age >= PLAN_PERIOD and away > self._reach)
         ):
             self._planned_at = -inf
-            self._from, self._rest = here, tuple(wanted[1].way(here, goal)[1:])
+            self._way = self._look(here, goal)
             self._planned_at, self._planned_for = time, wanted
-        reached = self._waypoints.reached(here, self._rest)
-        if reached:
-            self._from, self._rest = here, self._rest[reached:]
-        return (here, *self._rest)
+            along = 0.0
+        self._way = cut(self._way, along)[1]
+        return (here, *self._waypoints.ahead(here, self._way))
+
+    def _look(self, here: Point, goal: Point) -> tuple[Point, ...]:
+        """Return the way; a small step back into the margins is made on the way, not before."""
+        way = tuple(self._free.way(here, goal))
+        aside = hypot(way[1][0] - here[0], way[1][1] - here[1])
+        return way if aside > self._reach or self._zone.walkable(*here) else way[1:]
 
     def distance(self, here: Point, goal: Point) -> float:
         """Return the length of the way to ``goal`` past nobody [m]; 0 if there is none."""
@@ -77,12 +81,3 @@ class Course:
             return length(self._all.way(here, goal))
         except GeometryError:
             return 0.0
-
-
-def _off(here: Point, start: Point, end: Point) -> float:
-    """Return how far ``here`` is from the straight line from ``start`` to ``end`` [m]."""
-    x, y = end[0] - start[0], end[1] - start[1]
-    squared = x * x + y * y
-    along = (here[0] - start[0]) * x + (here[1] - start[1]) * y
-    share = min(max(along / squared, 0.0), 1.0) if squared > 0.0 else 0.0
-    return hypot(here[0] - start[0] - share * x, here[1] - start[1] - share * y)

@@ -158,11 +158,6 @@ def _reflex(ring: shapely.LinearRing) -> Column:
     return into
 
 
-def length(way: Sequence[Point]) -> float:
-    """Return the length of a way [m]."""
-    return sum(_distance(a, b) for a, b in pairwise(way))
-
-
 class Waypoints:
     """Which corner of a way to head for."""
 
@@ -175,7 +170,7 @@ class Waypoints:
             slack: ... unless skipping it would cut into the margin by more than this [m].
 
         """
-        self._reach = reach
+        self._reach, self._slack = reach, slack
         self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0))
         shapely.prepare(self._floor)
 
@@ -201,7 +196,8 @@ class Waypoints:
         start, corners = way[0], tuple(way[1:] or way)
         corners = corners[self.reached(place, corners) :]
         away = _distance(start, corners[0])
-        if away <= self._reach or self._leads(place, corners[0]):
+        off = _distance(place, start)
+        if away <= self._reach or off <= self._slack or self._leads(place, corners[0]):
             return corners
         (x, y), share = corners[0], self._reach / away
         return (start[0] + share * (x - start[0]), start[1] + share * (y - start[1])), *corners

@@ -18,7 +18,7 @@ from agv_motion.motion.traffic.claim import Claim
 from agv_motion.ros.messages import stamp_of
 
 if TYPE_CHECKING:
-    from agv_motion.motion.traffic.polyline import Way
+    from agv_motion.motion.polyline import Way
 
 HELD, ASKED, WISH = range(3)
 

@@ -27,7 +27,7 @@ from agv_motion.simulation.radio import Radio, RadioParameters
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.polyline import Point
     from agv_motion.motion.zone import Zone
 
 ARRIVAL = 1.0

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from agv_motion.motion.mind import Thought
-    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.polyline import Point
     from agv_motion.motion.zone import Zone
     from agv_motion.simulation.sun import Sun
 

@@ -13,7 +13,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.paths import TOLERANCE, Paths, Waypoints, length
+from agv_motion.motion.paths import TOLERANCE, Paths, Waypoints
+from agv_motion.motion.polyline import length
 from agv_motion.motion.zone import Zone
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]

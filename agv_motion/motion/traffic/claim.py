@@ -8,7 +8,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.traffic.polyline import Way, joined, line
+from agv_motion.motion.polyline import Way, joined, line
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

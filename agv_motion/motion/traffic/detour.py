@@ -10,12 +10,12 @@ from shapely import Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.paths import Paths
-from agv_motion.motion.traffic.polyline import Way, joined
+from agv_motion.motion.polyline import Way, joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.polyline import Point
     from agv_motion.motion.zone import Zone
 
 ROUNDING = 1e-6

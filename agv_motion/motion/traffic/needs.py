@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from agv_motion.motion.polyline import Way, cut, length, line
 from agv_motion.motion.traffic.claim import IDLE, apart
-from agv_motion.motion.traffic.polyline import Way, cut, length, line
 
 if TYPE_CHECKING:
     from agv_motion.motion.traffic.peers import Peer

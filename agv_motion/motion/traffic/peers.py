@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import shapely
 
+from agv_motion.motion.polyline import length, line
 from agv_motion.motion.traffic.claim import Claim, apart
-from agv_motion.motion.traffic.polyline import length, line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from agv_motion.motion.traffic.polyline import Way
+    from agv_motion.motion.polyline import Way
 
 STRIDE = 0.05
 """[m] between the places at which a way is tested against the border of two sides."""

@@ -31,15 +31,15 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import SignalError
+from agv_motion.motion.polyline import Way, cut, joined, length, line
 from agv_motion.motion.traffic.claim import IDLE, TOUCH, Claim, apart
 from agv_motion.motion.traffic.peers import Peer, Peers
-from agv_motion.motion.traffic.polyline import Way, cut, joined, length, line
 
 if TYPE_CHECKING:
     import shapely
 
+    from agv_motion.motion.polyline import Point
     from agv_motion.motion.traffic.parameters import TrafficParameters
-    from agv_motion.motion.traffic.polyline import Point
 
 
 class Answer(Enum):

@@ -24,15 +24,15 @@ import shapely
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.paths import Waypoints
+from agv_motion.motion.polyline import Way, cut, joined, length, line, nearest
 from agv_motion.motion.traffic.claim import IDLE, Claim, apart
 from agv_motion.motion.traffic.detour import free_floor, refuge, taken, way_round
 from agv_motion.motion.traffic.needs import COURTESY, Needs
-from agv_motion.motion.traffic.polyline import Way, cut, joined, length, line, nearest
 from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
 
 if TYPE_CHECKING:
     from agv_motion.motion.paths import Paths
-    from agv_motion.motion.traffic.polyline import Point
+    from agv_motion.motion.polyline import Point
     from agv_motion.motion.zone import Zone
 
 STRETCH = 1.0

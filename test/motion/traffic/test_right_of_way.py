@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
+from agv_motion.motion.polyline import line
 from agv_motion.motion.traffic.claim import Claim
 from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.traffic.peers import Sides
-from agv_motion.motion.traffic.polyline import line
 from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
 from agv_motion.simulation.radio import Radio, RadioParameters
 
