@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos
+from math import cos, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.planar import wrap
@@ -25,7 +25,9 @@ def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:
     """
     worst = 0.0
     for a, b in zip(angles, measured, strict=True):
-        error = abs(wrap(a - b))
+        error = abs(a - b)
+        if error > pi:
+            error = abs(wrap(a - b))
         if not error <= worst:  # also true when NaN
             worst = error
     return max(cos(worst), 0.0)

@@ -92,16 +92,16 @@ class Limits:
     @classmethod
     def of(cls, given: LimitParameters) -> Limits:
         """Return the limits that parameters ask for."""
-        return cls(
-            [
-                MinimumSpeed(given.minimum),
-                SlowPlace(),
-                TranslationOnly(),
-                VRate(given.v_rate or inf, given.v_jerk or inf),
-                OmegaRate(given.omega_rate or inf, given.omega_jerk or inf),
-                ThetaRate(given.theta_rate or inf),
-            ]
-        )
+        limits: list[Limit] = [SlowPlace(), TranslationOnly()]
+        if given.minimum:
+            limits.insert(0, MinimumSpeed(given.minimum))
+        if given.v_rate:
+            limits.append(VRate(given.v_rate, given.v_jerk or inf))
+        if given.omega_rate:
+            limits.append(OmegaRate(given.omega_rate, given.omega_jerk or inf))
+        if given.theta_rate:
+            limits.append(ThetaRate(given.theta_rate))
+        return cls(limits)
 
     def apply(self, wanted: PolarCommand, place: Place, dt: float) -> Limited:
         """Return what may be commanded ``dt`` [s] after the last command.

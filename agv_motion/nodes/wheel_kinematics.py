@@ -111,6 +111,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._plan: SteeringState | None = None
         self._zero = given.steering_zero or (0.0,) * len(self._turrets)
         self._planned_at: float | None = None
+        self._period = 1.0 / given.rate
         self._wanted = REST
         self._unwinding = False
         self._rested = 0.0
@@ -141,7 +142,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self.listen(JointState, 'turrets/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(Trigger, '~/unwind', self._on_unwind)
-        self.every(1.0 / given.rate, self._go_on)
+        self.every(self._period, self._go_on)
         self.every(0.1, self._watch)
 
     def halt(self) -> None:
@@ -200,13 +201,13 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         lost = self._watchdog.judge(self.seconds()) is Silence.LOST
         if lost and not self._unwinding:
             return  # _watch has stopped the wheels
-        if self._step(0.5 / self.parameters.rate):
+        if self._step(0.5 * self._period):
             self._send()
 
     def _step(self, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
         now = self.stamp(self._message)  # a command is stamped with the instant it is planned for
-        plan, period = self._plan, 1.0 / self.parameters.rate
+        plan, period = self._plan, self._period
         elapsed = period if self._planned_at is None else now - self._planned_at
         if plan is None or 0.0 <= elapsed <= soonest:
             return False
@@ -241,7 +242,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _wants_unwinding(self, plan: SteeringState) -> bool:
         after = self.parameters.unwind_after
-        return 0.0 < after < self._rested and any(abs(angle) > pi / 2.0 for angle in plan.angles)
+        turned = max(plan.angles) > pi / 2.0 or min(plan.angles) < -pi / 2.0
+        return turned and 0.0 < after < self._rested
 
     def _send(self) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
