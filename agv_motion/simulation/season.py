@@ -10,7 +10,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass, field
 from itertools import combinations
-from math import exp, hypot, inf, sqrt
+from math import hypot, inf
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import shapely
@@ -19,17 +19,16 @@ from agv_motion.motion.goals import GoalParameters
 from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.paths import Paths
-from agv_motion.motion.polar import LINEAR_SPEED, STILL, to_twist
 from agv_motion.motion.schedule import DAYS, ScheduleParameters
 from agv_motion.motion.traffic.company import Company
 from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.traffic.right_of_way import RightOfWay
 from agv_motion.motion.traffic.traffic import Traffic
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import Pose, integrate
 from agv_motion.simulation.crowd import scattered
 from agv_motion.simulation.radio import Radio, RadioParameters
-from agv_motion.simulation.sap import PERIOD, SapSense
+from agv_motion.simulation.sap import PERIOD
+from agv_motion.simulation.season_tree import SeasonTree
 from agv_motion.simulation.season_zones import MOST_TREES, plan_of
 from agv_motion.simulation.shade import Obstacle, light_factor
 from agv_motion.simulation.sun import sun
@@ -37,8 +36,6 @@ from agv_motion.simulation.sun import sun
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.motion.mind import Thought
-    from agv_motion.motion.polyline import Point
     from agv_motion.motion.zone import Zone
     from agv_motion.simulation.sun import Sun
 
@@ -51,12 +48,6 @@ OPEN = 8 * 3600.0
 """[s] of a day"""
 
 DAY = 86400.0
-
-STEPPED = 0.1
-"""[m] A tree that has moved so far does not stand."""
-
-ERROR_TIME = 300.0
-"""[s] over which the error of a position stays about the same."""
 
 
 @dataclass(frozen=True)
@@ -103,57 +94,6 @@ class Tally(NamedTuple):
     """share of the reachable floor the first tree has stood over, after each day"""
 
 
-class _Tree:
-    """One tree: truth, belief, sap, mind."""
-
-    def __init__(self, name: str, company: Company, place: Point, chance: random.Random) -> None:
-        self.name, self.company = name, company
-        self.pose = Pose(*place, chance.uniform(-3.0, 3.0))
-        self.sense = SapSense(chance.randrange(2**20))
-        self._chance = chance
-        self._error = (0.0, 0.0)
-        self.walked, self.goals, self.longest_stand = 0.0, 0, 0.0
-        self._anchor, self._moved_at = place, inf
-        self._goal: object = None
-
-    def live(
-        self, now: float, light: Callable[[float, float], float], given: SeasonParameters
-    ) -> bool:
-        """Feel, think and move for one step; return whether the tree moves."""
-        x, y, theta = self.pose
-        flow = self.sense.feel(now, light(x, y))
-        keep = exp(-given.step / ERROR_TIME)
-        fresh = given.error * sqrt(1.0 - keep * keep)
-        dx, dy = (keep * e + self._chance.gauss(0.0, fresh) for e in self._error)
-        shrink = min(3.0 * given.error / max(hypot(dx, dy), 1e-9), 1.0)
-        self._error = dx, dy = shrink * dx, shrink * dy
-        thought = self.company.think(now, Pose(x + dx, y + dy, theta), flow)
-        self._count(thought, now, flow.s1)
-        command = thought.wanted
-        if command == STILL:
-            return False
-        if len(thought.way) > 1:  # a step never leads past the corner it heads for
-            (ax, ay), (bx, by) = thought.way[:2]
-            most = hypot(bx - ax, by - ay) / (LINEAR_SPEED * given.step)
-            command = command._replace(v=min(command.v, most))
-        twist = to_twist(command)
-        self.pose = integrate(self.pose, twist, given.step)
-        self.walked += hypot(self.pose.x - x, self.pose.y - y)
-        return True
-
-    def _count(self, thought: Thought, now: float, speed: float) -> None:
-        """Count goals, and how long the tree has stood with somewhere to go."""
-        if thought.goal is not self._goal and thought.goal is not None:
-            self._goal = thought.goal
-            self.goals += thought.goal.wish is not None
-        here = self.pose.x, self.pose.y
-        seeks = speed > 0.0 and thought.goal is not None and bool(thought.way)
-        if not seeks or hypot(here[0] - self._anchor[0], here[1] - self._anchor[1]) > STEPPED:
-            self._anchor, self._moved_at = here, now
-        self._moved_at = min(self._moved_at, now)
-        self.longest_stand = max(self.longest_stand, now - self._moved_at)
-
-
 class Season:
     """Trees, zone, weather, network."""
 
@@ -176,7 +116,7 @@ class Season:
         for name, home in zip(names, homes, strict=True):
             mind = Mind(plan.zone(home), _mind(given, chance))
             traffic = Traffic(RightOfWay(name, home, given.traffic), self.zone, paths)
-            self.trees.append(_Tree(name, Company(mind, traffic), home, chance))
+            self.trees.append(SeasonTree(name, Company(mind, traffic), home, chance))
         self._by_name = {tree.name: tree for tree in self.trees}
         self._radio = Radio(names, given.radio, given.seed)
         self._chance = chance
@@ -222,6 +162,7 @@ class Season:
 
     def _speak_all_night(self, now: float) -> None:
         """Bring every tree's last word to every other, as in all the hours left out."""
+        given = self.parameters
         self._radio.deaf = set()
         self._radio.receive(inf)
         for speaker in self.trees:
@@ -230,7 +171,7 @@ class Season:
                 if listener is not speaker:
                     listener.company.traffic.hear(claim, now)
         for tree in self.trees:
-            tree.live(now, lambda _x, _y: 1.0, self.parameters)
+            tree.live(now, lambda _x, _y: 1.0, given.step, given.error)
 
     def _cut_off(self, name: str) -> set[tuple[str, str]]:
         others = [tree.name for tree in self.trees if tree.name != name]
@@ -247,7 +188,7 @@ class Season:
 
         moving = False
         for tree in self.trees:
-            moving |= tree.live(now, light, given)
+            moving |= tree.live(now, light, given.step, given.error)
             if len(self.trees) > 1:
                 self._radio.send(tree.company.traffic.claim(now), now)
             place = shapely.Point(tree.pose.x, tree.pose.y)
