@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import track
+from rich.progress import Progress
 from rich.table import Table
 
 from agv_motion.errors import ConfigurationError
@@ -64,9 +64,16 @@ def reprocess(
         node_class(name)
         parameters(config, name)
     jobs = _jobs(sources, target)
-    console = Console(stderr=True)
-    done = outcomes(jobs, plan, workers, scheduler)
-    found = list(track(done, 'Reprocessing', total=len(jobs), console=console, transient=True))
+    found: list[Outcome] = []
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        bar = progress.add_task('Reprocessing', total=len(jobs))
+
+        def show(share: float) -> None:
+            progress.update(bar, completed=len(found) + share)
+
+        for outcome in outcomes(jobs, plan, workers, scheduler, show):
+            found.append(outcome)
+            show(0.0)
     _tell(sorted(found))
     if any(one.failure for one in found):
         raise typer.Exit(1)

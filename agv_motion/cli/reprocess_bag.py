@@ -25,7 +25,7 @@ from agv_motion.ros.in_process import add
 from agv_motion.ros.world import Publisher, World
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from agv_motion.bag.connection import Message
@@ -116,11 +116,21 @@ TOGETHER = 1024
 """Messages that are looked at, and written, together."""
 
 
-def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
-    """Run the nodes of ``plan`` over ``source``; a failure is part of the outcome."""
+def reprocess(
+    source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None = None
+) -> Outcome:
+    """Run nodes over a bag; a failure is part of the outcome.
+
+    Args:
+        source: The bag.
+        target: Where the result goes.
+        plan: What to run.
+        tell: Called now and then with the share of the recording that is done.
+
+    """
     begin = time.perf_counter()
     try:
-        return _run(source, target, plan, begin)
+        return _run(source, target, plan, begin, tell)
     except (AgvMotionError, OSError) as error:
         failure = str(error)
     except Exception as error:  # noqa: BLE001 - a defect in one bag must not stop the others
@@ -128,7 +138,9 @@ def reprocess(source: Path, target: Path, plan: Plan) -> Outcome:
     return Outcome(str(source), 0, 0, 0.0, time.perf_counter() - begin, (), {}, failure)
 
 
-def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
+def _run(
+    source: Path, target: Path, plan: Plan, begin: float, tell: Callable[[float], None] | None
+) -> Outcome:
     with BagReader(source) as bag:
         writer = BagWriter(target, compression=plan.compression, chunk_duration=inf)
         try:
@@ -138,8 +150,11 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
             for name in plan.nodes:
                 add(world, node_class(name), parameters(plan.config, name), dict(plan.remap))
             world.start()
-            inputs = world.inputs()
-            heard = _feed(world, bag.messages(sorted(inputs & set(bag.topics))))
+            inputs, heard = world.inputs(), 0
+            for count, now in _feed(world, bag.messages(sorted(inputs & set(bag.topics)))):
+                heard += count
+                if tell is not None:
+                    tell((now - bag.start) / max(bag.end - bag.start, 1))
             world.run(bag.end)
             world.stop()
             transcript.flush()
@@ -156,11 +171,10 @@ def _run(source: Path, target: Path, plan: Plan, begin: float) -> Outcome:
         return Outcome(str(source), *counts, span, took, missing, world.complaints, '')
 
 
-def _feed(world: World, messages: Iterator[Message]) -> int:
-    """Let all messages be heard, many shown beforehand; return how many."""
-    heard, feed = 0, world.feed
+def _feed(world: World, messages: Iterator[Message]) -> Iterator[tuple[int, int]]:
+    """Let messages be heard, many shown beforehand; yield how many, and the time [ns]."""
+    feed = world.feed
     while together := list(islice(messages, TOGETHER)):
-        heard += len(together)
         topics: dict[str, list[bytes]] = {}
         for message in together:
             topics.setdefault(message.connection.topic, []).append(message.data)
@@ -168,7 +182,7 @@ def _feed(world: World, messages: Iterator[Message]) -> int:
             world.look_ahead(topic, data)
         for message in together:
             feed(message.connection.topic, message.stamp, message.data)
-    return heard
+        yield len(together), together[-1].stamp
 
 
 def node_class(name: str) -> Any:

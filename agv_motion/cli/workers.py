@@ -10,14 +10,20 @@ from agv_motion.cli.reprocess_bag import Outcome, Plan, reprocess
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from concurrent.futures import Future
     from pathlib import Path
 
     Job = tuple[Path, Path]
 
 
-def outcomes(jobs: Sequence[Job], plan: Plan, workers: int, scheduler: str) -> Iterator[Outcome]:
+def outcomes(
+    jobs: Sequence[Job],
+    plan: Plan,
+    workers: int,
+    scheduler: str,
+    tell: Callable[[float], None] | None = None,
+) -> Iterator[Outcome]:
     """Yield what came of each bag, as soon as it is known.
 
     Args:
@@ -25,6 +31,7 @@ def outcomes(jobs: Sequence[Job], plan: Plan, workers: int, scheduler: str) -> I
         plan: What to run.
         workers: Number of processes.
         scheduler: Address of a Dask scheduler; empty: none.
+        tell: Called with the share of the present bag that is done, where there is one at a time.
 
     Raises:
         ConfigurationError: There is no ``dask.distributed``.
@@ -35,7 +42,7 @@ def outcomes(jobs: Sequence[Job], plan: Plan, workers: int, scheduler: str) -> I
         yield from _on_cluster(jobs, plan, scheduler)
     elif workers == 1 or len(jobs) == 1:
         for source, target in jobs:
-            yield reprocess(source, target, plan)
+            yield reprocess(source, target, plan, tell)
     else:
         yield from _in_processes(jobs, plan, workers)
 
