@@ -45,6 +45,7 @@ class MemoryKeeper:
         """
         self._node, self._memory, self._file, self._span = node, memory, file, span
         self._frame = frame
+        self._message = self._empty_map()
         self._flow = node.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
         self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -97,16 +98,19 @@ class MemoryKeeper:
         visited, felt = self._memory.coverage()
         return {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
 
-    def _publish(self, publisher: Any, values: Map, known: Mask) -> None:
-        memory = self._memory
-        message = OccupancyGrid()
-        self._node.stamp(message)
+    def _empty_map(self) -> OccupancyGrid:
+        memory, message = self._memory, OccupancyGrid()
         message.header.frame_id = self._frame
         message.info.map_load_time = message.header.stamp
         message.info.resolution = memory.parameters.cell
-        message.info.height, message.info.width = values.shape
+        message.info.height, message.info.width = memory.flow.shape
         message.info.origin.position.x = memory.west
         message.info.origin.position.y = memory.south
+        return message
+
+    def _publish(self, publisher: Any, values: Map, known: Mask) -> None:
+        message = self._message
+        self._node.stamp(message)
         cells = np.full(values.shape, -1, np.int8)
         cells[known] = np.clip(np.rint(values[known]), 0, 100).astype(np.int8)
         message.data = array('b', cells.tobytes())
