@@ -29,6 +29,7 @@ from agv_motion.bag.columns import read
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.ros.cdr import codec
+from agv_motion.ros.messages import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -71,10 +72,7 @@ def write(path: Path, count: int) -> None:
     """Write ``count`` messages of four types in turn: zstd, CRCs, chunks of 1 MiB as elsewhere."""
     rng = np.random.default_rng(1)
     with BagWriter(path, chunk_duration=inf) as writer:
-        kinds = [
-            (writer.add_topic(topic, f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'), kind)
-            for topic, kind in KINDS.items()
-        ]
+        kinds = [(writer.add_topic(topic, type_name(kind)), kind) for topic, kind in KINDS.items()]
         encode = {kind: codec(kind).encode for kind in KINDS.values()}
         for i, values in enumerate(rng.normal(size=(count // 4, 12)).tolist()):
             for number, (topic, kind) in enumerate(kinds):

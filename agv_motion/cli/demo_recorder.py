@@ -11,6 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from agv_motion.bag.writer import BagWriter
+from agv_motion.ros.messages import type_name
 from agv_motion.ros.qos import LATCHED
 
 if TYPE_CHECKING:
@@ -51,8 +52,7 @@ class DemoRecorder(LifecycleNode):
             self._subscribe(topic)
 
     def _subscribe(self, topic: Topic) -> None:
-        message_type = f'{topic.kind.__module__.split(".")[0]}/msg/{topic.kind.__name__}'
-        handle = self._writer.add_topic(f'/{topic.name.lstrip("/")}', message_type)
+        handle = self._writer.add_topic(f'/{topic.name.lstrip("/")}', type_name(topic.kind))
         write, latest, counts = self._writer.write, self._latest, self.counts
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
 

@@ -20,7 +20,7 @@ from agv_motion.planar import Twist
 from agv_motion.probe.sources.recorded import RecordedSource
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.covariances import fill_covariance
-from agv_motion.ros.messages import seconds_of
+from agv_motion.ros.messages import seconds_of, type_name
 from agv_motion.ros.qos import SENSOR
 
 if TYPE_CHECKING:
@@ -59,15 +59,6 @@ def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
     recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
 
 
-class _State(NamedTuple):
-    """What a recorded state of the turrets tells, and the messages that it leads to."""
-
-    angles: list[float]
-    residual: float
-    fight: bytes
-    odometry: bytes
-
-
 class RecordedMotion(MotionGenerator):
     """The motion node; its twists become messages many together."""
 
@@ -75,7 +66,7 @@ class RecordedMotion(MotionGenerator):
         """Open as live, then tell how twists become messages."""
         super().open()
         if self.parameters.stamped:
-            self._twists = _rows(self._message, 'geometry_msgs/msg/TwistStamped')
+            self._twists = _rows(self._message)
             self._command.together = self._messages
 
     def _tell_twist(self, twist: Twist) -> None:
@@ -84,10 +75,19 @@ class RecordedMotion(MotionGenerator):
 
     def _messages(self, stamps: NDArray[np.int64], twists: list[Any]) -> list[bytes]:
         table = self._twists.table(len(twists))
-        table['header.stamp.sec'], table['header.stamp.nanosec'] = np.divmod(stamps, SECOND)
+        _stamp(table, stamps)
         for axis, column in zip(TWIST, np.array(twists).reshape(-1, 3).T, strict=True):
             table[f'twist.{axis}'] = column
         return self._twists.messages(table)
+
+
+class _State(NamedTuple):
+    """What a recorded state of the turrets tells, and the messages that it leads to."""
+
+    angles: list[float]
+    residual: float
+    fight: bytes
+    odometry: bytes
 
 
 class RecordedWheels(WheelKinematics):
@@ -98,10 +98,9 @@ class RecordedWheels(WheelKinematics):
     def open(self) -> None:
         """Open as live, then ask for the states many together."""
         super().open()
-        self._fights = _rows(Float64(), 'std_msgs/msg/Float64')
-        self._odometries = _rows(self._odometry_message, 'nav_msgs/msg/Odometry')
+        self._fights, self._odometries = _rows(Float64()), _rows(self._odometry_message)
         self._joints.fill(self._message, self._zero, self._zero)
-        self._commands = _rows(self._message, 'sensor_msgs/msg/JointState')
+        self._commands = _rows(self._message)
         self._command.together = self._messages
         self.listener('cmd_vel').takes_rows = self.parameters.stamped
         self.listener('turrets/state').prepare = self._prepare
@@ -118,7 +117,7 @@ class RecordedWheels(WheelKinematics):
 
     def _messages(self, stamps: NDArray[np.int64], commands: list[Any]) -> list[bytes]:
         table = self._commands.table(len(commands))
-        table['header.stamp.sec'], table['header.stamp.nanosec'] = np.divmod(stamps, SECOND)
+        _stamp(table, stamps)
         angles, rates = np.array(commands).reshape(len(commands), 2, -1).transpose(1, 0, 2)
         table['position'][:, : angles.shape[1]] = angles
         table['velocity'][:, angles.shape[1] :] = rates
@@ -129,7 +128,7 @@ class RecordedWheels(WheelKinematics):
         try:
             names = codec(JointState).decode(messages[0]).name
             steering, wheel = self._joints.places(names)
-            table = MessageRows('sensor_msgs/msg/JointState', messages[0]).read(messages)
+            table = MessageRows(type_name(JointState), messages[0]).read(messages)
         except (SignalError, ValueError):
             return []
         if table is None or not {'position', 'velocity'} <= set(table.dtype.names or ()):
@@ -178,9 +177,13 @@ class RecordedWheels(WheelKinematics):
         self._odometry.publish(message.odometry)
 
 
-def _rows(example: Any, message_type: str) -> MessageRows:
+def _rows(example: Any) -> MessageRows:
     kind: Any = type(example)
-    return MessageRows(message_type, codec(kind).encode(example))
+    return MessageRows(type_name(kind), codec(kind).encode(example))
+
+
+def _stamp(table: NDArray[Any], nanoseconds: NDArray[np.int64]) -> None:
+    table['header.stamp.sec'], table['header.stamp.nanosec'] = np.divmod(nanoseconds, SECOND)
 
 
 RECORDED: dict[str, Any] = {

@@ -22,6 +22,7 @@ from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process import add
+from agv_motion.ros.messages import type_name
 from agv_motion.ros.world import Publisher, World
 
 if TYPE_CHECKING:
@@ -107,9 +108,8 @@ class Transcript:
         return self._topics[publisher.topic]
 
     def _add(self, publisher: Publisher) -> int:
-        kind, qos = publisher.kind, [offer(publisher.qos)]
-        name = f'{kind.__module__.split(".")[0]}/msg/{kind.__name__}'
-        return self._writer.add_topic(publisher.topic, name, qos=qos)
+        kind, qos = type_name(publisher.kind), [offer(publisher.qos)]
+        return self._writer.add_topic(publisher.topic, kind, qos=qos)
 
 
 TOGETHER = 1024

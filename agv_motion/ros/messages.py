@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+def type_name(kind: type[Any]) -> str:
+    """Return the name of a message class, such as ``geometry_msgs/msg/Twist``."""
+    return f'{kind.__module__.partition(".")[0]}/msg/{kind.__name__}'
+
+
 def seconds_of(stamp: Any) -> float:
     """Return a builtin_interfaces/Time in seconds."""
     return float(stamp.sec) + float(stamp.nanosec) * 1e-9
