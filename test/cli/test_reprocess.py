@@ -8,11 +8,14 @@ import shutil
 import subprocess
 import sys
 import time
+from math import nan
 from pathlib import Path
 
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
+
+from sensor_msgs.msg import JointState
 
 from agv_motion.bag.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
@@ -23,6 +26,7 @@ from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process import add
 from agv_motion.ros.world import World
 
@@ -94,6 +98,30 @@ def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypat
         monkeypatch.setitem(RECORDED, name, kind)
     reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
     assert content(tmp_path / 'together') == content(tmp_path / 'apart')
+
+
+def test_states_that_cannot_be_taken_together_are_taken_one_by_one(recorded, tmp_path, monkeypatch):
+    joints = codec(JointState)
+    with BagReader(recorded / 'a') as bag, BagWriter(tmp_path / 'odd') as writer:
+        topics = {name: writer.add_topic(name, c.type) for name, c in bag.topics.items()}
+        for i, message in enumerate(bag.messages()):
+            data = message.data
+            if message.connection.topic == '/turrets/state' and i > 2000:
+                state = joints.decode(data)
+                if i < 2100:
+                    state.position[1] = nan
+                elif i > 3000:
+                    state.name.reverse()
+                    state.position.reverse()
+                    state.velocity.reverse()
+                data = joints.encode(state)
+            writer.write(topics[message.connection.topic], message.stamp, data)
+    together = reprocess(tmp_path / 'odd', tmp_path / 'together' / 'out', PLAN)
+    monkeypatch.setitem(RECORDED, 'wheel_kinematics', WheelKinematics)
+    apart = reprocess(tmp_path / 'odd', tmp_path / 'apart' / 'out', PLAN)
+    assert content(tmp_path / 'together') == content(tmp_path / 'apart')
+    assert together.complaints == apart.complaints
+    assert any('turret angles must be finite' in text for text in together.complaints)
 
 
 def test_another_configuration_decides_otherwise(recorded, tmp_path):
