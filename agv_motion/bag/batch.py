@@ -33,6 +33,9 @@ _GROUP = 1 << 23
 """[bytes] Chunks are decoded together up to this size."""
 _THREADS = 2
 """Decoding, one at a time, takes as long as unpacking by one of them."""
+_FREED = 1 << 24
+"""[bytes] glibc gives memory back beyond twice the largest block that was ever freed, and takes it
+again page by page: with this one, arrays that come and go keep their pages."""
 _LATEST = 2**64 - 1
 _TOGETHER = 2048
 """Messages that are taken together where there are no chunks."""
@@ -103,6 +106,7 @@ def read_mcap(
         DamagedBagError: A chunk is damaged.
 
     """
+    np.empty(_FREED, np.uint8)  # nothing is written there, so it costs nothing
     wanted = sorted(channels)
     buffers: list[NDArray[np.uint8]] = []
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,22 @@ _LENGTH = 4
 """[bytes] of a length"""
 _GAP = 8
 """[bytes] Padding between texts is shorter."""
+
+
+class Rows(NamedTuple):
+    """Bytes of messages at equal distances; places in a row count from its first wanted byte."""
+
+    data: Buffer | NDArray[Any]
+    first: int
+    """[bytes] where the first row begins"""
+    stride: int
+    """[bytes] from one row to the next"""
+    number: int
+
+    def values(self, dtype: DTypeLike, at: int, count: int = 1, step: int = 1) -> NDArray[Any]:
+        """Return ``count`` values of every row, the first at ``at``, ``step`` bytes apart."""
+        shape, strides = (self.number, count), (self.stride, step)
+        return np.ndarray(shape, dtype, self.data, self.first + at, strides)
 
 
 class Pattern:
@@ -70,29 +86,36 @@ class Pattern:
         """what all messages with the same lengths and texts have in common: first with the padding
         in between, which seldom changes, then without"""
 
-    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> NDArray[np.uint8]:
-        """Return the wanted bytes of messages as rows of a matrix."""
-        raw, room = np.dtype((np.void, self._size)), len(data) - self._size + 1
+    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> Rows:
+        """Return messages as rows: as they lie if they lie equally far apart, else gathered."""
+        first, count, size = int(starts[0]) + self._first, len(starts), self._size
+        stride = int(starts[1] - starts[0]) if count > 1 else size
+        if stride >= size and (starts[1:] - starts[:-1] == stride).all():
+            return Rows(data, first, stride, count)
+        raw, room = np.dtype((np.void, size)), len(data) - size + 1
         windows = np.ndarray((room,), raw, data, strides=(1,))
-        return windows[starts + self._first].view(np.uint8).reshape(len(starts), self._size)
+        return Rows(windows[starts + self._first], 0, size, count)
 
-    def same(self, rows: NDArray[np.uint8]) -> bool:
+    def same(self, rows: Rows) -> bool:
         """Return whether all rows have this layout, and the same texts too."""
         for i, told in enumerate(self._told):
-            if all(rows[:, at : at + len(part)].tobytes() == part * len(rows) for at, part in told):
+            if all(
+                rows.values('u1', at, len(part)).tobytes() == part * rows.number
+                for at, part in told
+            ):
                 del self._told[:i]
                 return True
         return False
 
-    def agree(self, rows: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    def agree(self, rows: Rows) -> NDArray[np.bool_]:
         """Return which rows have this layout."""
-        agree = np.ones(len(rows), bool)
+        agree = np.ones(rows.number, bool)
         for at, length in self._guards:
-            agree &= _values(rows, '<u4', at)[:, 0] == int.from_bytes(length, 'little')
+            agree &= rows.values('<u4', at)[:, 0] == int.from_bytes(length, 'little')
         return agree
 
     def values(
-        self, rows: NDArray[np.uint8], leaf: Leaf, texts: Mapping[int, TextCodes], *, same: bool
+        self, rows: Rows, leaf: Leaf, texts: Mapping[int, TextCodes], *, same: bool
     ) -> NDArray[Any]:
         """Return the values of a leaf in rows that agree.
 
@@ -112,13 +135,13 @@ class Pattern:
         if leaf.type == 'string':
             return self._codes(rows, number, texts[number].code, same=same)
         dtype = self._dtypes[number]
-        parts = [_values(rows, dtype, *place) for place in self._places[number]]
+        parts = [rows.values(dtype, *place) for place in self._places[number]]
         if len(parts) == 1:
             return parts[0]
-        return np.concatenate(parts, axis=1) if parts else np.empty((len(rows), 0), dtype)
+        return np.concatenate(parts, axis=1) if parts else np.empty((rows.number, 0), dtype)
 
     def _codes(
-        self, rows: NDArray[np.uint8], number: int, code: Callable[[bytes], int], *, same: bool
+        self, rows: Rows, number: int, code: Callable[[bytes], int], *, same: bool
     ) -> NDArray[np.uint32]:
         places = [(at, max(size - 1, 0)) for at, size, _ in self._places[number]]  # no final zero
         if same:
@@ -126,9 +149,9 @@ class Pattern:
                 codes = [code(self._bytes(*place)) for place in places]
                 self._constant[number] = np.array([codes], np.uint32)
             return self._constant[number]
-        found = np.empty((len(rows), len(places)), np.uint32)
+        found = np.empty((rows.number, len(places)), np.uint32)
         for column, (at, size) in enumerate(places):
-            data = rows[:, at : at + size].tobytes()
+            data = rows.values('u1', at, size).tobytes()
             parts = [data[i : i + size] for i in range(0, len(data), size)] if size else [b'']
             found[:, column] = [code(part) for part in parts]
         return found
@@ -145,10 +168,3 @@ class Pattern:
             else:
                 together.append([at, at + size])
         return [(first, self._bytes(first, last - first)) for first, last in together]
-
-
-def _values(
-    rows: NDArray[np.uint8], dtype: DTypeLike, at: int, count: int = 1, step: int = 1
-) -> NDArray[Any]:
-    """Return ``count`` values of every row, the first one at byte ``at``, ``step`` bytes apart."""
-    return np.ndarray((len(rows), count), dtype, rows, at, (rows.shape[1], step))
