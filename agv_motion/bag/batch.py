@@ -109,14 +109,19 @@ def read_mcap(
     np.empty(_FREED, np.uint8)  # nothing is written there, so it costs nothing
     wanted = sorted(channels)
     buffers: list[NDArray[np.uint8]] = []
+    given = 0
 
     def give(chunks: list[Chunk], before: Future[None] | None) -> None:
         buffer = buffers.pop() if buffers else np.empty(_GROUP, np.uint8)
         found = _batches(file, _unpacked(file, chunks, buffer.data), wanted, start, stop)
         if before:
             before.result()
+        nonlocal given
         for batch in found:
             put(batch)
+        end = chunks[-1].offset + chunks[-1].length
+        file.release(given, end)
+        given = end
         buffers.append(buffer)
 
     groups = _groups(

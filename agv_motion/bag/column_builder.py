@@ -126,7 +126,10 @@ class ColumnBuilder:
         if self._counts is None and each == self._each:
             table = self._values.more(rows * each).reshape(rows, each)
             for part in parts:
-                table[part.rows] = part.values.reshape(-1, each) if each else 0
+                values, counts = part.values, part.counts
+                table[part.rows] = (
+                    values if isinstance(counts, int) else values.reshape(len(counts), each)
+                )
         else:
             self._put_ragged(rows, parts)
         self._rows += rows

@@ -124,6 +124,7 @@ class McapFile:
                         _, length = records.PREFIX.unpack_from(self._data, at)
                         count = min(length, len(self._data)) // _ENTRY
                         counts[channel] = counts.get(channel, 0) + count
+        self.release(0, len(self._data))
         return counts
 
     def index_of(self, chunk: Chunk, channel: int, unpacked: Buffer) -> NDArray[np.uint64]:
@@ -243,6 +244,12 @@ class McapFile:
         known = np.isin(found['channel'], list(self.channels))
         yield from self._messages(unpacked, offsets[known].tolist())
         self._described(chunk, found)
+
+    def release(self, begin: int, end: int) -> None:
+        """Take a part of the file [bytes] out of the memory of this process; it stays readable."""
+        mapped, first = self._data.obj, -(-begin // mmap.PAGESIZE) * mmap.PAGESIZE
+        if isinstance(mapped, mmap.mmap) and hasattr(mmap, 'MADV_DONTNEED') and first < end:
+            mapped.madvise(mmap.MADV_DONTNEED, first, end - first)
 
     def close(self) -> None:
         """Let go of the file; messages already read stay valid."""

@@ -135,9 +135,10 @@ class Pattern:
         if leaf.type == 'string':
             return self._codes(rows, number, texts[number].code, same=same)
         dtype = self._dtypes[number]
-        parts = [rows.values(dtype, *place) for place in self._places[number]]
-        if len(parts) == 1:
-            return parts[0]
+        places = self._places[number]
+        if len(places) == 1:
+            return rows.values(dtype, *places[0])
+        parts = [rows.values(dtype, *place) for place in places]
         return np.concatenate(parts, axis=1) if parts else np.empty((rows.number, 0), dtype)
 
     def _codes(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from agv_motion.bag.batch import Batch
     from agv_motion.bag.connection import Connection
 
-CACHED = 1 << 20
+CACHED = 1 << 22
 """[bytes] of messages that are decoded together."""
 FEW = 4
 """Messages that are not worth a pattern of their own."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from rosbags.rosbag2 import StoragePlugin
@@ -132,6 +134,24 @@ def test_columns_of_foreign_bags(tmp_path, plugin, mode):
         found = read(bag)
     assert found['/topic'].fields['position'][:, 0].tolist() == [i / 7 for i in range(3000)]
     assert found['/other'].fields['data'].tolist() == [str(i) for i in range(3000)]
+
+
+@pytest.mark.skipif(not Path('/proc/self/status').exists(), reason='Linux tells it there')
+def test_pages_of_the_file_do_not_stay_in_memory(tmp_path):
+    with BagWriter(tmp_path / 'bag', compression='none', chunk_duration=1e9) as writer:
+        topic = writer.add_topic('/topic', JOINTS, definition(JOINTS), type_hash='')
+        for i in range(200):
+            writer.write(topic, i, bytes(joints(['a'], 10_000, i)))
+
+    def mapped():
+        row = Path('/proc/self/status').read_text().partition('RssFile:')[2]
+        return int(row.split()[0]) * 1024
+
+    before = mapped()
+    with BagReader(tmp_path / 'bag') as bag:
+        found = read_topic(bag, '/topic', ['header.stamp'])
+        assert mapped() - before < 4e6 < sum(file.path.stat().st_size for file in bag.files)
+    assert found.fields['header.stamp.sec'].tolist() == list(range(200))
 
 
 def test_a_field_that_is_not_there_is_refused_with_a_near_name(tmp_path):
