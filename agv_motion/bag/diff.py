@@ -11,15 +11,14 @@ from math import inf, isnan
 from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-
 from agv_motion.bag.definitions import begins_with_header
+from agv_motion.bag.message_decoder import MessageDecoder
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-    from agv_motion.bag.connection import Connection
+    from agv_motion.bag.connection import Message
     from agv_motion.bag.reader import BagReader
 
 _LITTLE, _BIG = Struct('<iI'), Struct('>iI')
@@ -101,50 +100,36 @@ def _topic(topic: str, first: BagReader, second: BagReader, tolerance: Tolerance
     if types[0] != types[1]:
         found.note = f'type {types[0]} against {types[1]}'
         return found
-    decode = decoder(first.topics[topic])
-    for stamp, one, other in _pairs(first, second, topic, found):
+    ours, theirs = (MessageDecoder(bag.topics[topic]) for bag in (first, second))
+    if ours.store.fielddefs != theirs.store.fielddefs:
+        found.note = f'{types[0]} is defined differently'
+        return found
+    for one, other in _pairs(first, second, topic, found):
         found.compared += 1
-        if one == other:
+        if one.data == other.data:
             continue
-        differences = list(_differences(decode(one), decode(other), tolerance, ''))
+        differences = list(_differences(ours(one), theirs(other), tolerance, ''))
         if differences:
             found.differing += 1
-            found.since = stamp if found.since is None else found.since
+            found.since = one.stamp if found.since is None else found.since
         for path, a, b in differences:
             known = found.worst.get(path)
             if known is None or distance(a, b) > distance(known.first, known.second):
-                found.worst[path] = Difference(path, stamp, a, b)
+                found.worst[path] = Difference(path, one.stamp, a, b)
     return found
-
-
-def decoder(connection: Connection) -> Callable[[bytes], Any]:
-    """Return what decodes the messages of a topic, by the definition in its bag.
-
-    Raises:
-        ConfigurationError: The bag has no definition, or one that cannot be read.
-
-    """
-    store = get_typestore(Stores.EMPTY)
-    name = connection.type
-    try:
-        store.register(get_types_from_msg(connection.definition, name))
-    except Exception as error:  # rosbags raises several kinds
-        msg = f'{connection.topic}: the definition of {name} in the bag cannot be read ({error})'
-        raise ConfigurationError(msg) from error
-    return lambda data: store.deserialize_cdr(data, name)
 
 
 def _pairs(
     first: BagReader, second: BagReader, topic: str, found: TopicDiff
-) -> Iterator[tuple[int, bytes, bytes]]:
-    """Yield log time and both messages of each pair; count those without a partner."""
+) -> Iterator[tuple[Message, Message]]:
+    """Yield both messages of each pair; count those without a partner."""
     header = begins_with_header(first.topics[topic].definition)
     ours, theirs = (bag.messages([topic]) for bag in (first, second))
     one, other = next(ours, None), next(theirs, None)
     while one is not None and other is not None:
         mine, yours = (_stamp(m.data) if header else 0 for m in (one, other))
         if mine == yours:
-            yield one.stamp, one.data, other.data
+            yield one, other
         elif found.since is None:
             found.since = one.stamp
         found.unpaired += mine != yours

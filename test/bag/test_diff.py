@@ -11,7 +11,7 @@ from rosbags.typesys import Stores, get_typestore
 from agv_motion.bag.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SourceError
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 JOINTS, NUMBER = 'sensor_msgs/msg/JointState', 'std_msgs/msg/Float64'
@@ -133,3 +133,31 @@ def test_topics_that_one_bag_lacks_and_topics_that_none_has(compare):
 def test_a_topic_of_neither_bag_is_refused(compare):
     with pytest.raises(ConfigurationError, match='/nothing'):
         compare(walk(), walk(), ['/nothing'])
+
+
+def _made(path, definition, data):
+    with BagWriter(path) as writer:
+        topic = writer.add_topic('/made', 'made/msg/Pair', definition, type_hash='')
+        writer.write(topic, 1, data)
+    return path
+
+
+def test_a_type_that_is_defined_differently_is_told(tmp_path):
+    data = b'\0\1\0\0' + bytes(8)
+    bags = [_made(tmp_path / f, f'int32 {f}  # first\nint32 b\n', data) for f in ('a', 'c')]
+    bags.append(_made(tmp_path / 'same', 'int32 a\nint32 b', data[:-1] + b'\1'))
+    with BagReader(bags[0]) as one, BagReader(bags[1]) as other, BagReader(bags[2]) as same:
+        (renamed,) = diff(one, other, None, Tolerance())
+        (changed,) = diff(one, same, None, Tolerance())
+    assert (renamed.same, renamed.note) == (False, 'made/msg/Pair is defined differently')
+    assert (changed.note, list(changed.worst)) == ('', ['b'])
+
+
+def test_a_message_that_is_not_of_its_type_is_told_with_its_time(tmp_path):
+    bags = [_made(tmp_path / f'{n}', 'int32 a', b'\0\1\0\0' + bytes(n)) for n in (4, 1)]
+    with (
+        BagReader(bags[0]) as one,
+        BagReader(bags[1]) as other,
+        pytest.raises(SourceError, match='/made: the message at 1 ns is no made/msg/Pair'),
+    ):
+        list(diff(one, other, None, Tolerance()))
