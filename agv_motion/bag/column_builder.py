@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from agv_motion.bag.repetition import repeats
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -114,33 +116,44 @@ class ColumnBuilder:
     def put(self, rows: int, parts: Sequence[Part]) -> None:
         """Append a batch of ``rows`` rows, which ``parts`` cover."""
         each = self._alike(parts)
+        tables = [_table(part, each) for part in parts] if each >= 0 else []
         if self._values is None:
-            same = _same_row(parts) if each >= 0 else None
-            if same is not None and (
-                self._same is None or same is self._same or np.array_equal(same, self._same)
-            ):
-                self._same, self._rows = same, self._rows + rows
+            if tables and self._repeats(tables):
+                self._rows += rows
                 return
             self._begin(max(each, 0))
         assert self._values is not None
         if self._counts is None and each == self._each:
-            table = self._values.more(rows * each).reshape(rows, each)
-            for part in parts:
-                values, counts = part.values, part.counts
-                table[part.rows] = (
-                    values if isinstance(counts, int) else values.reshape(len(counts), each)
-                )
+            target = self._values.more(rows * each).reshape(rows, each)
+            for part, table in zip(parts, tables, strict=True):
+                target[part.rows] = table
         else:
             self._put_ragged(rows, parts)
         self._rows += rows
 
     def finish(self) -> tuple[NDArray[Any], int | NDArray[np.int64]]:
-        """Return all values, and how many every row has: the same number, or that of each."""
+        """Return all values, and how many every row has: the same number, or that of each.
+
+        Where it is the same number, they are of shape (rows, number). A row that all repeat is
+        there only once.
+        """
         if self._values is None:
-            self._begin(0)
-        assert self._values is not None
+            row = np.empty((1, 0), self._dtype) if self._same is None else self._same
+            return np.broadcast_to(row, (self._rows, row.shape[1])), row.shape[1]
         values = self._values.finish()
-        return values, self._each if self._counts is None else self._counts.finish()
+        if self._counts is None:
+            return values.reshape(self._rows, self._each), self._each
+        return values, self._counts.finish()
+
+    def _repeats(self, tables: Sequence[NDArray[Any]]) -> bool:
+        """Return whether all rows are the one that has come so far, bit by bit."""
+        raw = tables[0][:1].tobytes()
+        if not all(repeats(table, raw) for table in tables):
+            return False
+        row = tables[0][:1].astype(self._dtype)
+        if self._same is None:
+            self._same = row
+        return row.tobytes() == self._same.tobytes()
 
     def _begin(self, each: int) -> None:
         """Take memory, for rows of ``each`` values, and write what has been the same so far."""
@@ -150,6 +163,7 @@ class ColumnBuilder:
         if self._same is not None:
             table = self._values.more(self._rows * self._each)
             table.reshape(self._rows, self._each)[:] = self._same
+            self._same = None
 
     @staticmethod
     def _alike(parts: Sequence[Part]) -> int:
@@ -186,12 +200,8 @@ class ColumnBuilder:
                 target[places] = part.values
 
 
-def _same_row(parts: Sequence[Part]) -> NDArray[Any] | None:
-    """Return the row that is repeated in all parts; None if there is none, or it is not known."""
-    first = parts[0].values
-    for part in parts:
-        if part.values.ndim != 2 or len(part.values) != 1:
-            return None
-        if part.values is not first and not np.array_equal(part.values, first):
-            return None
-    return first
+def _table(part: Part, each: int) -> NDArray[Any]:
+    """Return the values of a part in a table of ``each`` columns."""
+    if isinstance(part.counts, int):
+        return part.values
+    return part.values.reshape(len(part.counts), each)

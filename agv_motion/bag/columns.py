@@ -37,7 +37,8 @@ class Columns(NamedTuple):
     """[ns] log time of each message"""
     fields: dict[str, Column]
     """values of each field by its path, such as ``pose.position.x``: an array of shape (messages,
-    ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes"""
+    ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes; what is the
+    same in all messages is in memory once, and read-only"""
 
     def nanoseconds(self, field: str) -> NDArray[np.int64]:
         """Return a ``builtin_interfaces/Time`` such as ``header.stamp`` [ns].
@@ -177,7 +178,7 @@ def _columns(decoder: TopicDecoder) -> Columns:
         if order is not None:
             values, counts = _ordered(values, counts, order)
         if leaf.type == 'length':
-            lengths[leaf.number] = values
+            lengths[leaf.number] = values.reshape(-1)
         else:
             fields[leaf.path] = _column(decoder, leaf, values, lengths, len(stamps))
     return Columns(decoder.connection, stamps, fields)
@@ -188,7 +189,7 @@ def _ordered(
 ) -> tuple[NDArray[Any], int | NDArray[np.int64]]:
     """Return rows in another order."""
     if isinstance(counts, int):
-        return values.reshape(len(order), counts)[order].reshape(-1), counts
+        return values[order] if values.strides[0] else values, counts
     starts = np.cumsum(counts) - counts
     counts = counts[order]
     ends = np.cumsum(counts)

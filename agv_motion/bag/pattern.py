@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from agv_motion.bag.repetition import repeats
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
@@ -99,10 +101,7 @@ class Pattern:
     def same(self, rows: Rows) -> bool:
         """Return whether all rows have this layout, and the same texts too."""
         for i, told in enumerate(self._told):
-            if all(
-                rows.values('u1', at, len(part)).tobytes() == part * rows.number
-                for at, part in told
-            ):
+            if all(repeats(rows.values('u1', at, len(part)), part) for at, part in told):
                 del self._told[:i]
                 return True
         return False
