@@ -14,6 +14,7 @@ import numpy as np
 
 from agv_motion.bag import batch
 from agv_motion.bag.column import Column, Ragged, Texts
+from agv_motion.bag.mcap_batches import read_mcap
 from agv_motion.bag.mcap_file import McapFile
 from agv_motion.bag.topic_decoder import TopicDecoder
 from agv_motion.errors import ConfigurationError
@@ -143,7 +144,7 @@ def _read_file(
         decoders[part.channel].put(part)
 
     if isinstance(file, McapFile) and not bag.messages_compressed:
-        batch.read_mcap(file, decoders.keys(), start, stop, put)
+        read_mcap(file, decoders.keys(), start, stop, put)
         return
     compressed = bag.messages_compressed
     for part in batch.of_messages(file, decoders.keys(), start, stop, compressed=compressed):

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.rosbag2.enums import CompressionFormat, CompressionMode
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag import topic_decoder
+from agv_motion.bag import chunk_batches, mcap_batches, topic_decoder
 from agv_motion.bag.column import Ragged, Texts
 from agv_motion.bag.columns import read, read_topic
 from agv_motion.bag.damage import DamagedBagError
@@ -152,6 +153,72 @@ def test_pages_of_the_file_do_not_stay_in_memory(tmp_path):
         found = read_topic(bag, '/topic', ['header.stamp'])
         assert mapped() - before < 4e6 < sum(file.path.stat().st_size for file in bag.files)
     assert found.fields['header.stamp.sec'].tolist() == list(range(200))
+
+
+@pytest.fixture
+def many_small_groups(monkeypatch):
+    """Have four threads, and every chunk decoded by itself."""
+    monkeypatch.setattr(mcap_batches, '_THREADS', 4)
+    monkeypatch.setattr(chunk_batches, 'GROUP', 1 << 12)
+
+
+@pytest.mark.usefixtures('many_small_groups')
+def test_threads_keep_the_order_of_each_topic_also_where_it_has_two_channels(tmp_path):
+    path = tmp_path / 'bag.mcap'
+    with path.open('wb') as stream:
+        writer = McapWriter(stream, chunk_size=3000)
+        writer.start(profile='ros2')
+        schema = writer.register_schema(TEXT, 'ros2msg', definition(TEXT).encode())
+        names = ['/a', '/b', '/a']
+        channels = [writer.register_channel(name, 'cdr', schema) for name in names]
+        for i in range(9000):
+            data = bytes(STORE.serialize_cdr(STORE.types[TEXT](f'{i}'), TEXT))
+            writer.add_message(channels[i % 3], log_time=i, publish_time=i, data=data)
+        writer.finish()
+    with BagReader(path) as bag:
+        assert sum(file.indexed and len(file.chunks) for file in bag.files) > 50
+        found = read(bag)
+    every = range(9000)
+    assert found['/b'].fields['data'].tolist() == [str(i) for i in every if i % 3 == 1]
+    assert found['/a'].fields['data'].tolist() == [str(i) for i in every if i % 3 != 1]
+    assert found['/a'].stamps.tolist() == [i for i in every if i % 3 != 1]
+
+
+@pytest.mark.usefixtures('many_small_groups')
+@pytest.mark.parametrize('damaged', [0, 1, 5, -1])
+def test_a_damaged_chunk_ends_all_threads_with_its_place(tmp_path, damaged):
+    write(tmp_path / 'bag', [joints(['a'], i % 3, i) for i in range(900)], kind=JOINTS)
+    path = tmp_path / 'bag' / 'bag_0.mcap'
+    with BagReader(path) as bag:
+        chunk = bag.files[0].chunks[damaged]
+    content = bytearray(path.read_bytes())
+    content[chunk.offset + chunk.length - 9] ^= 0xFF
+    path.write_bytes(content)
+    with pytest.raises(DamagedBagError, match=f'bag_0.mcap, byte {chunk.offset}:'):
+        columns(path)
+
+
+def test_what_is_the_same_in_all_messages_is_in_memory_once(tmp_path):
+    raw = [joints(['a', 'b'], 2, 7)] * 500
+    found = columns(write(tmp_path / 'same', raw, kind=JOINTS)).fields
+    assert {name: column.shape for name, column in found.items()} == {
+        'header.stamp.sec': (500,), 'header.stamp.nanosec': (500,), 'header.frame_id': (500,),
+        'name': (500, 2), 'position': (500, 2), 'velocity': (500, 2), 'effort': (500, 0),
+    }  # fmt: skip
+    assert found['position'].base is not None
+    assert (found['position'].strides[0], found['position'].flags.writeable) == (0, False)
+    changed = columns(write(tmp_path / 'last', [*raw, joints(['a', 'b'], 2, 8)], kind=JOINTS))
+    position = changed.fields['position']
+    assert position.flags.writeable
+    assert position[[0, 499, 500]].tolist() == [[1.0, 2.0], [1.0, 2.0], [8 / 7, 1 + 8 / 7]]
+
+
+def test_a_zero_that_changes_its_sign_and_nan_are_kept_bit_by_bit(tmp_path):
+    kind = 'std_msgs/msg/Float64'
+    values = [0.0] * 9 + [-0.0, float('nan')]
+    raw = [STORE.serialize_cdr(STORE.types[kind](v), kind) for v in values]
+    found = columns(write(tmp_path / 'bag', raw, kind=kind)).fields['data']
+    assert found.tobytes() == np.array(values).tobytes()
 
 
 def test_a_field_that_is_not_there_is_refused_with_a_near_name(tmp_path):
