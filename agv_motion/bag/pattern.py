@@ -25,8 +25,8 @@ NUMPY |= {'float32': 'f4', 'float64': 'f8'}
 """numpy's names of the primitives (``byte`` is signed, as in rosbags), texts and lengths"""
 _LENGTH = 4
 """[bytes] of a length"""
-_GAP = 8
-"""[bytes] Padding between texts is shorter."""
+_GAPS = (32, 8, 0)
+"""[bytes] Between lengths and texts may lie what seldom changes: names nobody wants, padding."""
 
 
 class Rows(NamedTuple):
@@ -84,9 +84,9 @@ class Pattern:
         texts = [p for leaf in found if leaf.type == 'string' for p in self._places[leaf.number]]
         told = [(at, len(length)) for at, length in self._guards]
         told += [(at, size) for at, size, _ in texts]
-        self._told = [self._together(told, _GAP), self._together(told, 0)]
-        """what all messages with the same lengths and texts have in common: first with the padding
-        in between, which seldom changes, then without"""
+        self._told = [self._together(told, gap) for gap in _GAPS]
+        """what all messages with the same lengths and texts have in common, the last of these
+        exactly; the others compare fewer and longer parts, as long as what is between agrees"""
 
     def rows(self, data: Buffer, starts: NDArray[np.int64]) -> Rows:
         """Return messages as rows: as they lie if they lie equally far apart, else gathered."""
