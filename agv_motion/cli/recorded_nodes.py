@@ -65,12 +65,13 @@ class RecordedMotion(MotionGenerator):
     def open(self) -> None:
         """Open as live, then tell how twists become messages."""
         super().open()
-        if self.parameters.stamped:
-            self._twists = _rows(self._message)
-            self._command.together = self._messages
+        self._rows_out: Any = self._command.topic  # of the world
+        if self._command.stamped:
+            self._twists = _rows(self._command.message)
+            self._rows_out.together = self._messages
 
     def _tell_twist(self, twist: Twist) -> None:
-        if not self._command.publish_row(twist):
+        if not self._rows_out.publish_row(twist):
             super()._tell_twist(twist)
 
     def _messages(self, stamps: NDArray[np.int64], twists: list[Any]) -> list[bytes]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar
 
-from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
-from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
@@ -14,9 +13,10 @@ from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
-from agv_motion.ros.messages import fill_twist, pose_of, seconds_of
+from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
-from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.twist_publisher import TwistPublisher
 
 FAREWELL = 1.0
 """[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
@@ -70,10 +70,7 @@ class DrivingNode(ManagedNode[P]):
         self._watchdog = Watchdog(given.report_after, given.stop_after)
         self._last_cycle: float | None = None
         self._farewell = 0.0
-        self._message = TwistStamped() if given.stamped else TwistMessage()
-        if given.stamped:
-            self._message.header.frame_id = given.base_frame
-        self._command = self.publisher(type(self._message), 'cmd_vel', COMMAND)
+        self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
         self._state = self.publisher(String, self.state_topic, LATCHED)
         if given.position == 'odom':
             self.listen(Odometry, 'odom', self._on_pose, SENSOR)
@@ -173,9 +170,4 @@ class DrivingNode(ManagedNode[P]):
 
     def _send(self, twist: Twist) -> None:
         self._twist = twist
-        if self.parameters.stamped:
-            self.stamp(self._message)
-            fill_twist(self._message.twist, twist)
-        else:
-            fill_twist(self._message, twist)
-        self._command.publish(self._message)
+        self._command.publish(twist)

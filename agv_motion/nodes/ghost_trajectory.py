@@ -13,7 +13,7 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
-from agv_motion.ros.messages import fill_pose, pose_of
+from agv_motion.ros.messages import fill_path, fill_pose, pose_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
@@ -191,10 +191,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         message = Path()
         self.stamp(message)
         message.header.frame_id = self.parameters.frame
-        for pose in trajectory.polyline(DRAWN):
-            stamped = PoseStamped(header=message.header)
-            fill_pose(stamped.pose, pose)
-            message.poses.append(stamped)
+        fill_path(message, trajectory.polyline(DRAWN))
         self._path.publish(message)
 
     # Services

@@ -2,111 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
-from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.generator import RestParameters, SapFlow, checked_sap_flow
-from agv_motion.motion.goals import Goal, GoalParameters
-from agv_motion.motion.homing import HomeParameters
-from agv_motion.motion.limits import Limited, LimitParameters, Limits
-from agv_motion.motion.memory import MemoryParameters
-from agv_motion.motion.mind import Mind, MindParameters, Thought
-from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, to_twist
-from agv_motion.motion.schedule import ScheduleParameters
-from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.generator import SapFlow, checked_sap_flow
+from agv_motion.motion.limits import Limited, Limits
+from agv_motion.motion.mind import Mind, Thought
+from agv_motion.motion.polar import to_twist
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.company_keeper import CompanyKeeper
 from agv_motion.nodes.memory_keeper import MemoryKeeper
-from agv_motion.parameters import Spec, check
+from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.config import find_config
-from agv_motion.ros.messages import fill_pose, fill_twist, pose_of
+from agv_motion.ros.messages import fill_path, fill_pose, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
+from agv_motion.ros.twist_publisher import TwistPublisher
+
+if TYPE_CHECKING:
+    from agv_motion.motion.goals import Goal
 
 THINK_PERIOD = 1.0
 """[s] after which the tree thinks again though nothing is new: of the hour, and of other ways."""
-
-
-@dataclass(frozen=True)
-class MotionGeneratorParameters:
-    """How sap flow becomes motion."""
-
-    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0
-    linear_speed: Annotated[
-        float, Spec("the trunk's speed at full sap flow", 'm/s', (1e-4, 10.0))
-    ] = LINEAR_SPEED
-    platform_radius: Annotated[
-        float, Spec('centre to turret: its rim has the same top speed', 'm', (0.01, 100.0))
-    ] = PLATFORM_RADIUS
-    goal: Annotated[
-        tuple[float, ...],
-        Spec('where to go with the strategy fixed, x and y in the map; RViz may set another', 'm'),
-    ] = (10.0, 7.5)
-    report_after: Annotated[
-        float, Spec('silence of sap flow or pose to report', 's', (0.01, 3600))
-    ] = 3.0
-    stop_after: Annotated[float, Spec('silence of sap flow or pose to stop', 's', (0.01, 3600))] = (
-        5.0
-    )
-    map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
-    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
-    zone_file: Annotated[
-        str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
-    ] = ''
-    memory_file: Annotated[
-        str, Spec('where to keep the memory of places over a restart; empty: nowhere')
-    ] = ''
-    share_zone: Annotated[
-        bool, Spec('other trees walk here: tell them the way on /ways, and keep clear of theirs')
-    ] = False
-    tree_name: Annotated[
-        str, Spec('by which the other trees know this one; empty: its namespace')
-    ] = ''
-    map_period: Annotated[
-        float, Spec('time between two publications of the memory maps', 's', (0.1, 3600.0))
-    ] = 5.0
-    last_visit_span: Annotated[
-        float,
-        Spec('time since a visit that memory/last_visit shows as 100', 'h', (0.01, 1e5)),
-    ] = 100.0
-    rest: RestParameters = field(default_factory=RestParameters)
-    goals: GoalParameters = field(default_factory=GoalParameters)
-    memory: MemoryParameters = field(default_factory=MemoryParameters)
-    limits: LimitParameters = field(default_factory=LimitParameters)
-    schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
-    home: HomeParameters = field(default_factory=HomeParameters)
-    traffic: TrafficParameters = field(default_factory=TrafficParameters)
-
-    def __post_init__(self) -> None:
-        """Check every row, and that the goal is a point."""
-        check(self)
-        if len(self.goal) != 2:
-            msg = f'goal = {list(self.goal)}: give x and y in metres'
-            raise ConfigurationError(msg)
-
-    def mind(self) -> MindParameters:
-        """Return what the mind needs of these."""
-        return MindParameters(
-            goals=self.goals,
-            memory=self.memory,
-            rest=self.rest,
-            schedule=self.schedule,
-            home=self.home,
-            goal=(self.goal[0], self.goal[1]) if self.goals.strategy == 'fixed' else None,
-            linear_speed=self.linear_speed,
-            platform_radius=self.platform_radius,
-        )
 
 
 class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
@@ -142,11 +67,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._watchdogs = {
             name: Watchdog(given.report_after, given.stop_after) for name in ('sap flow', 'pose')
         }
-        kind = TwistStamped if given.stamped else TwistMessage
-        self._message = kind()
-        if given.stamped:
-            self._message.header.frame_id = given.base_frame
-        self._command = self.publisher(kind, 'cmd_vel', COMMAND)
+        self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
         self._way = self.publisher(Path, 'way', LATCHED)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
         self._state = self.publisher(String, 'state', LATCHED)
@@ -319,12 +240,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._state.publish(String(data=state))
 
     def _tell_twist(self, twist: Twist) -> None:
-        if self.parameters.stamped:
-            self.stamp(self._message)
-            fill_twist(self._message.twist, twist)
-        else:
-            fill_twist(self._message, twist)
-        self._command.publish(self._message)
+        self._command.publish(twist)
 
     def _tell_goal(self, goal: Goal | None) -> None:
         """Publish and log a new goal with its reason, and why others were not taken."""
@@ -345,10 +261,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         message = Path()
         message.header.frame_id = self.parameters.map_frame
         self.stamp(message)
-        for x, y in way:
-            corner = PoseStamped(header=message.header)
-            fill_pose(corner.pose, Pose(x, y, 0.0))
-            message.poses.append(corner)
+        fill_path(message, [Pose(x, y, 0.0) for x, y in way])
         self._way.publish(message)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import isinf
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PointStamped
@@ -14,6 +14,7 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
+from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_path, points_of
 from agv_motion.ros.node import OK, WARN, Diagnosis
@@ -23,9 +24,6 @@ from agv_motion.route.follower import Limits, RouteFollower
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Point, Route
 from agv_motion.route.route_file import load_route
-
-if TYPE_CHECKING:
-    from agv_motion.planar import Pose
 
 IDLE = 'waiting for a route'
 
@@ -156,7 +154,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         message = Path()
         self.stamp(message)
         message.header.frame_id = self.parameters.frame
-        fill_path(message, route.waypoints)
+        fill_path(message, [Pose(x, y, 0.0) for x, y in route.waypoints])
         self._path.publish(message)
         laps = 'without end' if isinf(route.length) else f'{route.length:.1f} m'
         self.get_logger().info(f'route of {len(route.waypoints)} waypoints, {laps}')

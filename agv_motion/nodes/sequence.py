@@ -203,7 +203,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         message = Path()
         self.stamp(message)
         message.header.frame_id = self.parameters.frame
-        fill_path(message, [(p.x, p.y) for each in predicted for p in each.poses])
+        fill_path(message, [pose for each in predicted for pose in each.poses])
         self._path.publish(message)
 
     def _on_pause(self, request: Any) -> str:

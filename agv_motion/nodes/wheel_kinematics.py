@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
-from math import degrees, pi
-from typing import Annotated, Any
+from math import pi
+from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
@@ -15,77 +14,23 @@ from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering import SteeringPlanner
-from agv_motion.kinematics.steering_limits import SteeringLimits
-from agv_motion.kinematics.steering_state import Limiter, SteeringState
-from agv_motion.kinematics.turret_motion import alignment
+from agv_motion.kinematics.steering_drive import SteeringDrive
+from agv_motion.kinematics.steering_state import Limiter
 from agv_motion.motion.watchdog import Silence, Watchdog
-from agv_motion.nodes.platform_parameters import PlatformParameters
+from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_reckoning import TurretReckoning
-from agv_motion.parameters import Spec
-from agv_motion.planar import REST, Twist, wrap
 from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 
+if TYPE_CHECKING:
+    from agv_motion.planar import Twist
+
 SOONEST = 0.4
 """[-] A step shorter than this share of the last one waits: limits of acceleration want even steps.
 """
-
-LOST_TURRET = 0.35
-"""[rad] At rest, a turret so far from its command was turned by hand or did not follow: the
-planner goes on from where it is."""
-
-
-@dataclass(frozen=True)
-class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
-    """The platform, its limits, and what makes it stop."""
-
-    rate: Annotated[float, Spec('commands per second, at least', 'Hz', (1.0, 1000.0))] = 20.0
-    steering_zero: Annotated[
-        tuple[float, ...],
-        Spec(
-            'what each steering angle reads too little, from a calibration; empty: nothing',
-            'rad',
-            (-pi, pi),
-        ),
-    ] = ()
-    wheel_noise: Annotated[
-        float, Spec('standard deviation of the travel of a wheel after 1 m', 'm', (1e-6, 1.0))
-    ] = 0.02
-    unwind_after: Annotated[
-        float,
-        Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),
-    ] = 60.0
-    report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 3.0
-    stop_after: Annotated[float, Spec('silence of cmd_vel to stop', 's', (0.01, 3600))] = 5.0
-    residual_warning: Annotated[
-        float, Spec('turrets fight: warn above', 'm/s', (0.0, 10.0), dynamic=True)
-    ] = 0.005
-    residual_stop: Annotated[
-        float, Spec('turrets fight: stop above', 'm/s', (0.0, 10.0), dynamic=True)
-    ] = 0.02
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
-    base_frame: Annotated[str, Spec('frame of the twist and of the turret centres')] = 'base_link'
-    odom_frame: Annotated[str, Spec('frame in which the wheels carry the platform')] = 'odom'
-
-    def __post_init__(self) -> None:
-        """Check every row, and that the warning comes before the stop."""
-        super().__post_init__()
-        if self.residual_warning > self.residual_stop:
-            msg = (
-                f'residual_warning = {self.residual_warning} m/s is above '
-                f'residual_stop = {self.residual_stop} m/s: warn before stopping'
-            )
-            raise ConfigurationError(msg)
-        if len(self.steering_zero) not in {0, len(self.turret_x)}:
-            msg = (
-                f'steering_zero = {list(self.steering_zero)}: give one for each of '
-                f'{len(self.turret_x)} turrets, or none'
-            )
-            raise ConfigurationError(msg)
 
 
 class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
@@ -106,23 +51,17 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def open(self) -> None:
         """Build the kinematics and open the topics."""
         given = self.parameters
-        self._turrets = given.turrets()
-        self._planner = SteeringPlanner(self._turrets, given)
-        self._plan: SteeringState | None = None
-        self._zero = given.steering_zero or (0.0,) * len(self._turrets)
-        self._planned_at: float | None = None
+        turrets = given.turrets()
+        self._zero = given.steering_zero or (0.0,) * len(turrets)
         self._period = 1.0 / given.rate
-        self._wanted = REST
-        self._unwinding = False
-        self._rested = 0.0
+        self._driving = SteeringDrive(turrets, given, self._period, given.unwind_after)
         self._watchdog = Watchdog(given.report_after, given.stop_after)
         self._state_watchdog = Watchdog(given.report_after, given.stop_after)
         self._blind = False
-        self._joints = TurretJoints(len(self._turrets))
-        self._measured: list[float] | None = None
+        self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
         self._residual = 0.0
-        self._reckoning = TurretReckoning(self._turrets, given.wheel_noise)
+        self._reckoning = TurretReckoning(turrets, given.wheel_noise)
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
         self._message = self._joints.message()
@@ -151,7 +90,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def accept(self, parameters: WheelKinematicsParameters) -> None:
         """Take over new limits; the next step holds them."""
-        self._planner.limits = parameters
+        self._driving.planner.limits = parameters
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of turrets that fight, and of what limits the motion."""
@@ -161,8 +100,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             'cmd_vel': silence.value,
             'limited by': self._limiter.value,
         }
-        if self._plan is not None:
-            turns = max(self._plan.angles, key=abs) / (2.0 * pi)
+        if self._driving.plan is not None:
+            turns = max(self._driving.plan.angles, key=abs) / (2.0 * pi)
             values['furthest turn of a turret'] = f'{turns:.2f}'
         if self._stopped_by:
             return Diagnosis(ERROR, f'stopped: {self._stopped_by}', values)
@@ -183,23 +122,20 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _drive(self, twist: Twist) -> None:
         """Answer a twist with a command at once."""
         self._watchdog.feed()
-        self._wanted = twist
-        if any(twist):
-            self._unwinding = False
-            if self._plan is None:  # nothing is known of the turrets: they are taken for straight
-                self._plan = SteeringState(self._measured or [0.0] * len(self._turrets))
-        if self._stopped_by or self._blind or self._plan is None:
+        driving = self._driving
+        driving.want(twist)
+        if self._stopped_by or self._blind or driving.plan is None:
             self._stand_still()
             return
-        self._step(SOONEST * self._plan.period)
+        self._step(SOONEST * driving.plan.period)
         self._send()
 
     def _go_on(self) -> None:
         """Bring the wheels nearer to the wanted twist, also between two messages."""
-        if self._plan is None or self._stopped_by or self._blind:
+        if self._driving.plan is None or self._stopped_by or self._blind:
             return
         lost = self._watchdog.judge(self.seconds()) is Silence.LOST
-        if lost and not self._unwinding:
+        if lost and not self._driving.unwinding:
             return  # _watch has stopped the wheels
         if self._step(0.5 * self._period):
             self._send()
@@ -207,51 +143,20 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _step(self, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
         now = self.stamp(self._message)  # a command is stamped with the instant it is planned for
-        plan, period = self._plan, self._period
-        elapsed = period if self._planned_at is None else now - self._planned_at
-        if plan is None or 0.0 <= elapsed <= soonest:
+        if not self._driving.step(now, soonest):
             return False
-        self._planned_at = now
-        if not 0.0 < elapsed < 2.0 * period:  # the clock jumped, or there was nothing to do
-            elapsed = period
-        if plan.speed == 0.0 and self._is_lost(plan):
-            self._plan = plan = SteeringState(self._seen(plan))
-        self._rested = 0.0 if any(self._wanted) else self._rested + elapsed
-        if self._unwinding or self._wants_unwinding(plan):
-            self._unwinding = plan.speed > 0.0 or not self._planner.unwind(plan, elapsed)
-        if plan.speed > 0.0 or not self._unwinding:
-            self._planner.step(plan, self._wanted, elapsed)
-        if plan.limiter is not self._limiter:
+        plan = self._driving.plan
+        if plan is not None and plan.limiter is not self._limiter:
             self._limiter = plan.limiter
             self._limits.publish(String(data=plan.limiter.value))
         return True
 
-    def _seen(self, plan: SteeringState) -> list[float]:
-        """Return the measured angles, the turns of encoders that wrap counted on [rad]."""
-        measured = self._measured or plan.angles
-        return [told + wrap(seen - told) for told, seen in zip(plan.angles, measured, strict=True)]
-
-    def _is_lost(self, plan: SteeringState) -> bool:
-        """Return whether a turret stands elsewhere than the plan has it, and nothing moves."""
-        if self._measured is None or any(plan.rates):
-            return False
-        for told, seen in zip(plan.angles, self._measured, strict=True):
-            if abs(wrap(seen - told)) > LOST_TURRET:
-                return True
-        return False
-
-    def _wants_unwinding(self, plan: SteeringState) -> bool:
-        after = self.parameters.unwind_after
-        turned = max(plan.angles) > pi / 2.0 or min(plan.angles) < -pi / 2.0
-        return turned and 0.0 < after < self._rested
-
     def _send(self) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
-        plan = self._plan
+        plan = self._driving.plan
         if plan is None:
             return
-        share = alignment(plan.angles, self._measured) if plan.speed and self._measured else 1.0
-        factor = share / self.parameters.wheel_radius
+        factor = self._driving.share() / self.parameters.wheel_radius
         rates = [factor * speed for speed in plan.speeds]
         angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
         self._tell_turrets(angles, rates)
@@ -278,13 +183,13 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self.get_logger().warning(
                 f'no cmd_vel for {age:.1f} s: {told}', throttle_duration_sec=5.0
             )
-        if silence is Silence.LOST and not self._unwinding:
+        if silence is Silence.LOST and not self._driving.unwinding:
             self._stand_still()
 
     def _watch_state(self, now: float) -> None:
         """Stop when the turrets have told their angles and then fall silent."""
         silence = self._state_watchdog.judge(now)
-        self._blind = silence is Silence.LOST and self._measured is not None
+        self._blind = silence is Silence.LOST and self._driving.measured is not None
         if self._blind:
             self.get_logger().error(
                 f'no turrets/state for {self._state_watchdog.age(now):.1f} s: stopping; '
@@ -294,14 +199,13 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _stand_still(self) -> None:
         """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
-        self._wanted, self._unwinding = REST, False
-        if self._plan is None:
+        self._driving.stop()
+        if self._driving.plan is None:
             message = self._joints.standstill()
             message.header.frame_id = self.parameters.base_frame
             self.stamp(message)
             self._command.publish(message)
         else:
-            self._planner.stop(self._plan)
             self.stamp(self._message)
             self._send()
 
@@ -310,23 +214,14 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         if request.data:
             self._stand_still()
             return 'stopped; call again with data: false to drive on'
-        if self._plan is not None:  # from where they were left, whatever was commanded before
-            self._plan = SteeringState(self._seen(self._plan))
+        self._driving.start_anew()
         return 'free to drive'
 
     def _on_unwind(self, _: Any) -> str:
-        plan = self._plan
         if self._stopped_by or self._blind:
             msg = f'stopped ({self._stopped_by or "turrets/state is lost"}): release it first'
             raise ConfigurationError(msg)
-        if plan is None or all(abs(angle) <= pi / 2.0 for angle in plan.angles):
-            return 'nothing to unwind: every turret is within a quarter turn of straight'
-        if plan.speed > 0.0 or any(self._wanted):
-            msg = 'the platform is driving: send a zero cmd_vel before unwinding'
-            raise ConfigurationError(msg)
-        self._unwinding = True
-        furthest = max(plan.angles, key=abs)
-        return f'unwinding, the furthest turret by {degrees(pi * round(furthest / pi)):.0f} deg'
+        return self._driving.unwind()
 
     def _on_state(self, message: JointState) -> None:
         """Fit the twist that the turrets really make, and carry the odometry on."""
@@ -346,9 +241,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _note_angles(self, angles: list[float]) -> None:
         self._state_watchdog.feed()
-        if self._measured is None:
-            self._plan = SteeringState(angles)
-        self._measured = angles
+        self._driving.see(angles)
 
     def _judge_residual(self, residual: float) -> None:
         """Stop when the turrets fight too hard."""

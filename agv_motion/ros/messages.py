@@ -86,11 +86,11 @@ def points_of(path: Any) -> list[tuple[float, float]]:
     return [(p.pose.position.x, p.pose.position.y) for p in path.poses]
 
 
-def fill_path(path: Any, points: Sequence[tuple[float, float]]) -> None:
-    """Write ``points`` [m] into a nav_msgs/Path, all with its own header."""
-    path.poses = [PoseStamped(header=path.header) for _ in points]
-    for stamped, (x, y) in zip(path.poses, points, strict=True):
-        fill_pose(stamped.pose, Pose(x, y, 0.0))
+def fill_path(path: Any, poses: Sequence[Pose]) -> None:
+    """Write ``poses`` into a nav_msgs/Path, all with its own header."""
+    path.poses = [PoseStamped(header=path.header) for _ in poses]
+    for stamped, pose in zip(path.poses, poses, strict=True):
+        fill_pose(stamped.pose, pose)
 
 
 class TurretJoints:

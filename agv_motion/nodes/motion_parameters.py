@@ -1,0 +1,90 @@
+"""Parameters of `motion_generator`, those of all that it moves by among them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion.generator import RestParameters
+from agv_motion.motion.goals import GoalParameters
+from agv_motion.motion.homing import HomeParameters
+from agv_motion.motion.limits import LimitParameters
+from agv_motion.motion.memory import MemoryParameters
+from agv_motion.motion.mind import MindParameters
+from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS
+from agv_motion.motion.schedule import ScheduleParameters
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.parameters import Spec, check
+
+
+@dataclass(frozen=True)
+class MotionGeneratorParameters:
+    """How sap flow becomes motion."""
+
+    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0
+    linear_speed: Annotated[
+        float, Spec("the trunk's speed at full sap flow", 'm/s', (1e-4, 10.0))
+    ] = LINEAR_SPEED
+    platform_radius: Annotated[
+        float, Spec('centre to turret: its rim has the same top speed', 'm', (0.01, 100.0))
+    ] = PLATFORM_RADIUS
+    goal: Annotated[
+        tuple[float, ...],
+        Spec('where to go with the strategy fixed, x and y in the map; RViz may set another', 'm'),
+    ] = (10.0, 7.5)
+    report_after: Annotated[
+        float, Spec('silence of sap flow or pose to report', 's', (0.01, 3600))
+    ] = 3.0
+    stop_after: Annotated[float, Spec('silence of sap flow or pose to stop', 's', (0.01, 3600))] = (
+        5.0
+    )
+    map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
+    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
+    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    zone_file: Annotated[
+        str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
+    ] = ''
+    memory_file: Annotated[
+        str, Spec('where to keep the memory of places over a restart; empty: nowhere')
+    ] = ''
+    share_zone: Annotated[
+        bool, Spec('other trees walk here: tell them the way on /ways, and keep clear of theirs')
+    ] = False
+    tree_name: Annotated[
+        str, Spec('by which the other trees know this one; empty: its namespace')
+    ] = ''
+    map_period: Annotated[
+        float, Spec('time between two publications of the memory maps', 's', (0.1, 3600.0))
+    ] = 5.0
+    last_visit_span: Annotated[
+        float,
+        Spec('time since a visit that memory/last_visit shows as 100', 'h', (0.01, 1e5)),
+    ] = 100.0
+    rest: RestParameters = field(default_factory=RestParameters)
+    goals: GoalParameters = field(default_factory=GoalParameters)
+    memory: MemoryParameters = field(default_factory=MemoryParameters)
+    limits: LimitParameters = field(default_factory=LimitParameters)
+    schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
+    home: HomeParameters = field(default_factory=HomeParameters)
+    traffic: TrafficParameters = field(default_factory=TrafficParameters)
+
+    def __post_init__(self) -> None:
+        """Check every row, and that the goal is a point."""
+        check(self)
+        if len(self.goal) != 2:
+            msg = f'goal = {list(self.goal)}: give x and y in metres'
+            raise ConfigurationError(msg)
+
+    def mind(self) -> MindParameters:
+        """Return what the mind needs of these."""
+        return MindParameters(
+            goals=self.goals,
+            memory=self.memory,
+            rest=self.rest,
+            schedule=self.schedule,
+            home=self.home,
+            goal=(self.goal[0], self.goal[1]) if self.goals.strategy == 'fixed' else None,
+            linear_speed=self.linear_speed,
+            platform_radius=self.platform_radius,
+        )
