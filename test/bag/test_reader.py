@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from struct import pack_into
+
 import pytest
 from mcap.writer import CompressionType, IndexType, Writer
 from rosbags.rosbag2 import Reader, StoragePlugin
@@ -9,6 +11,7 @@ from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.rosbag2.enums import CompressionFormat, CompressionMode
 from rosbags.typesys import Stores, get_typestore
 
+from agv_motion.bag import records
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter, OfferedQos
@@ -92,6 +95,26 @@ def test_the_messages_before_a_damaged_chunk_are_read_and_then_it_is_named(tmp_p
     before = [row for row in written if row[1] < damaged.start]
     assert found == before
     assert len(before) > 10
+
+
+@pytest.mark.parametrize(
+    ('field', 'value', 'finding'),
+    [('<H', 99, 'channel 99, which is not described'), ('<Q', 600, 'no whole message')],
+)
+def test_a_message_of_no_channel_or_beyond_its_chunk_is_named_also_among_small_chunks(
+    tmp_path, field, value, finding
+):
+    written = ours(tmp_path / 'bag', range(100), compression='none')
+    file = tmp_path / 'bag' / 'bag_0.mcap'
+    data = bytearray(file.read_bytes())
+    at = data.index(text(50)) - records.MESSAGE_HEAD.size
+    pack_into(field, data, at + (9 if field == '<H' else 1), value)
+    file.write_bytes(data)
+    found = []
+    with BagReader(file, validate=False) as bag, pytest.raises(DamagedBagError, match=finding):
+        found.extend((m.connection.topic, m.stamp, m.data) for m in bag.messages())
+    assert found == written[: len(found)]
+    assert 40 < len(found) <= 50
 
 
 def test_topics_and_times_are_selected(tmp_path):

@@ -109,6 +109,7 @@ def test_cables_are_not_unwound_while_driving_or_where_there_is_nothing_to_do():
 
 def test_a_stop_holds_the_angles_and_the_next_start_takes_them_as_they_are():
     one = drive()
+    one.see([0.0, 0.0])
     one.want(Twist(0.2, 0.2, 0.0))
     steps(one, 20)
     angles = list(one.plan.angles)

@@ -38,18 +38,26 @@ class Tree:
             linear = message.twist.linear
             self.twists.append((seconds, linear.x, linear.y))
 
-    def feed(self, seconds, y=0.0, flow=1.0):
-        pose, sap = PoseWithCovarianceStamped(), Vector3Stamped()
-        pose.pose.pose.position.y, sap.vector = y, Vector3(x=flow, y=0.5, z=0.5)
-        for topic, message in (('/pose', pose), ('/granier/sap_flow', sap)):
-            stamp = self.start + int(seconds * SECOND)
-            self.world.feed(topic, stamp, codec(type(message)).encode(message))
+    def stand(self, seconds, y=0.0):
+        message = PoseWithCovarianceStamped()
+        message.pose.pose.position.y = y
+        self._feed(seconds, '/pose', message)
+
+    def flow(self, seconds, speed=1.0):
+        self._feed(
+            seconds, '/granier/sap_flow', Vector3Stamped(vector=Vector3(x=speed, y=0.5, z=0.5))
+        )
+
+    def _feed(self, seconds, topic, message):
+        stamp = self.start + int(seconds * SECOND)
+        self.world.feed(topic, stamp, codec(type(message)).encode(message))
 
 
 def test_the_closing_hour_is_noticed_though_nothing_is_new():
     hours = {'schedule.enabled': True, 'schedule.time_zone': 'UTC'}
     tree = Tree(CLOSING - 10 * SECOND, **hours)
-    tree.feed(0.05)
+    tree.stand(0.05)
+    tree.flow(0.05)
     tree.world.run(CLOSING + 2 * SECOND)
     (walked, walking), (rested, resting) = tree.states[-2:]
     assert 'walking' in walking
@@ -60,15 +68,16 @@ def test_the_closing_hour_is_noticed_though_nothing_is_new():
 
 def test_a_new_pose_and_a_new_flow_count_at_once():
     tree = Tree(CLOSING)
-    tree.feed(0.05)
-    tree.feed(0.35, y=9.0)
-    tree.feed(0.55, y=9.0, flow=0.0)
+    tree.stand(0.05)
+    tree.flow(0.05)
+    tree.stand(0.35, y=9.0)
+    tree.flow(0.55, 0.0)
     tree.world.run(CLOSING + SECOND)
     straight = [(x, y) for t, x, y in tree.twists if 0.05 < t < 0.35]
     aside = [(x, y) for t, x, y in tree.twists if 0.35 <= t < 0.55]
     assert straight
     assert all(x > 0.0 and y == pytest.approx(0.0) for x, y in straight)
-    assert len(aside) == 3
+    assert len(aside) == 2
     assert all(y == pytest.approx(-x) for x, y in aside)
     assert all(x > 0.0 for x, _ in aside)
     assert tree.twists[-1][1:] == (0.0, 0.0)
@@ -76,7 +85,8 @@ def test_a_new_pose_and_a_new_flow_count_at_once():
 
 def test_commands_go_on_between_thoughts():
     tree = Tree(CLOSING)
-    tree.feed(0.05)
+    tree.stand(0.05)
+    tree.flow(0.05)
     tree.world.run(CLOSING + 5 * SECOND)
     assert len(tree.twists) >= 50
     assert all(x > 0.0 for t, x, _ in tree.twists if t > 0.05)
