@@ -9,6 +9,18 @@ import typer
 import yaml
 
 from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.echo_options import (
+    Csv,
+    Field,
+    Filter,
+    FlowStyle,
+    FullLength,
+    MessageInfo,
+    NoArrays,
+    NoStrings,
+    Once,
+    TruncateLength,
+)
 from agv_motion.cli.message_text import MessageText, is_message
 from agv_motion.cli.topic_echo import part_of, predicate
 
@@ -17,22 +29,16 @@ def echo(
     bag: Bag,
     topic_name: Annotated[str, typer.Argument(help="Name of the topic, such as '/cmd_vel'.")],
     *,
-    csv: Annotated[bool, typer.Option('--csv', help='Values separated by commas.')] = False,
-    field: Annotated[str, typer.Option(help='Only this field, such as pose.pose.position.')] = '',
-    full_length: Annotated[bool, typer.Option('-f', '--full-length', help='Cut nothing.')] = False,
-    truncate_length: Annotated[
-        int, typer.Option('-l', '--truncate-length', min=0, help='Cut arrays and strings here.')
-    ] = 128,
-    no_arr: Annotated[bool, typer.Option('--no-arr', help='Hide arrays.')] = False,
-    no_str: Annotated[bool, typer.Option('--no-str', help='Hide strings.')] = False,
-    flow_style: Annotated[bool, typer.Option('--flow-style', help='One line.')] = False,
-    filter_expr: Annotated[
-        str, typer.Option('--filter', help='Python expression of m, the message.')
-    ] = '',
-    once: Annotated[bool, typer.Option('--once', help='Only the first message.')] = False,
-    include_message_info: Annotated[
-        bool, typer.Option('-i', '--include-message-info', help='Stamps and numbers as well.')
-    ] = False,
+    csv: Csv = False,
+    field: Field = '',
+    full_length: FullLength = False,
+    truncate_length: TruncateLength = 128,
+    no_arr: NoArrays = False,
+    no_str: NoStrings = False,
+    flow_style: FlowStyle = False,
+    filter_expr: Filter = '',
+    once: Once = False,
+    include_message_info: MessageInfo = False,
     start_offset: StartOffset = 0.0,
     duration: Duration = -1.0,
 ) -> None:

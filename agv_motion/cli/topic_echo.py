@@ -9,6 +9,18 @@ from typing import Annotated, Any
 import typer
 import yaml
 
+from agv_motion.cli.echo_options import (
+    Csv,
+    Field,
+    Filter,
+    FlowStyle,
+    FullLength,
+    MessageInfo,
+    NoArrays,
+    NoStrings,
+    Once,
+    TruncateLength,
+)
 from agv_motion.cli.graph import DISCOVERY, interface_class, joined, spin, topic_class
 from agv_motion.cli.message_text import MessageText, is_message
 from agv_motion.cli.topic_options import SimTime, SpinTime, Topic, preset_qos
@@ -23,27 +35,21 @@ def echo(
     qos_depth: Annotated[int, typer.Option(help='Queue size.')] = 0,
     qos_reliability: Annotated[str, typer.Option(help='reliable or best_effort.')] = '',
     qos_durability: Annotated[str, typer.Option(help='volatile or transient_local.')] = '',
-    csv: Annotated[bool, typer.Option('--csv', help='Values separated by commas.')] = False,
-    field: Annotated[str, typer.Option(help='Only this field, such as pose.pose.position.')] = '',
-    full_length: Annotated[bool, typer.Option('-f', '--full-length', help='Cut nothing.')] = False,
-    truncate_length: Annotated[
-        int, typer.Option('-l', '--truncate-length', min=0, help='Cut arrays and strings here.')
-    ] = 128,
-    no_arr: Annotated[bool, typer.Option('--no-arr', help='Hide arrays.')] = False,
-    no_str: Annotated[bool, typer.Option('--no-str', help='Hide strings.')] = False,
-    flow_style: Annotated[bool, typer.Option('--flow-style', help='One line.')] = False,
+    csv: Csv = False,
+    field: Field = '',
+    full_length: FullLength = False,
+    truncate_length: TruncateLength = 128,
+    no_arr: NoArrays = False,
+    no_str: NoStrings = False,
+    flow_style: FlowStyle = False,
     no_lost_messages: Annotated[
         bool, typer.Option('--no-lost-messages', help='Do not report lost messages.')
     ] = False,
     raw: Annotated[bool, typer.Option('--raw', help='The bytes as they come.')] = False,
-    filter_expr: Annotated[
-        str, typer.Option('--filter', help='Python expression of m, the message.')
-    ] = '',
-    once: Annotated[bool, typer.Option('--once', help='Stop after the first message.')] = False,
+    filter_expr: Filter = '',
+    once: Once = False,
     timeout: Annotated[float, typer.Option(help='Stop after so many seconds.', min=0.0)] = 0.0,
-    include_message_info: Annotated[
-        bool, typer.Option('-i', '--include-message-info', help='Stamps and numbers as well.')
-    ] = False,
+    include_message_info: MessageInfo = False,
     spin_time: SpinTime = DISCOVERY,
     use_sim_time: SimTime = False,
 ) -> None:
