@@ -5,13 +5,12 @@ from __future__ import annotations
 import mmap
 from collections import OrderedDict
 from functools import partial
-from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from agv_motion.bag import connection as connections
-from agv_motion.bag import mcap_scan, mcap_summary, records
+from agv_motion.bag import mcap_scan, mcap_summary, message_index, records
 from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import DamagedBagError
@@ -29,10 +28,6 @@ if TYPE_CHECKING:
 
 CACHE = 1 << 28
 """[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
-_ENTRY = 16
-_INDEX_HEAD = Struct('<BQHI')
-"""Prefix of a message index, its channel and the size of its entries."""
-_NO_INDEX = np.empty((0, 2), np.uint64)
 
 
 class Entries(NamedTuple):
@@ -116,14 +111,11 @@ class McapFile:
 
         """
         counts: dict[int, int] = {}
-        size = records.PREFIX.size
         for chunk in self.chunks:
             if chunk.end >= start and chunk.start < stop:
                 for channel, at in (chunk.indexes or {}).items():
-                    if at + size <= len(self._data):
-                        _, length = records.PREFIX.unpack_from(self._data, at)
-                        count = min(length, len(self._data)) // _ENTRY
-                        counts[channel] = counts.get(channel, 0) + count
+                    most = message_index.most(self._data, at)
+                    counts[channel] = counts.get(channel, 0) + most
         self.release(0, len(self._data))
         return counts
 
@@ -136,9 +128,13 @@ class McapFile:
         """
         if chunk.indexes is None:
             entries = self.entries(chunk, unpacked).get(channel)
-            return np.column_stack(entries).astype(np.uint64) if entries else _NO_INDEX
+            return np.column_stack(entries).astype(np.uint64) if entries else message_index.NONE
         at = chunk.indexes.get(channel)
-        return _NO_INDEX if at is None else self._indexed(channel, at)
+        return (
+            message_index.NONE
+            if at is None
+            else message_index.rows(self._data, channel, at, self.path)
+        )
 
     def entries(
         self, chunk: Chunk, unpacked: Buffer | None = None, wanted: Container[int] | None = None
@@ -156,7 +152,7 @@ class McapFile:
         """
         if chunk.indexes is not None:
             tables = {
-                channel: self._indexed(channel, at)
+                channel: message_index.rows(self._data, channel, at, self.path)
                 for channel, at in chunk.indexes.items()
                 if wanted is None or channel in wanted
             }
@@ -313,20 +309,6 @@ class McapFile:
             if int(channel) not in self.channels:
                 finding = f'in this chunk, a message of channel {channel}, which is not described'
                 raise DamagedBagError(self.path, chunk.offset, finding)
-
-    def _indexed(self, channel: int, at: int) -> NDArray[np.uint64]:
-        """Return log time and offset of the messages of a channel, as rows."""
-        size = _INDEX_HEAD.size
-        if at + size > len(self._data):
-            finding = f'a message index at byte {at} of a file of {len(self._data)}'
-            raise DamagedBagError(self.path, at, finding)
-        opcode, length, found, pairs = _INDEX_HEAD.unpack_from(self._data, at)
-        if opcode != records.MESSAGE_INDEX or at + records.PREFIX.size + length > len(self._data):
-            raise DamagedBagError(self.path, at, 'no message index where the summary says')
-        if found != channel or pairs % _ENTRY or pairs + size - records.PREFIX.size > length:
-            finding = f'a message index of channel {found} with {pairs} bytes'
-            raise DamagedBagError(self.path, at, f'{finding}, expected channel {channel}')
-        return np.frombuffer(self._data, '<u8', pairs // 8, at + size).reshape(-1, 2)
 
     def _filled(self, chunk: Chunk) -> bool:
         return chunk.indexes is None or bool(chunk.indexes)

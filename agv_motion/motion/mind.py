@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import hypot, inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.motion.course import Course
@@ -19,10 +19,9 @@ from agv_motion.motion.limits import Place
 from agv_motion.motion.memory import Memory, MemoryParameters
 from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS, STILL, PolarCommand
 from agv_motion.motion.schedule import ALWAYS, Phase, Schedule, ScheduleParameters
+from agv_motion.motion.thought import ALONE, Surroundings, Thought
 
 if TYPE_CHECKING:
-    import shapely
-
     from agv_motion.motion.paths import Point
     from agv_motion.motion.zone import Zone
     from agv_motion.planar import Pose
@@ -51,32 +50,6 @@ class MindParameters:
     """[m] a corner of the way counts as reached from here: twice the noise of a position fix"""
     corner_slack: float = 0.02
     """[m] by which skipping it may cut into the margin"""
-
-
-class Surroundings(NamedTuple):
-    """What others allow: the seam to other trees."""
-
-    avoid: shapely.Geometry | None = None
-    """area to keep off, taken off the walkable floor; the same object while it is the same"""
-    wait: str = ''
-    """why the tree must not go on now, in words; empty if it may"""
-
-
-ALONE = Surroundings()
-
-
-class Thought(NamedTuple):
-    """What the tree makes of a moment."""
-
-    wanted: PolarCommand
-    """before the limits"""
-    activity: str
-    """what it does, in words"""
-    place: Place
-    """what the place allows, for the limits"""
-    goal: Goal | None
-    way: tuple[Point, ...]
-    """corners from here to the goal; empty if it goes nowhere"""
 
 
 class Mind:

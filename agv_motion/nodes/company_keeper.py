@@ -16,7 +16,8 @@ from agv_motion.ros.claims import claim_message, claim_of
 
 if TYPE_CHECKING:
     from agv_motion.motion.generator import SapFlow
-    from agv_motion.motion.mind import Mind, Thought
+    from agv_motion.motion.mind import Mind
+    from agv_motion.motion.thought import Thought
     from agv_motion.motion.traffic.parameters import TrafficParameters
     from agv_motion.planar import Pose
     from agv_motion.ros.node import ManagedNode

@@ -12,7 +12,7 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import SapFlow, checked_sap_flow
 from agv_motion.motion.limits import Limited, Limits
-from agv_motion.motion.mind import Mind, Thought
+from agv_motion.motion.mind import Mind
 from agv_motion.motion.polar import to_twist
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.motion.zone_file import load_zone
@@ -29,6 +29,7 @@ from agv_motion.ros.twist_publisher import TwistPublisher
 
 if TYPE_CHECKING:
     from agv_motion.motion.goals import Goal
+    from agv_motion.motion.thought import Thought
 
 THINK_PERIOD = 1.0
 """[s] after which the tree thinks again though nothing is new: of the hour, and of other ways."""

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     import random
     from collections.abc import Callable
 
-    from agv_motion.motion.mind import Thought
     from agv_motion.motion.polyline import Point
+    from agv_motion.motion.thought import Thought
     from agv_motion.motion.traffic.company import Company
 
 STEPPED = 0.1

@@ -12,9 +12,10 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import SapFlow
 from agv_motion.motion.goals import GoalParameters, Wish
 from agv_motion.motion.homing import HomeParameters
-from agv_motion.motion.mind import Mind, MindParameters, Surroundings
+from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.polar import PLATFORM_RADIUS, STILL, to_twist
 from agv_motion.motion.schedule import ScheduleParameters
+from agv_motion.motion.thought import Surroundings
 from agv_motion.motion.zone import Zone
 from agv_motion.planar import Pose, integrate
 from agv_motion.simulation.season_zones import plan_of

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from agv_motion.motion.generator import polar_command
-from agv_motion.motion.mind import ALONE, Surroundings
 from agv_motion.motion.polar import STILL, PolarCommand
+from agv_motion.motion.thought import ALONE, Surroundings
 
 if TYPE_CHECKING:
     from agv_motion.motion.generator import SapFlow
-    from agv_motion.motion.mind import Mind, Thought
+    from agv_motion.motion.mind import Mind
+    from agv_motion.motion.thought import Thought
     from agv_motion.motion.traffic.traffic import Passage, Traffic
     from agv_motion.planar import Pose
 

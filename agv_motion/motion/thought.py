@@ -1,0 +1,39 @@
+"""What the mind of a tree makes of a moment, and what others allow it meanwhile."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import shapely
+
+    from agv_motion.motion.goals import Goal
+    from agv_motion.motion.limits import Place
+    from agv_motion.motion.paths import Point
+    from agv_motion.motion.polar import PolarCommand
+
+
+class Surroundings(NamedTuple):
+    """What others allow: the seam to other trees."""
+
+    avoid: shapely.Geometry | None = None
+    """area to keep off, taken off the walkable floor; the same object while it is the same"""
+    wait: str = ''
+    """why the tree must not go on now, in words; empty if it may"""
+
+
+ALONE = Surroundings()
+
+
+class Thought(NamedTuple):
+    """What the tree makes of a moment."""
+
+    wanted: PolarCommand
+    """before the limits"""
+    activity: str
+    """what it does, in words"""
+    place: Place
+    """what the place allows, for the limits"""
+    goal: Goal | None
+    way: tuple[Point, ...]
+    """corners from here to the goal; empty if it goes nowhere"""
