@@ -138,6 +138,13 @@ class SimulatedNode(ManagedNode[P]):
         """Simulated time, since 1970 [s]."""
         return self._nanoseconds(self.steps) * 1e-9
 
+    def stamp(self, message: Any) -> float:
+        """Set the stamp of a message's header to the time that this node makes; return it [s]."""
+        if not self.active:
+            return super().stamp(message)
+        message.header.stamp = stamp_of(self._nanoseconds(self.steps))
+        return self.time
+
     def carry_to(self, pose: Pose) -> None:
         """Lift the robot and set it down elsewhere, its wheels still."""
         self._body.carry_to(pose)

@@ -249,7 +249,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
         if level == OK and self._steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:
             level, message = WARN, f'refused: {self.complaint}'
         report = DiagnosticArray()
-        report.header.stamp = self.get_clock().now().to_msg()
+        self.stamp(report)
         name = f'{self.get_namespace()}/{self.get_name()}'.replace('//', '/')
         pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
         report.status = [

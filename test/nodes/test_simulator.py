@@ -55,6 +55,13 @@ def test_fixes_are_noisy_and_say_how_much(tester):
     assert fixes[0].header.frame_id == 'map'
 
 
+def test_its_diagnostics_have_the_simulated_time(tester):
+    reports = tester.listen(DiagnosticArray, '/diagnostics')
+    tester.start(Simulator, **FAST)
+    report = tester.wait(reports, lambda m: m.status[0].message == 'running')
+    assert 1434366000.0 <= seconds_of(report.header.stamp) < 1434366000.0 + 1000.0
+
+
 def test_there_is_light_by_day(tester):
     light = tester.listen(Illuminance, 'sunlight', SENSOR)
     tester.start(Simulator, start_time='2015-06-15T12:00:00', **FAST)
