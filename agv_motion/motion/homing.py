@@ -25,7 +25,7 @@ class HomeParameters:
     """How the tree goes home, and back into its zone."""
 
     speed: Annotated[
-        float, Spec('v on the way home at least, however little sap flows', '1', (0.01, 1.0))
+        float, Spec('v at least, however little sap flows: home, or to give way', '1', (0.01, 1.0))
     ] = 0.5
     arrival: Annotated[float, Spec('distance at which it is home', 'm', (0.02, 100.0))] = 0.3
     spare: Annotated[

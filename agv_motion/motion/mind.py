@@ -170,8 +170,10 @@ class Mind:
         if self._homing.why:
             return self._walk_home(time, pose, flow, surroundings)
         if asleep:
-            return self._stay('resting: the sap stands')
-        return self._seek(time, pose, flow, surroundings)
+            thought = self._stay('resting: the sap stands')
+        else:
+            thought = self._seek(time, pose, flow, surroundings)
+        return thought._replace(aside=self.parameters.home.speed)
 
     def _look(self, pose: Pose) -> None:
         """Ask the zone about a pose, once; poses come less often than thoughts."""

@@ -6,6 +6,7 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
+import numpy as np
 import shapely
 
 if TYPE_CHECKING:
@@ -68,3 +69,11 @@ def line(way: Sequence[Point]) -> shapely.Geometry:
 
 
 EMPTY = shapely.GeometryCollection()
+
+
+def straight_pieces(way: shapely.Geometry) -> list[shapely.Geometry]:
+    """Return the straight pieces of what :func:`line` made, one after the other."""
+    points = shapely.get_coordinates(way)
+    if len(points) < 2:
+        return [way]
+    return list(shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1)))

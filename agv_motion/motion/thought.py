@@ -37,3 +37,5 @@ class Thought(NamedTuple):
     goal: Goal | None
     way: tuple[Point, ...]
     """corners from here to the goal; empty if it goes nowhere"""
+    aside: float = 0.0
+    """v at least while it walks out of the way of others; 0: it stays where it is"""

@@ -89,7 +89,7 @@ class Tally(NamedTuple):
     least_gap: float
     """[m] least distance between two trees less what is allowed; infinite with one tree"""
     longest_stand: float
-    """[s] longest standstill of a tree that was awake and had somewhere to go"""
+    """[s] longest standstill of a tree that had somewhere to go and heard the others"""
     coverage: tuple[float, ...]
     """share of the reachable floor the first tree has stood over, after each day"""
 
@@ -155,7 +155,11 @@ class Season:
                 reading, sky = now, sun(now, LATITUDE, LONGITUDE)
             off = outage <= now < outage + 3600.0
             self._radio.deaf = self._cut_off(lost) if off else set()
-            now += given.step if self._step(now, sky) else PERIOD
+            moving = self._step(now, sky)
+            if off:  # who does not hear the others has to keep to its side, wherever it would go
+                for tree in self.trees:
+                    tree.count_from(now)
+            now += given.step if moving else PERIOD
         memory = self.trees[0].company.mind.memory
         assert memory is not None
         self._coverage.append(memory.coverage()[0])

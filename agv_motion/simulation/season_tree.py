@@ -71,6 +71,10 @@ class SeasonTree:
         self.walked += hypot(self.pose.x - x, self.pose.y - y)
         return True
 
+    def count_from(self, now: float) -> None:
+        """Count how long the tree stands from now [s] on: so far it could not help it."""
+        self._moved_at = now
+
     def _count(self, thought: Thought, now: float, speed: float) -> None:
         """Count goals, and how long the tree has stood with somewhere to go."""
         if thought.goal is not self._goal and thought.goal is not None:

@@ -37,7 +37,7 @@ class Company:
             surroundings = Surroundings(avoid=self.traffic.closed())
         thought = mind.think(time, pose, flow, surroundings)
         self._blocked = 0.0
-        if thought.wanted == STILL:
+        if thought.wanted == STILL and not thought.aside:
             self.traffic.rest(here)
             return thought
         goal = thought.way[-1] if thought.way else None
@@ -53,11 +53,13 @@ class Company:
 
 def _heading(thought: Thought, passage: Passage, pose: Pose, flow: SapFlow) -> Thought:
     """Return ``thought`` with the heading, the way and the reason of ``passage``."""
+    if passage.target is None and not thought.way:
+        return thought
     omega, here = thought.wanted.omega, (pose.x, pose.y)
-    if passage.target is None:
-        activity = f'{thought.activity}: {passage.reason}' if passage.reason else thought.activity
-        still = PolarCommand(0.0, 0.0, omega)
-        return thought._replace(wanted=still, activity=activity, way=(here, *passage.way))
-    speed = thought.wanted.v if thought.way else flow.s1  # else it only gives way
-    wanted = polar_command(flow._replace(s1=speed), pose, passage.target)._replace(omega=omega)
-    return thought._replace(wanted=wanted, way=(here, *passage.way))
+    activity = f'{thought.activity}: {passage.reason}' if passage.reason else thought.activity
+    wanted = PolarCommand(0.0, 0.0, omega)
+    if passage.target is not None:
+        speed = thought.wanted.v if thought.way else 0.0
+        speed = max(speed, thought.aside) if passage.gives_way else speed
+        wanted = polar_command(flow._replace(s1=speed), pose, passage.target)._replace(omega=omega)
+    return thought._replace(wanted=wanted, activity=activity, way=(here, *passage.way))

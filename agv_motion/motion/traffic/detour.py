@@ -10,7 +10,7 @@ from shapely import Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.paths import Paths
-from agv_motion.motion.polyline import Way, joined
+from agv_motion.motion.polyline import Way, joined, straight_pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -29,9 +29,17 @@ ROUND = 1.0 / cos(pi / (4 * QUARTER)) + 1e-4
 
 
 def taken(lines: Iterable[tuple[shapely.Geometry, float]]) -> shapely.Geometry:
-    """Return the floor nearer to any of some ways than the clearance given with each [m]."""
+    """Return the floor nearer to any of some ways than the clearance given with each [m].
+
+    Each straight piece of a way is widened by itself: GEOS leaves a hole where a whole way bends
+    round a point at just the clearance, as one does that leads round another tree.
+    """
     return shapely.union_all(
-        [way.buffer(clearance * ROUND, quad_segs=QUARTER) for way, clearance in lines]
+        [
+            shapely.buffer(piece, clearance * ROUND, quad_segs=QUARTER)
+            for way, clearance in lines
+            for piece in straight_pieces(way)
+        ]
     )
 
 

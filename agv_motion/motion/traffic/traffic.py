@@ -60,11 +60,13 @@ class Passage(NamedTuple):
     target: Point | None
     """where to head for, straight; None: stay"""
     reason: str
-    """why it stays; empty while it goes"""
+    """why it stays or gives way; empty while it goes towards its goal"""
     blocked: float
     """[s] for how long it could not go towards its goal"""
     way: Way
     """corners from here on to the goal, or to where it gives way"""
+    gives_way: bool = False
+    """whether it goes out of the way of others, not towards its goal"""
 
 
 class Traffic:
@@ -127,7 +129,8 @@ class Traffic:
         blocked = stuck if goal is not None else 0.0
         if right.ahead - along <= ARRIVED:
             return Passage(None, self._reason, blocked, way)
-        return Passage(way[0], '', blocked, way)
+        reason = 'gives way' if self._yielding else ''
+        return Passage(way[0], reason, blocked, way, self._yielding)
 
     def rest(self, place: Point) -> None:
         """Hold nothing but the place where the tree is: it does not move for a while."""

@@ -1,0 +1,86 @@
+"""A mind among others: whoever may move steps out of the way, even while its sap stands."""
+
+from __future__ import annotations
+
+from math import dist
+
+import pytest
+
+from agv_motion.motion.generator import SapFlow
+from agv_motion.motion.goals import GoalParameters
+from agv_motion.motion.homing import HomeParameters
+from agv_motion.motion.mind import Mind, MindParameters
+from agv_motion.motion.paths import Paths
+from agv_motion.motion.polar import to_twist
+from agv_motion.motion.schedule import ScheduleParameters
+from agv_motion.motion.traffic.claim import IDLE, Claim
+from agv_motion.motion.traffic.company import Company
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.motion.zone import Zone
+from agv_motion.planar import Pose, integrate
+
+CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
+TRAFFIC = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
+CLEARANCE = 2.0
+"""[m] twice 0.7 + 0.2 + 0.2 / 2"""
+SPEED = 0.5
+ASLEEP, SLOW = SapFlow(0.0, 0.5, 0.1), SapFlow(0.1, 0.5, 0.9)
+NIGHT = 1434344400.0
+"""2015-06-15, 05:00 UTC"""
+
+
+class Oak:
+    """A tree in the corridor; `ash` comes along it, and went first."""
+
+    def __init__(self, place, **given):
+        mind = Mind(CORRIDOR, MindParameters(home=HomeParameters(speed=SPEED), **given))
+        right = RightOfWay('oak', place, TRAFFIC)
+        self.company = Company(mind, Traffic(right, CORRIDOR, Paths(CORRIDOR)))
+        self.pose = Pose(*place, 0.0)
+        self.speeds, self.activities = set(), []
+
+    def live(self, flow, seconds, start=NIGHT):
+        """Go on for a while, one thought a second."""
+        for now in range(round(start), round(start) + seconds):
+            traffic = self.company.traffic
+            way = (6.0, 1.25), (14.0, 1.25)
+            traffic.hear(
+                Claim('ash', now * 10**9, 1.0, way[:1], (), way, 1, heard={'oak': IDLE}), now
+            )
+            traffic.claim(now)
+            thought = self.company.think(now, self.pose, flow)
+            self.speeds.add(thought.wanted.v)
+            if thought.activity not in self.activities[-1:]:
+                self.activities.append(thought.activity)
+            self.pose = integrate(self.pose, to_twist(thought.wanted), 1.0)
+        return self
+
+    def gave_way(self):
+        return dist((self.pose.x, self.pose.y), (14.0, 1.25)) == pytest.approx(CLEARANCE, abs=0.11)
+
+
+def test_a_tree_whose_sap_stands_steps_aside_slowly_and_says_so():
+    oak = Oak((10.0, 1.25), goals=GoalParameters(strategy='memory')).live(ASLEEP, 1200)
+    assert oak.gave_way()
+    assert oak.speeds == {0.0, SPEED}
+    assert 'resting: the sap stands: gives way' in oak.activities
+    assert oak.activities[-1] == 'resting: the sap stands'
+
+
+def test_a_tree_whose_sap_hardly_flows_steps_aside_no_slower():
+    oak = Oak((8.3, 1.25), goal=(2.0, 1.25)).live(SLOW, 1300)
+    assert oak.gave_way()
+    assert max(oak.speeds) == SPEED
+
+
+def test_one_that_is_in_nobodys_way_rests_where_it_is():
+    oak = Oak((20.0, 1.25)).live(ASLEEP, 300)
+    assert (oak.pose.x, oak.pose.y) == (20.0, 1.25)
+
+
+def test_nobody_steps_aside_before_opening():
+    oak = Oak((10.0, 1.25), schedule=ScheduleParameters(enabled=True)).live(ASLEEP, 300)
+    assert (oak.pose.x, oak.pose.y) == (10.0, 1.25)
+    assert oak.speeds == {0.0}
