@@ -184,6 +184,31 @@ def _fastest(
     return limit, limiter
 
 
+def all_follow(
+    arms: Arms, state: SteeringState, limits: SteeringLimits, target: Direction, period: float
+) -> bool:
+    """Return whether all turrets can follow, should the velocity become ``target`` at once.
+
+    It is where :func:`longest_share` is 1, which is what is needed most of the time, at half the
+    price.
+    """
+    a, b, c = state.direction
+    va, vb, vc = target
+    change = EXACT * limits.steering_acceleration * usable_period(state, period)
+    top = EXACT * limits.steering_rate
+    for (x, y), rate in zip(arms, state.rates):  # noqa: B905 - hot path
+        wx, wy = a - c * y, b + c * x
+        square = wx * wx + wy * wy
+        if square < POINT_SQUARED:
+            continue
+        mx, my = va - vc * y, vb + vc * x
+        along, across = square + period * (wx * mx + wy * my), period * (wx * my - wy * mx)
+        turn = atan2(across, along) / period
+        if not (-top <= turn <= top and rate - change <= turn <= rate + change):
+            return False
+    return True
+
+
 def longest_share(  # noqa: C901, PLR0912 - likewise
     arms: Arms, state: SteeringState, limits: SteeringLimits, target: Direction, period: float
 ) -> float | None:

@@ -9,6 +9,7 @@ from agv_motion.kinematics.steering_course import (
     GROWTH,
     HERE,
     TURNING,
+    all_follow,
     can_brake,
     course,
     longest_share,
@@ -81,10 +82,10 @@ def _change_velocity(
         platform brakes straight on instead.
 
     """
-    share = longest_share(arms, state, limits, target, period)
-    if share == 1.0:
+    if all_follow(arms, state, limits, target, period):
         state.velocity = target
         return 1.0
+    share = longest_share(arms, state, limits, target, period)
     if share is not None:
         mixed = _between(state.velocity, target, share)
         if can_brake(arms, state, limits, mixed):
