@@ -47,6 +47,8 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         values = {'cmd_vel': silence.value, 'odometry': self.last_step.value}
         if stopped:
             return Diagnosis(ERROR, stopped, values)
+        if self.standing:
+            return Diagnosis(OK, 'standing', values)
         if silence is not Silence.FRESH:
             return Diagnosis(WARN, f'cmd_vel is {silence.value}', values)
         return Diagnosis(OK, 'driving', values)

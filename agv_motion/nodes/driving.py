@@ -10,9 +10,10 @@ from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.watchdog import Silence
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import LATCHED, SENSOR
@@ -67,7 +68,7 @@ class DrivingNode(ManagedNode[P]):
         self._twist = REST
         self.told = ''
         """The state told last"""
-        self._watchdog = Watchdog(given.report_after, given.stop_after)
+        self._pose_watch = InputWatch(self, given.position, given.report_after, given.stop_after)
         self._last_cycle: float | None = None
         self._farewell = 0.0
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
@@ -146,7 +147,7 @@ class DrivingNode(ManagedNode[P]):
         self.pose = pose_of(message.pose.pose)
         self._pose_time = seconds_of(message.header.stamp)
         self.lost = ''
-        self._watchdog.feed()
+        self._pose_watch.feed()
 
     def _on_cycle(self) -> None:
         now = self.seconds()
@@ -157,16 +158,10 @@ class DrivingNode(ManagedNode[P]):
         self.cycle(dt)
 
     def _watch(self, now: float) -> None:
-        silence, age = self._watchdog.judge(now), self._watchdog.age(now)
-        name = self.parameters.position
-        if age is None:
-            return
-        self.lost = f'no {name} for {self.parameters.stop_after:g} s' * (silence is Silence.LOST)
-        if silence is not Silence.FRESH:
-            told = 'stopping' if self.lost else 'still driving'
-            self.get_logger().warning(
-                f'no {name} for {age:.1f} s: {told}', throttle_duration_sec=5.0
-            )
+        silence, given = self._pose_watch.tell(now), self.parameters
+        if self._pose_watch.age(now) is not None:
+            lost = silence is Silence.LOST
+            self.lost = f'no {given.position} for {given.stop_after:g} s' if lost else ''
 
     def _send(self, twist: Twist) -> None:
         self._twist = twist

@@ -14,13 +14,14 @@ from agv_motion.motion.generator import SapFlow, checked_sap_flow
 from agv_motion.motion.limits import Limited, Limits
 from agv_motion.motion.mind import Mind
 from agv_motion.motion.polar import to_twist
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.watchdog import Silence
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.company_keeper import CompanyKeeper
 from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.config import find_config
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -65,8 +66,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._commanded_at = self.seconds()
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
-        self._watchdogs = {
-            name: Watchdog(given.report_after, given.stop_after) for name in ('sap flow', 'pose')
+        self._watches = {
+            name: InputWatch(self, name, given.report_after, given.stop_after)
+            for name in ('sap flow', 'pose')
         }
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
         self._way = self.publisher(Path, 'way', LATCHED)
@@ -125,7 +127,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector = message.vector
         self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
-        self._watchdogs['sap flow'].feed()
+        self._watches['sap flow'].feed()
         self._thought = None
         if self._obstacle:
             self._judge()
@@ -140,7 +142,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         self._require_map(message.header.frame_id)
         self._pose = pose_of(message.pose.pose)
-        self._watchdogs['pose'].feed()
+        self._watches['pose'].feed()
         self._thought = None
         self._judge()
 
@@ -178,15 +180,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         """Judge the silence of both inputs and keep the command alive."""
         now = self.seconds()
         self._lost = ''
-        for name, watchdog in self._watchdogs.items():
-            silence = watchdog.judge(now)
-            if silence is not Silence.FRESH and watchdog.age(now) is not None:
-                self.get_logger().warning(
-                    f'no {name} for {watchdog.age(now):.1f} s: '
-                    + ('stopping' if silence is Silence.LOST else 'still moving'),
-                    throttle_duration_sec=5.0,
-                )
-            if silence is Silence.LOST:
+        for name, watch in self._watches.items():
+            if watch.tell(now) is Silence.LOST:
                 self._lost = self._lost or name
         self._judge()
         self._move()

@@ -72,7 +72,8 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
             msg = f'odometry goes on without {values["wheels left out"]}: repair it'
             return Diagnosis(ERROR, msg, values)
         warning = self._warning(silence)
-        return Diagnosis(WARN if warning else OK, warning or 'driving', values)
+        doing = 'standing' if self.standing else 'driving'
+        return Diagnosis(WARN if warning else OK, warning or doing, values)
 
     def rates(self, twist: Twist) -> list[float]:
         """Return the rate of each wheel [rad/s]."""
@@ -100,7 +101,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         if not self._diagnosis.consistent:
             suspects = ' or '.join(self._names(self._diagnosis.suspects)) or 'several'
             return f'the wheels do not agree: look at {suspects}'
-        if silence is not Silence.FRESH:
+        if silence is not Silence.FRESH and not self.standing:
             return f'cmd_vel is {silence.value}'
         if self._odometry.reckoning.residual > self.parameters.residual_warning:
             return 'the wheels slip against each other'

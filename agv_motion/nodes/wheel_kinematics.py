@@ -16,10 +16,11 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering_drive import SteeringDrive
 from agv_motion.kinematics.steering_state import Limiter
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_reckoning import TurretReckoning
 from agv_motion.ros.covariances import fill_covariance
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -55,8 +56,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._zero = given.steering_zero or (0.0,) * len(turrets)
         self._period = 1.0 / given.rate
         self._driving = SteeringDrive(turrets, given, self._period, given.unwind_after)
-        self._watchdog = Watchdog(given.report_after, given.stop_after)
-        self._state_watchdog = Watchdog(given.report_after, given.stop_after)
+        limits = given.report_after, given.stop_after
+        self._command_watch = InputWatch(self, 'cmd_vel', *limits)
+        self._state_watch = InputWatch(self, 'turrets/state', *limits, 'look at the encoders')
         self._blind = False
         self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
@@ -94,7 +96,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of turrets that fight, and of what limits the motion."""
-        silence = self._watchdog.judge(self.seconds())
+        silence = self._command_watch.judge(self.seconds())
         values = {
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
@@ -121,7 +123,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _drive(self, twist: Twist) -> None:
         """Answer a twist with a command at once."""
-        self._watchdog.feed()
+        self._command_watch.feed()
         driving = self._driving
         driving.want(twist)
         if self._stopped_by or self._blind or driving.plan is None:
@@ -134,7 +136,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         """Bring the wheels nearer to the wanted twist, also between two messages."""
         if self._driving.plan is None or self._stopped_by or self._blind:
             return
-        lost = self._watchdog.judge(self.seconds()) is Silence.LOST
+        lost = self._command_watch.judge(self.seconds()) is Silence.LOST
         if lost and not self._driving.unwinding:
             return  # _watch has stopped the wheels
         if self._step(0.5 * self._period):
@@ -174,27 +176,14 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         listeners = self._steering.get_subscription_count() + self._wheels.get_subscription_count()
         self._arrays_wanted = listeners > 0
         self._watch_state(now)
-        silence = self._watchdog.judge(now)
-        if silence is Silence.FRESH:
-            return
-        age = self._watchdog.age(now)
-        if age is not None:
-            told = 'stopping' if silence is Silence.LOST else 'still driving'
-            self.get_logger().warning(
-                f'no cmd_vel for {age:.1f} s: {told}', throttle_duration_sec=5.0
-            )
-        if silence is Silence.LOST and not self._driving.unwinding:
+        if self._command_watch.tell(now) is Silence.LOST and not self._driving.unwinding:
             self._stand_still()
 
     def _watch_state(self, now: float) -> None:
         """Stop when the turrets have told their angles and then fall silent."""
-        silence = self._state_watchdog.judge(now)
+        silence = self._state_watch.tell(now)
         self._blind = silence is Silence.LOST and self._driving.measured is not None
         if self._blind:
-            self.get_logger().error(
-                f'no turrets/state for {self._state_watchdog.age(now):.1f} s: stopping; '
-                'look at the encoders', throttle_duration_sec=5.0,
-            )  # fmt: skip
             self._stand_still()
 
     def _stand_still(self) -> None:
@@ -240,7 +229,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._odometry.publish(odometry)
 
     def _note_angles(self, angles: list[float]) -> None:
-        self._state_watchdog.feed()
+        self._state_watch.feed()
         self._driving.see(angles)
 
     def _judge_residual(self, residual: float) -> None:

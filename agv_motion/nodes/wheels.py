@@ -19,7 +19,7 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.watchdog import Silence
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.odometry.encoders import Step
 from agv_motion.odometry.parameters import OdometryParameters
@@ -27,6 +27,7 @@ from agv_motion.odometry.rate_encoder import RateEncoder
 from agv_motion.parameters import Spec
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import covariance_of, fill_covariance
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, seconds_of, twist_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
@@ -87,8 +88,11 @@ class WheelsNode(ManagedNode[P]):
         self.last_step = Step.FIRST
         self._reckoning = reckoning
         self._rate_encoder = RateEncoder(len(joint_names))
-        self._watchdog = Watchdog(given.report_after, given.stop_after)
-        self._state_watchdog = Watchdog(given.report_after, given.stop_after)
+        limits = given.report_after, given.stop_after
+        self._command_watch = InputWatch(self, 'cmd_vel', *limits)
+        self._state_watch = InputWatch(self, 'wheels/state', *limits, 'look at the encoders')
+        self.standing = True
+        """Whether the last twist was zero: then nobody needs to drive on."""
         self._extras_wanted = False
         self._command = self.publisher(JointState, 'wheels/command', COMMAND)
         self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
@@ -107,8 +111,8 @@ class WheelsNode(ManagedNode[P]):
         self._send(REST, self.get_clock().now().to_msg())
 
     def silence(self) -> Silence:
-        """Return how silent `cmd_vel` is."""
-        return self._watchdog.judge(self.seconds())
+        """Return how silent `cmd_vel` is; no more than a fact where the robot was told to stand."""
+        return self._command_watch.judge(self.seconds())
 
     def why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""
@@ -126,7 +130,8 @@ class WheelsNode(ManagedNode[P]):
 
     def _drive(self, twist: Twist, stamp: Any) -> None:
         self._send(REST if self.stopped or self.blind else twist, stamp)
-        self._watchdog.feed()
+        self._command_watch.feed()
+        self.standing = twist == REST
 
     def _send(self, twist: Twist, stamp: Any) -> None:
         """Command the wheels; the plain array only where someone listens."""
@@ -141,20 +146,10 @@ class WheelsNode(ManagedNode[P]):
         """Stop when `cmd_vel` falls silent, or encoders that have spoken do."""
         now = self.seconds()
         self._extras_wanted = bool(self._rates.get_subscription_count())
-        silence = self._watchdog.judge(now)
-        eyes = self._state_watchdog.judge(now)
-        self.blind = eyes is Silence.LOST and self._state_watchdog.age(now) is not None
-        if self.blind:
-            self.get_logger().error(
-                f'no wheels/state for {self._state_watchdog.age(now):.1f} s: stopped; '
-                'look at the encoders', throttle_duration_sec=5.0,
-            )  # fmt: skip
-        elif silence is not Silence.FRESH and self._watchdog.age(now) is not None:
-            told = 'stopped' if silence is Silence.LOST else 'still driving'
-            self.get_logger().warning(
-                f'no cmd_vel for {self._watchdog.age(now):.1f} s: {told}',
-                throttle_duration_sec=5.0,
-            )
+        eyes = self._state_watch.tell(now)
+        self.blind = eyes is Silence.LOST and self._state_watch.age(now) is not None
+        command = self._command_watch
+        silence = command.judge(now) if self.standing else command.tell(now)
         if self.blind or silence is Silence.LOST:
             self._send(REST, self.get_clock().now().to_msg())
 
@@ -174,7 +169,7 @@ class WheelsNode(ManagedNode[P]):
         self.last_step = self.carry(stamp, angles)
         if self.last_step is Step.DUPLICATE or self.last_step is Step.LATE:
             return
-        self._state_watchdog.feed()
+        self._state_watch.feed()
         if self.last_step is Step.RESET:
             self.get_logger().warning(
                 f'{Step.RESET.value}; odometry goes on from where it was, less sure',

@@ -11,11 +11,13 @@ rclpy = pytest.importorskip('rclpy')
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
+from rcl_interfaces.msg import Log
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
+from agv_motion.ros.node import OK, WARN
 from agv_motion.ros.qos import SENSOR
 
 BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0}
@@ -32,6 +34,14 @@ class Robot:
         self.node = tester.start(DifferentialKinematics, **(BASE | parameters))
         self.cmd_vel = tester.publisher(TwistStamped, 'cmd_vel')
         self.encoders = tester.publisher(JointState, 'wheels/state', SENSOR)
+
+    def log(self):
+        """Return the list into which what the node logs from now on comes."""
+        told = self.tester.listen(Log, '/rosout', 100)
+        while not told:
+            self.node.get_logger().info('listening')
+            self.tester.graph.spin_for(0.05)
+        return told
 
     def send(self, vx=0.0, vy=0.0, wz=0.0):
         message = TwistStamped()
@@ -109,6 +119,28 @@ def test_silence_stop_and_the_end_are_explicit_zeros(tester):
     robot.node.trigger_deactivate()
     tester.graph.spin_for(0.1)
     assert list(robot.commands[-1].velocity) == [0.0, 0.0]
+
+
+def test_silence_is_told_once_and_so_is_its_end(tester):
+    robot = Robot(tester, report_after=0.1, stop_after=0.3)
+    told = robot.log()
+    robot.drive(vx=0.3)
+    tester.wait(told, lambda m: 'no cmd_vel' in m.msg and 'stopping' in m.msg)
+    assert robot.node.diagnose().level == WARN
+    tester.graph.spin_for(0.5)
+    robot.drive(vx=0.3)
+    back = tester.wait(told, lambda m: 'cmd_vel is back after' in m.msg)
+    assert sum('stopping' in m.msg for m in told[: told.index(back)]) == 1
+
+
+def test_a_robot_that_was_told_to_stand_misses_nobody(tester):
+    robot = Robot(tester, report_after=0.5, stop_after=0.6)
+    told = robot.log()
+    robot.drive(vx=0.3)
+    robot.drive(vx=0.0)
+    tester.graph.spin_for(1.0)
+    assert not [m.msg for m in told if 'no cmd_vel' in m.msg]
+    assert robot.node.diagnose()[:2] == (OK, 'standing')
 
 
 def test_encoders_that_fall_silent_stop_the_robot(tester):
