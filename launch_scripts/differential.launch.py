@@ -27,6 +27,7 @@ ARGUMENTS = (
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
     ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
+    ('respawn', 'false', 'start a node again 2 s after it ended by itself'),
 )
 
 
@@ -43,6 +44,8 @@ def generate_launch_description() -> LaunchDescription:
             namespace=value['namespace'],
             parameters=[value['config'], *parameters],
             output='screen',
+            respawn=value['respawn'],
+            respawn_delay=2.0,
             **options,
         )
 

@@ -1,17 +1,23 @@
 """A watchdog over one input of a node, which says in the log when it falls silent and comes back.
 
-Each change is told once: a fault that lasts a night fills no log. How things stand is the matter of
-the diagnostics.
+Each change is told once, and an input that comes and goes only now and then: a fault that lasts a
+night fills no log. How things stand is the matter of the diagnostics.
 """
 
 from __future__ import annotations
 
+from math import inf
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from agv_motion.motion.watchdog import Silence, Watchdog
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+
+
+CALM = 5.0
+"""[s] for which an input must be back before another silence is told at once."""
 
 
 class InputWatch(Watchdog):
@@ -38,13 +44,15 @@ class InputWatch(Watchdog):
         self._remedy = f'; {remedy}' if remedy else ''
         self._told = Silence.FRESH
         self._silent_for = 0.0
+        self._back_at = -inf
 
     def tell(self, now: float) -> Silence:
         """Return how silent the input is at ``now`` [s]; log it where that has changed."""
         silence, age = self.judge(now), self.age(now)
         if age is None:
             return silence
-        if silence is not self._told:
+        restless = self._told is Silence.FRESH and monotonic() - self._back_at < CALM
+        if silence is not self._told and not restless:
             self._log(silence, age)
             self._told = silence
         self._silent_for = abs(age)
@@ -56,6 +64,7 @@ class InputWatch(Watchdog):
         if silence is Silence.FRESH:
             text = f'{name} is back after {self._silent_for:.1f} s'
             logger.info(text)
+            self._back_at = monotonic()
         elif silence is Silence.LATE:
             text = f'no {name} {since}: going on'
             logger.warning(text)
