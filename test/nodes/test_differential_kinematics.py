@@ -131,6 +131,8 @@ def test_silence_is_told_once_and_so_is_its_end(tester):
     robot.drive(vx=0.3)
     back = tester.wait(told, lambda m: 'cmd_vel is back after' in m.msg)
     assert sum('stopping' in m.msg for m in told[: told.index(back)]) == 1
+    tester.graph.spin_for(1.0)  # silent again, so soon that it is not worth a word
+    assert told[-1] is back
 
 
 def test_a_robot_that_was_told_to_stand_misses_nobody(tester):

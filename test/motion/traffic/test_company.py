@@ -26,7 +26,7 @@ TRAFFIC = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, sil
 CLEARANCE = 2.0
 """[m] twice 0.7 + 0.2 + 0.2 / 2"""
 SPEED = 0.5
-ASLEEP, SLOW = SapFlow(0.0, 0.5, 0.1), SapFlow(0.1, 0.5, 0.9)
+ASLEEP = SapFlow(0.0, 0.5, 0.1)
 NIGHT = 1434344400.0
 """2015-06-15, 05:00 UTC"""
 
@@ -39,7 +39,7 @@ class Oak:
         right = RightOfWay('oak', place, TRAFFIC)
         self.company = Company(mind, Traffic(right, CORRIDOR, Paths(CORRIDOR)))
         self.pose = Pose(*place, 0.0)
-        self.speeds, self.activities = set(), []
+        self.going, self.giving_way, self.activities = set(), set(), []
 
     def live(self, flow, seconds, start=NIGHT):
         """Go on for a while, one thought a second."""
@@ -51,7 +51,9 @@ class Oak:
             )
             traffic.claim(now)
             thought = self.company.think(now, self.pose, flow)
-            self.speeds.add(thought.wanted.v)
+            speeds = self.giving_way if 'gives way' in thought.activity else self.going
+            speeds.add(thought.wanted.v)
+            assert thought.way or not thought.wanted.v
             if thought.activity not in self.activities[-1:]:
                 self.activities.append(thought.activity)
             self.pose = integrate(self.pose, to_twist(thought.wanted), 1.0)
@@ -64,23 +66,26 @@ class Oak:
 def test_a_tree_whose_sap_stands_steps_aside_slowly_and_says_so():
     oak = Oak((10.0, 1.25), goals=GoalParameters(strategy='memory')).live(ASLEEP, 1200)
     assert oak.gave_way()
-    assert oak.speeds == {0.0, SPEED}
+    assert (oak.going, oak.giving_way) == ({0.0}, {SPEED})
     assert 'resting: the sap stands: gives way' in oak.activities
     assert oak.activities[-1] == 'resting: the sap stands'
 
 
-def test_a_tree_whose_sap_hardly_flows_steps_aside_no_slower():
-    oak = Oak((8.3, 1.25), goal=(2.0, 1.25)).live(SLOW, 1300)
+@pytest.mark.parametrize('s1', [0.1, 0.8])
+def test_a_tree_steps_aside_as_its_sap_flows_but_no_slower(s1):
+    oak = Oak((8.3, 1.25), goal=(2.0, 1.25)).live(SapFlow(s1, 0.5, 0.9), 1300)
     assert oak.gave_way()
-    assert max(oak.speeds) == SPEED
+    assert oak.going <= {0.0, s1}
+    assert oak.giving_way == {max(s1, SPEED)}
 
 
 def test_one_that_is_in_nobodys_way_rests_where_it_is():
     oak = Oak((20.0, 1.25)).live(ASLEEP, 300)
     assert (oak.pose.x, oak.pose.y) == (20.0, 1.25)
+    assert oak.company.think(NIGHT + 300, oak.pose, ASLEEP).way == ()
 
 
 def test_nobody_steps_aside_before_opening():
     oak = Oak((10.0, 1.25), schedule=ScheduleParameters(enabled=True)).live(ASLEEP, 300)
     assert (oak.pose.x, oak.pose.y) == (10.0, 1.25)
-    assert oak.speeds == {0.0}
+    assert (oak.going, oak.giving_way) == ({0.0}, set())
