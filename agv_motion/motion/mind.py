@@ -48,7 +48,7 @@ class MindParameters:
     """[m] of what must not turn over delicate floor"""
     corner_reach: float = 0.3
     """[m] a corner of the way counts as reached from here: twice the noise of a position fix"""
-    corner_slack: float = 0.02
+    corner_slack: float = 0.01
     """[m] by which skipping it may cut into the margin"""
 
 

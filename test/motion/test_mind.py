@@ -138,6 +138,7 @@ def test_it_keeps_off_what_others_need_and_waits_when_told():
 def test_a_goal_whose_way_is_taken_is_given_up_for_another():
     life = Life(mind(), 2.0, 2.0)
     life.live(1800.0)
+    life.pose = Pose(2.0, 2.0, 0.0)
     life.mind.set_goal(10.0, 7.0, 'asked for')
     assert life.think().goal.place == (10.0, 7.0)
     door = Surroundings(avoid=shapely.box(5.0, 0.0, 7.0, 3.0))

@@ -50,7 +50,7 @@ LONG_WAY = 60.0
 CORNER = 0.3
 """[m] A corner counts as reached from here ..."""
 
-SLACK = 0.02
+SLACK = 0.01
 """[m] ... unless the short cut would cut so deep into the margin."""
 
 
