@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.bag_files import find
@@ -11,11 +13,11 @@ from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap_file import McapFile
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.sqlite_recovery import copy_readable
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.reader import File
@@ -52,10 +54,15 @@ class Recovery:
         found = find(path)
         self.problems += found.problems
         for number, file in enumerate(found.paths):
-            with self._noting(SourceError), BagReader(file) as bag:
-                self.problems += bag.problems
-                for share in self._saved(bag):
-                    progress((number + share) / len(found.paths))
+            with self._noting(SourceError), TemporaryDirectory() as folder:
+                readable = file
+                if file.suffix == '.db3':
+                    readable = Path(folder) / file.name
+                    self.problems += copy_readable(file, readable)
+                with BagReader(readable) as bag:
+                    self.problems += bag.problems
+                    for share in self._saved(bag, packed=found.messages_compressed):
+                        progress((number + share) / len(found.paths))
 
     @contextmanager
     def _noting(self, kind: type[SourceError]) -> Iterator[None]:
@@ -65,14 +72,13 @@ class Recovery:
         except kind as error:
             self.problems.append(error)
 
-    def _saved(self, bag: BagReader) -> Iterator[float]:
-        """Save one file; yield now and then the share that is done."""
+    def _saved(self, bag: BagReader, *, packed: bool) -> Iterator[float]:
+        """Save one file, its messages packed or not; yield now and then the share that is done."""
         for connection in bag.connections:
             self._handle(connection)
         for file in bag.files:
             for message, share in self._messages(file):
                 with self._noting(DamagedBagError):
-                    packed = bag.messages_compressed
                     whole = unpack_message(message, file.path) if packed else message
                     topic = self._handle(message.connection)
                     self._writer.write(

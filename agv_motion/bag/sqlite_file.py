@@ -35,7 +35,7 @@ class SqliteFile:
         try:
             self._reader.open()
         except (ReaderError, OSError, ValueError, KeyError, TypeError) as error:
-            msg = f'{path} cannot be read as a bag in sqlite3: {error}'
+            msg = f'{path} cannot be read as a bag in sqlite3: {error}; agv bag recover may help'
             raise SourceError(msg) from error
         self._by_id = {c.id: c for c in self._reader.connections}
         self.channels = {c.id: _connection(c) for c in self._reader.connections}
@@ -64,7 +64,7 @@ class SqliteFile:
         except Exception as error:
             if type(error).__module__.partition('.')[0] != 'apsw':
                 raise
-            msg = f'{self.path} is damaged: {error}; sqlite3 {self.path} .recover may help'
+            msg = f'{self.path} is damaged: {error}; agv bag recover saves what can be read'
             raise SourceError(msg) from error
 
     def close(self) -> None:

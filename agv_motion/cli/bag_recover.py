@@ -22,7 +22,8 @@ def recover(
     """Save every message that can be read into a new bag, with a new index.
 
     The damaged bag stays as it is. A file that was cut off is saved up to its last whole message;
-    chunks that are damaged are left out and told. The exit status is 1 if nothing could be saved.
+    chunks that are damaged, and rows of a damaged sqlite3 file, are left out and told. The exit
+    status is 1 if nothing could be saved.
     For example:
 
     agv bag recover walk walk_saved

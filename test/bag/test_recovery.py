@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 from mcap.reader import make_reader
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
 
 from agv_motion.bag.bag_files import find
 from agv_motion.bag.damage import DamagedBagError
@@ -142,3 +144,57 @@ def test_a_topic_that_changed_its_type_keeps_both(tmp_path):
             ('/a', 'string data'),
             ('/a_2', 'string data\nint32 more'),
         ]
+
+
+def sqlite_bag(path, mode=CompressionMode.NONE, count=2000):
+    """Let rosbags write a bag in sqlite3; return its file."""
+    store = get_typestore(Stores.ROS2_JAZZY)
+    text = store.types[TEXT]
+    writer = Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3)
+    writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        topic = writer.add_connection('/a', TEXT, typestore=store)
+        for i in range(count):
+            writer.write(topic, i + 1, store.serialize_cdr(text(f'text {i}'), TEXT))
+    return path / f'{path.name}.db3'
+
+
+@pytest.mark.parametrize('mode', [CompressionMode.NONE, CompressionMode.MESSAGE])
+def test_of_a_sqlite_file_cut_off_is_saved_what_lies_before_the_cut(tmp_path, mode):
+    file = sqlite_bag(tmp_path / 'bag', mode)
+    every = contents(file)
+    data = file.read_bytes()
+    file.write_bytes(data[: 2 * len(data) // 3])
+    recovery = recovered(file, tmp_path / 'saved')
+    found = contents(tmp_path / 'saved')
+    readable = set(found)
+    assert found == [message for message in every if message in readable]
+    assert len(every) // 3 < len(found) < len(every)
+    last = f'rows {found[-1][1] + 1} to the end cannot be read'
+    assert f'bag.db3, table messages: {last}' in str(recovery.problems[-1])
+
+
+def test_a_sqlite_file_with_pages_overwritten_loses_what_stood_on_them(tmp_path):
+    file = sqlite_bag(tmp_path / 'bag')
+    every = contents(file)
+    data = bytearray(file.read_bytes())
+    first, second = data.find(b'text 700\0'), data.find(b'text 1500\0')
+    for at in (first, second):
+        page = at - at % 4096
+        data[page : page + 4096] = bytes([255]) * 4096
+    file.write_bytes(data)
+    recovery = recovered(tmp_path / 'bag', tmp_path / 'saved')
+    found = contents(tmp_path / 'saved')
+    lost = set(every) - set(found)
+    assert set(found) < set(every)
+    assert {701, 1501} <= {message[1] for message in lost}
+    assert len(lost) < 400
+    assert [str(problem).count('table messages: rows') for problem in recovery.problems] == [1, 1]
+
+
+def test_a_sqlite_file_without_its_first_page_is_told(tmp_path):
+    file = sqlite_bag(tmp_path / 'bag')
+    file.write_bytes(b'\xff' * 4096 + file.read_bytes()[4096:])
+    recovery = recovered(tmp_path / 'bag', tmp_path / 'saved')
+    assert recovery.messages == 0
+    assert 'cannot be read as a bag in sqlite3' in str(recovery.problems[0])
