@@ -12,8 +12,10 @@ from rich.console import Console
 
 from agv_motion.cli.demo_differential import differential
 from agv_motion.cli.demo_omni import omni
+from agv_motion.cli.demo_trees import trees
 
 app = typer.Typer()
+app.command()(trees)
 app.command()(omni)
 app.command()(differential)
 

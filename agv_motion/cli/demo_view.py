@@ -27,6 +27,22 @@ WIDTH, HEIGHT = 56, 20
 ARROWS = '→↗↑↖←↙↓↘'
 
 
+def cell_of(zone: Zone, x: float, y: float) -> tuple[int, int]:
+    """Return row and column of the picture of ``zone`` at (x, y) [m]."""
+    west, south, east, north = zone.bounds
+    column = int((x - west) / (east - west) * (WIDTH - 1) + 0.5)
+    row = int((north - y) / (north - south) * (HEIGHT - 1) + 0.5)
+    return row, column
+
+
+def place_of(zone: Zone, row: int, column: int) -> tuple[float, float]:
+    """Return (x, y) [m] of a cell of the picture of ``zone``."""
+    west, south, east, north = zone.bounds
+    x = west + column * (east - west) / (WIDTH - 1)
+    y = north - row * (north - south) / (HEIGHT - 1)
+    return x, y
+
+
 class DemoView:
     """Draws what the recorder has heard."""
 
@@ -49,31 +65,24 @@ class DemoView:
         title = f'{moment:%d %B %Y, %H:%M:%S} UTC, {factor:.0f} times real time'
         return Columns([Panel(self._map(time), title=title), self._numbers()])
 
-    def _cell(self, x: float, y: float) -> tuple[int, int]:
-        west, south, east, north = self._zone.bounds
-        column = int((x - west) / (east - west) * (WIDTH - 1) + 0.5)
-        row = int((north - y) / (north - south) * (HEIGHT - 1) + 0.5)
-        return row, column
-
     def _map(self, time: float) -> Text:
         """Shade as dots, the trail, the goal and the tree."""
-        west, south, east, north = self._zone.bounds
         light = sun(time, self._place.latitude, self._place.longitude)
         truth, goal = self._recorder.latest('ground_truth'), self._recorder.latest('goal')
         marks: dict[tuple[int, int], tuple[str, str]] = {}
         if truth is not None:
-            here = self._cell(truth.pose.pose.position.x, truth.pose.pose.position.y)
+            here = cell_of(self._zone, truth.pose.pose.position.x, truth.pose.pose.position.y)
             self._trail.add(here)
         marks.update(dict.fromkeys(self._trail, ('•', 'green')))
         if goal is not None:
-            marks[self._cell(goal.pose.position.x, goal.pose.position.y)] = ('✕', 'bold red')
+            place = goal.pose.position
+            marks[cell_of(self._zone, place.x, place.y)] = ('✕', 'bold red')
         if truth is not None:
             marks[here] = ('♣', 'bold green')
         text = Text()
         for row in range(HEIGHT):
             for column in range(WIDTH):
-                x = west + column * (east - west) / (WIDTH - 1)
-                y = north - row * (north - south) / (HEIGHT - 1)
+                x, y = place_of(self._zone, row, column)
                 shade = sunlit(x, y, light, self._obstacles) < 0.5
                 floor = '#' if not self._zone.contains(x, y) else '░' if shade else ' '
                 text.append(*marks.get((row, column), (floor, 'dim')))
