@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import signal
+import time
 
 import numpy as np
 import pytest
@@ -31,6 +33,18 @@ def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     assert between['oak and ash'].min() > TrafficParameters().margin
     with BagReader(tmp_path / 'bag') as bag:
         assert bag.counts['/ways'] > 100
+
+
+def test_ctrl_c_at_the_very_beginning_is_no_error(alone, tmp_path):
+    process = alone.start('demo', 'trees', '--output', tmp_path)
+    end = time.monotonic() + 60.0
+    while not list(tmp_path.glob('bag/*.mcap')):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    out, errors = process.communicate(timeout=60.0)
+    assert process.returncode == 0, errors
+    assert 'Bag: ' in out
 
 
 def test_a_tree_alone_and_too_many_are_refused(alone):
