@@ -7,13 +7,12 @@ night fills no log. How things stand is the matter of the diagnostics.
 from __future__ import annotations
 
 from math import inf
-from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from agv_motion.motion.watchdog import Silence, Watchdog
 
 if TYPE_CHECKING:
-    from rclpy.node import Node
+    from agv_motion.ros.node import ManagedNode
 
 
 CALM = 5.0
@@ -24,7 +23,12 @@ class InputWatch(Watchdog):
     """Judges the age of the last input, and tells of it."""
 
     def __init__(
-        self, node: Node, name: str, report_after: float, stop_after: float, remedy: str = ''
+        self,
+        node: ManagedNode[Any],
+        name: str,
+        report_after: float,
+        stop_after: float,
+        remedy: str = '',
     ) -> None:
         """Start with an input that has never come.
 
@@ -51,12 +55,16 @@ class InputWatch(Watchdog):
         silence, age = self.judge(now), self.age(now)
         if age is None:
             return silence
-        restless = self._told is Silence.FRESH and monotonic() - self._back_at < CALM
-        if silence is not self._told and not restless:
+        if silence is not self._told and not self._is_restless():
             self._log(silence, age)
             self._told = silence
         self._silent_for = abs(age)
         return silence
+
+    def _is_restless(self) -> bool:
+        """Return whether the input has come back only just now."""
+        calm = self._node.steady_seconds() - self._back_at >= CALM
+        return self._told is Silence.FRESH and not calm
 
     def _log(self, silence: Silence, age: float) -> None:
         logger, name = self._node.get_logger(), self._name
@@ -64,7 +72,7 @@ class InputWatch(Watchdog):
         if silence is Silence.FRESH:
             text = f'{name} is back after {self._silent_for:.1f} s'
             logger.info(text)
-            self._back_at = monotonic()
+            self._back_at = self._node.steady_seconds()
         elif silence is Silence.LATE:
             text = f'no {name} {since}: going on'
             logger.warning(text)

@@ -101,6 +101,10 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """Return the time of the node's clock [s], simulated where `use_sim_time` is set."""
         return float(self._now().nanoseconds) * 1e-9
 
+    def steady_seconds(self) -> float:
+        """Return the time of a clock that never leaps [s]."""
+        return float(self._steady.now().nanoseconds) * 1e-9
+
     def stamp(self, message: Any) -> float:
         """Set the stamp of a message's header to now, without a new object; return now [s]."""
         stamp, now = message.header.stamp, self._now().nanoseconds
@@ -171,7 +175,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def refuse(self, reason: str) -> None:
         """Tell of an input that was not used, in the log and in the diagnostics."""
         self._refused += 1
-        self.complaint, self._complained_at = reason, self._steady_seconds()
+        self.complaint, self._complained_at = reason, self.steady_seconds()
         self.get_logger().warning(f'refused: {reason}', throttle_duration_sec=1.0)
 
     # Lifecycle
@@ -237,16 +241,13 @@ class ManagedNode(LifecycleNode, Generic[P]):
         if self._entities:
             self.accept(parameters)
 
-    def _steady_seconds(self) -> float:
-        return float(self._steady.now().nanoseconds) * 1e-9
-
     def _publish_diagnostics(self) -> None:
         level, message, values = (
             self.diagnose() if self.active else Diagnosis(WARN, 'not active', {})
         )
         if self._refused:
             values = values | {'refused inputs': str(self._refused), 'last': self.complaint}
-        if level == OK and self._steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:
+        if level == OK and self.steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:
             level, message = WARN, f'refused: {self.complaint}'
         report = DiagnosticArray()
         self.stamp(report)
