@@ -235,7 +235,7 @@ def main() -> None:
                 shown(row.theirs), f'{row.ours / row.theirs:.2f}',
             )  # fmt: skip
             table.add_row(row.what, ours, row.peer, theirs, ratio, row.target)
-    Console().print(table)
+    Console(width=None if sys.stdout.isatty() else 120).print(table)
 
 
 if __name__ == '__main__':

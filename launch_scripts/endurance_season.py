@@ -116,7 +116,7 @@ def main() -> None:
     wanted = seasons(asked.days, asked.each, asked.seed)
     with multiprocessing.Pool(asked.workers) as pool:
         outcomes = list(track(pool.imap_unordered(spend, wanted), 'Seasons', len(wanted)))
-        Console().print(report(outcomes))
+        Console(width=None if sys.stdout.isatty() else 120).print(report(outcomes))
         for given, tally in outcomes:
             if not kept(tally):
                 print(f'not kept: {given.kind}, {given.trees} trees, seed {given.seed}: {tally}')
