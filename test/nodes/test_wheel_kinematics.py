@@ -345,11 +345,12 @@ def test_cables_are_unwound_at_rest_and_only_there(tester, drive):
 
 def test_what_limits_the_motion_is_told(tester, drive):
     limiters = tester.listen(String, 'turrets/limiter', LATCHED)
-    node, _, cmd_vel = drive(max_wheel_speed=0.1, **QUICK)
+    node, _, cmd_vel = drive(max_wheel_speed=0.1, **(QUICK | {'steering_rate': 1.0}))
+    cmd_vel.publish(twist(vy=0.3))
+    tester.wait(limiters, lambda m: m.data == 'turning the turrets before rolling')
     cmd_vel.publish(twist(vy=0.3))
     tester.wait(limiters, lambda m: m.data == 'wheel speed')
     assert node.diagnose().values['limited by'] == 'wheel speed'
-    assert limiters[0].data == 'turning the turrets before rolling'
     (taken,) = node.set_parameters([rclpy.Parameter('wheel_acceleration', value=0.01)])
     assert taken.successful
     cmd_vel.publish(twist(vy=0.01))
