@@ -34,8 +34,8 @@ COMPLAINT_LIFETIME = 10.0
 """[s] How long a refused input keeps the diagnostics at WARN."""
 
 
-LAST_WORD = Duration(seconds=0.2)
-"""How long a stopping node waits for each listener to acknowledge its last message."""
+LAST_WORD = 1.0
+"""[s] that a stopping node waits until its listeners have acknowledged its last messages."""
 
 
 class Diagnosis(NamedTuple):
@@ -198,8 +198,10 @@ class ManagedNode(LifecycleNode, Generic[P]):
         if self.active:
             self.active = False
             self._attempt('halt', self.halt)
+            end = self.steady_seconds() + LAST_WORD
             for publisher in self.publishers:
-                publisher.wait_for_all_acked(LAST_WORD)
+                left = max(end - self.steady_seconds(), 0.0)
+                publisher.wait_for_all_acked(Duration(seconds=left))
         return TransitionCallbackReturn.SUCCESS
 
     def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:

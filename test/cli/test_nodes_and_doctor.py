@@ -59,8 +59,7 @@ def test_a_stopped_node_says_zero_and_ends_with_0(agv, graph, number, executor):
     commands = []
     node.create_subscription(JointState, 'turrets/command', commands.append, 1)
     process = agv.start('run', 'wheel_kinematics', '--ros-args', '-p', f'executor:={executor}')
-    graph.spin_until(lambda: node.count_publishers('/turrets/command') == 1)
-    graph.spin_for(0.3)
+    graph.spin_until(lambda: commands)  # the two have found each other
     commands.clear()
     process.send_signal(number)
     graph.spin_until(lambda: process.poll() is not None)
