@@ -17,6 +17,7 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.nodes.omni_kinematics import OmniKinematics
+from agv_motion.ros.node import OK, WARN
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import StartError
 
@@ -120,6 +121,16 @@ def test_silence_stop_and_the_end_are_explicit_zeros(tester):
     robot.node.trigger_deactivate()
     tester.graph.spin_for(0.1)
     assert list(robot.commands[-1].velocity) == [0.0] * 3
+
+
+@pytest.mark.parametrize(
+    ('speed', 'found'), [(0.2, (WARN, 'cmd_vel is lost')), (0.0, (OK, 'standing'))]
+)
+def test_silence_is_worth_a_warning_only_where_the_robot_was_driven(tester, speed, found):
+    robot = Robot(tester, report_after=0.1, stop_after=0.2)
+    robot.drive(vx=speed)
+    tester.graph.spin_for(0.5)
+    assert robot.node.diagnose()[:2] == found
 
 
 def test_encoders_that_fall_silent_stop_the_robot(tester):

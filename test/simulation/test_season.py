@@ -18,3 +18,13 @@ def test_what_must_hold_on_two_days(kind, trees):
     assert tally.longest_stand < 1800.0
     assert tally.goals > 10 * trees
     assert tally.coverage[1] > tally.coverage[0] > 0.2 or tally.coverage[0] == 1.0
+
+
+def test_hours_off_the_air_are_no_standstill():
+    """Every day one of two trees is off the air for an hour, within which none is said to stand."""
+    season = Season(SeasonParameters(kind='hall', trees=2, days=1, seed=7, outages=1.0))
+    given = season.trees[0].count_from
+    counted = []
+    season.trees[0].count_from = lambda now: (counted.append(now), given(now))
+    assert season.run().longest_stand < 1800.0
+    assert counted[-1] - counted[0] == pytest.approx(3600.0, abs=120.0)
