@@ -105,7 +105,7 @@ def test_pub_some_times_with_arrays(agv, graph):
         'topic', 'pub', '-t', '3', '-r', '20', '/array', 'std_msgs/Float64MultiArray',
         '{layout: {dim: [{label: a, size: 2}]}, data: [1, 2]}',
     )  # fmt: skip
-    assert len(heard) == 3
+    graph.spin_until(lambda: len(heard) == 3)
     assert list(heard[0].data) == [1.0, 2.0]
     assert heard[0].layout.dim[0].label == 'a'
 
