@@ -6,10 +6,11 @@ With the robot at p, a segment from a in direction u, :math:`s_p = (p - a) \cdot
 .. math:: s = s_p + \sqrt{r^2 - h^2}
 
 The point only goes forwards. While it lies in the circle it goes to where the route leaves the
-circle next, or to the end of the route if that lies inside. When it lies outside, either the robot
-fell away from it, or it jumped past: of all places where the route leaves the circle, or ends in
-it, the one nearest to the point, along the route, tells which. Behind the point: it waits. Ahead:
-it goes there.
+circle next, or to the end of the route if it stays inside all the way there. When it lies outside,
+either the robot fell away from it, or it jumped past: of all places where the route leaves the
+circle, the one nearest to the point, along the route, tells which. Behind the point: it waits.
+Ahead: it goes there. That the route *ends* in the circle says nothing then: a robot pushed near the
+end would leave out all that lies between.
 """
 
 from __future__ import annotations
@@ -94,13 +95,10 @@ class VirtualPoint:
         for _ in range(len(self._route.segments) + 1):
             length = self._route.segment(number).length
             exit_way = self._exit_way(number, x, y)
-            last = self._route.is_last(number)
-            if last and self._holds_end(number, x, y):
-                exit_way = length
             if way <= exit_way <= length:
                 return Place(number, exit_way) if passed + exit_way < within else None
             passed += length
-            if last or passed >= within:
+            if passed >= within or self._route.is_last(number):
                 return None
             number, way = number + 1, 0.0
         return None
@@ -128,8 +126,3 @@ class VirtualPoint:
         across = dy * segment.ux - dx * segment.uy
         square = self._radius * self._radius - across * across
         return along + sqrt(square) if square > 0.0 else -inf
-
-    def _holds_end(self, number: int, x: float, y: float) -> bool:
-        segment = self._route.segment(number)
-        end = segment.at(segment.length)
-        return hypot(x - end.x, y - end.y) <= self._radius

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.route.route import Route
+from agv_motion.route.route import Place, Route
 from agv_motion.route.virtual_point import VirtualPoint
 
 STRAIGHT = [(0, 0), (10, 0)]
@@ -54,8 +54,21 @@ def test_jumped_past_beside_the_route_it_waits():
     assert ways(STRAIGHT, 1.0, (2, 0), (7, 1.5)) == pytest.approx([3.0, 3.0])
 
 
-def test_jumped_past_with_the_end_in_the_circle_it_goes_to_the_end():
-    assert ways(STRAIGHT, 1.0, (2, 0), (9.5, 0)) == pytest.approx([3.0, 10.0])
+def test_jumped_past_with_the_end_in_the_circle_it_waits():
+    """Only a route that stays in the circle from the point to its end leads it there."""
+    assert ways(STRAIGHT, 1.0, (2, 0), (9.5, 0), (10, 0)) == pytest.approx([3.0, 3.0, 3.0])
+
+
+def test_pushed_near_the_end_it_waits():
+    """At (300, 40) with 250: sqrt(250^2 - 40^2) = 246.779 ahead; (100, 600) is 223.6 from the end.
+
+    Put back it goes on from there, and to the end where the route has not left the circle.
+    """
+    points = [(0, 0), (1000, 0), (1000, 800), (200, 800)]
+    robots = (300, 40), (100, 600), (100, 700), (400, 0), (1000, 800), (750, 800), (380, 800)
+    assert ways(points, 250.0, *robots) == pytest.approx(
+        [546.779, 546.779, 546.779, 650.0, 2050.0, 2300.0, 2600.0], abs=1e-3
+    )
 
 
 def test_jumped_past_onto_another_segment():
@@ -102,9 +115,10 @@ def test_at_the_start_beside_the_middle_it_joins_there():
 def test_the_last_lap_ends():
     square = [(0, 0), (4, 0), (4, 4), (0, 4)]
     places = [(3.5, 0), (4, 3.5), (0.5, 4), (0, 0.5)]
-    assert ways(square, 1.0, *places, *places, laps=2) == pytest.approx(
+    places += [*places[:3], (0, 3), (0, 2), (0, 0.5)]
+    assert ways(square, 1.0, *places, laps=2) == pytest.approx(
         [4.0 + sqrt(0.75), 8.0 + sqrt(0.75), 12.0 + sqrt(0.75), 16.0 + sqrt(0.75),
-         20.0 + sqrt(0.75), 24.0 + sqrt(0.75), 28.0 + sqrt(0.75), 32.0]
+         20.0 + sqrt(0.75), 24.0 + sqrt(0.75), 28.0 + sqrt(0.75), 30.0, 31.0, 32.0]
     )  # fmt: skip
 
 
@@ -146,6 +160,42 @@ def test_where_it_has_moved_to_it_is_on_the_circle_or_at_the_end(waypoints, robo
             assert distance <= radius + 1e-6 or virtual.place == before
         elif virtual.place != before:
             assert distance == pytest.approx(radius, abs=1e-6)
+
+
+@given(routes, st.lists(points, max_size=12), st.floats(0.1, 5.0))
+def test_outside_the_circle_it_moves_to_where_the_route_leaves_it_or_not_at_all(
+    waypoints, robots, radius
+):
+    """By sampling the whole route: never to its end, unless it is in the circle all the way."""
+    route = Route(waypoints)
+    virtual = VirtualPoint(route, radius)
+    for x, y in robots:
+        before, start = route.way(virtual.place), virtual.point
+        virtual.advance(x, y)
+        after = route.way(virtual.place)
+        if after == before:
+            continue
+        inside = [
+            hypot(px - x, py - y) <= radius + 1e-6 for px, py in sampled(route, before, after)
+        ]
+        if hypot(start.x - x, start.y - y) <= radius:
+            assert all(inside)
+        else:
+            (px, py) = sampled(route, after, min(after + 1e-5, route.length))[-1]
+            assert hypot(virtual.point.x - x, virtual.point.y - y) == pytest.approx(radius)
+            assert after > route.length - 1e-4 or hypot(px - x, py - y) > radius - 1e-6
+
+
+def sampled(route, begin, end, count=200):
+    """Return points of ``route`` between two distances from its start [m]."""
+    found = []
+    for k in range(count + 1):
+        way, number = begin + (end - begin) * k / count, 0
+        while way > route.segment(number).length and not route.is_last(number):
+            way -= route.segment(number).length
+            number += 1
+        found.append(route.point(Place(number, way)))
+    return found
 
 
 @given(routes, points, st.floats(0.1, 5.0))
