@@ -1,49 +1,53 @@
-"""The memory of places on disk: written whole or not at all, checked before it is believed."""
+"""The memory of places on disk: an archive of numpy, checked before it is believed."""
 
 from __future__ import annotations
 
-import os
+import struct
 import zipfile
 import zlib
-from contextlib import suppress
 from io import BytesIO
-from pathlib import Path
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from agv_motion import saved_state
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.memory import NEVER, Grid
+from agv_motion.motion.memory import LARGEST, NEVER, Grid
 
 if TYPE_CHECKING:
+    from pathlib import Path
+    from typing import Any
+
+    from numpy.typing import NDArray
+
     from agv_motion.motion.memory import Memory
 
 VERSION = 1
-UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
-"""What numpy raises on a file that is not one of its own, cut short, or damaged (CRC)."""
+NAMES = ('version', *Grid._fields)
+
+HEADER = 16_384
+"""[bytes] that a member of the archive may have beside its values."""
+
+COMPRESSIONS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+
+DAMAGE = (
+    zipfile.BadZipFile, zipfile.LargeZipFile, zlib.error, struct.error, EOFError, KeyError,
+    IndexError, NotImplementedError, RuntimeError, SyntaxError, TypeError, OverflowError,
+)  # fmt: skip
+"""What the readers of archives and of numpy's headers raise on damage, beside ValueErrors."""
 
 
 def save(path: str | Path, grid: Grid) -> None:
-    """Write ``grid``; a power cut leaves the old file or the new one, whole.
+    """Write ``grid``; a power cut or a full disk leaves the old file or the new one, whole.
 
     Raises:
         OSError: The disk does not take it.
 
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_name(path.name + '.new')
-    with new.open('wb') as file:
-        np.savez_compressed(file, version=VERSION, **grid._asdict())
-        file.flush()
-        os.fsync(file.fileno())
-    new.replace(path)
-    with suppress(OSError):  # some file systems have no folders to synchronise
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+    content = BytesIO()
+    np.savez_compressed(content, version=VERSION, **grid._asdict())
+    saved_state.save(path, content.getvalue())
 
 
 def restore(path: str | Path, memory: Memory) -> str:
@@ -53,57 +57,83 @@ def restore(path: str | Path, memory: Memory) -> str:
     of cells is carried over as far as it fits, and kept as ``*.other_zone``.
 
     Raises:
-        ConfigurationError: ``path`` is a folder.
+        ConfigurationError: ``path`` is a folder, a symbolic link or a device.
 
     """
-    path = Path(path)
-    if path.is_dir():
-        msg = f"memory_file = '{path}' is a folder: give a file in it"
-        raise ConfigurationError(msg)
-    if not path.exists():
-        return ''
-    try:
-        grid = _read(path)
-    except UNREADABLE as error:
-        return f'memory {path} cannot be used: {error}; {_set_aside(path, ".unusable")}'
-    if memory.recall(grid):
+    same = True
+
+    def take(content: bytes) -> None:
+        nonlocal same
+        same = memory.recall(grid_of(content))
+
+    complaint = saved_state.restore(path, take)
+    if complaint:
+        return f'memory {complaint}'
+    if same:
         return ''
     cells = int(memory.visited.sum())
     return (
         f'memory {path} belongs to another zone or size of cells: {cells} of '
-        f'{int(memory.walkable.sum())} cells carried over; {_set_aside(path, ".other_zone")}'
+        f'{int(memory.walkable.sum())} cells carried over; '
+        f'{saved_state.set_aside(path, ".other_zone")}'
     )
 
 
-def _set_aside(path: Path, suffix: str) -> str:
-    aside = path.with_name(path.name + suffix)
-    try:
-        path.replace(aside)
-    except OSError as error:
-        return f'it could not be set aside ({error})'
-    return f'set aside as {aside.name}'
-
-
-def _read(path: Path) -> Grid:
-    """Return the grid of a file.
+def grid_of(content: bytes) -> Grid:
+    """Return the grid of the content of a file.
 
     Raises:
         ConfigurationError: It is no memory, or holds values that no memory can.
 
     """
-    data = BytesIO(path.read_bytes())
-    if not zipfile.is_zipfile(data):
-        msg = 'it is no archive of numpy, or its end is missing'
+    if not content.startswith(b'PK'):
+        msg = 'it is no archive of numpy'
         raise ConfigurationError(msg)
-    with np.load(data, allow_pickle=False) as content:
-        if 'version' not in content or int(content['version']) != VERSION:
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            values = {name: _array(archive, name) for name in NAMES}
+        if int(values['version']) != VERSION:
             msg = f'it is no memory of version {VERSION}'
             raise ConfigurationError(msg)
-        west, south, cell = (float(content[name]) for name in ('west', 'south', 'cell'))
+        west, south, cell = (float(values[name]) for name in ('west', 'south', 'cell'))
         flow, felt_at, visited_at = (
-            content[name].astype(np.float64) for name in ('flow', 'felt_at', 'visited_at')
+            values[name].astype(np.float64) for name in ('flow', 'felt_at', 'visited_at')
         )
-        grid = Grid(west, south, cell, flow, felt_at, visited_at, str(content['zone']))
+        grid = Grid(west, south, cell, flow, felt_at, visited_at, str(values['zone']))
+    except DAMAGE as error:
+        msg = f'it is no memory of places, or damaged: {error!r:.120}'
+        raise ConfigurationError(msg) from error
+    _check(grid)
+    return grid
+
+
+def _array(archive: zipfile.ZipFile, name: str) -> NDArray[Any]:
+    """Return one member of an archive; its size is checked before anything is allocated.
+
+    Raises:
+        ConfigurationError: It is larger than a memory can be, or not as large as it says.
+
+    """
+    member = archive.getinfo(f'{name}.npy')
+    if member.file_size > 8 * LARGEST + HEADER or member.compress_type not in COMPRESSIONS:
+        msg = f"'{name}' would unpack to {member.file_size} bytes: no memory does"
+        raise ConfigurationError(msg)
+    with archive.open(member) as file:
+        data = BytesIO(file.read(member.file_size))  # with a size: what more there is stays packed
+    version = np.lib.format.read_magic(data)
+    if version != (1, 0):
+        msg = f"'{name}' is an array of format {version}, expected (1, 0)"
+        raise ConfigurationError(msg)
+    shape, fortran, kind = np.lib.format.read_array_header_1_0(data)
+    left = data.getbuffer()[data.tell() :]
+    if kind.kind not in 'fiuU' or fortran or prod(shape) * kind.itemsize != len(left):
+        msg = f"'{name}' is said to hold {shape!s:.60} of {kind!s:.20} in {len(left)} bytes"
+        raise ConfigurationError(msg)
+    return np.frombuffer(left, kind).reshape(shape)
+
+
+def _check(grid: Grid) -> None:
+    """Raise a ConfigurationError where a grid holds what no memory can."""
     shapes = {grid.flow.shape, grid.felt_at.shape, grid.visited_at.shape}
     if len(shapes) != 1 or grid.flow.ndim != 2 or grid.flow.size == 0:
         msg = f'its maps have the shapes {sorted(shapes)}'
@@ -118,8 +148,7 @@ def _read(path: Path) -> Grid:
     if (felt != np.isfinite(grid.felt_at)).any() or not _times(grid.visited_at):
         msg = 'it holds times that are none'
         raise ConfigurationError(msg)
-    return grid
 
 
-def _times(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> bool:
+def _times(values: NDArray[np.float64]) -> bool:
     return bool((np.isfinite(values) | (values == NEVER)).all())

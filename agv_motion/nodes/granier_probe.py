@@ -128,6 +128,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
             complaint = state_file.restore(given.state_file, self._probes)
             if complaint:
                 self.get_logger().warning(complaint)
+            self._save()  # so that a disk that takes nothing is told before it matters
         self._learnt = False
 
     def halt(self) -> None:

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 SAVE_PERIOD = 15.0
 """[s] A power cut loses this much, and what the disk was still writing: less than 30 s."""
 
+CHECK_PERIOD = 0.5
+"""[s] within which a disk that does not take the memory is told."""
+
 PATIENCE = 5.0
 """[s] How long a stopping node waits for the disk."""
 
@@ -51,14 +54,21 @@ class MemoryKeeper:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.every(node.parameters.map_period, self.publish, steady)
         self._writer: futures.ThreadPoolExecutor | None = None
-        self._saved = memory.newest
+        self._saved: float | None = None
         self._writing: futures.Future[None] | None = None
+        self._trouble = ''
         if file:
             complaint = restore(file, memory)
             if complaint:
                 node.get_logger().warning(complaint)
             self._writer = futures.ThreadPoolExecutor(1, 'memory')
             node.every(SAVE_PERIOD, self.save, steady)
+            node.every(CHECK_PERIOD, self._check, steady)
+
+    def begin(self) -> None:
+        """Show both maps; and save at once, so that a full disk is told before it matters."""
+        self.publish()
+        self.save()
 
     def publish(self) -> None:
         """Show both maps: 0 to 100, unknown -1."""
@@ -69,14 +79,14 @@ class MemoryKeeper:
 
     def save(self) -> None:
         """Let the thread write what is remembered now, if that is new and the last is written."""
-        if self._memory.newest == self._saved:
+        self._check()
+        if self._memory.newest == self._saved or self._writer is None:
             return
-        if self._writing is not None and not self._writing.done():
+        if self._writing is not None:
             self._node.refuse(f'the disk is slow: {self._file} is still being written')
-        elif self._writer is not None:
-            self._check(0.0)
-            self._saved = self._memory.newest
-            self._writing = self._writer.submit(save, self._file, self._memory.grid())
+            return
+        self._saved = self._memory.newest
+        self._writing = self._writer.submit(save, self._file, self._memory.grid())
 
     def save_at_last(self) -> None:
         """Write what is remembered and wait for the disk."""
@@ -85,18 +95,23 @@ class MemoryKeeper:
             self._writing = self._writer.submit(save, self._file, self._memory.grid())
             self._check(PATIENCE)
 
-    def _check(self, patience: float) -> None:
-        """Tell what came of the last save, waiting for it so long [s]."""
+    def _check(self, patience: float = 0.0) -> None:
+        """Tell what came of the last save, waiting for it at most ``patience`` [s]."""
+        if self._writing is None or (patience == 0.0 and not self._writing.done()):
+            return
         try:
-            if self._writing is not None:
-                self._writing.result(patience)
+            self._writing.result(patience)
+            self._trouble = ''
         except (OSError, futures.TimeoutError) as error:
-            self._node.refuse(f'cannot keep the memory of places: {error!r}')
+            self._trouble, self._saved = f'cannot keep the memory of places: {error!r}', None
+            self._node.refuse(self._trouble)
+        self._writing = None
 
     def report(self) -> dict[str, str]:
-        """Return how much is remembered, for the diagnostics."""
+        """Return how much is remembered, for the diagnostics, and whether the disk keeps it."""
         visited, felt = self._memory.coverage()
-        return {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
+        shares = {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
+        return shares | ({'memory_file': self._trouble} if self._trouble else {})
 
     def _empty_map(self) -> OccupancyGrid:
         memory, message = self._memory, OccupancyGrid()

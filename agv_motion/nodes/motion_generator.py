@@ -98,7 +98,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         """Tell where the tree means to go, and what it remembers."""
         self._tell_goal(self._mind.goal)
         if self._keeper is not None:
-            self._keeper.publish()
+            self._keeper.begin()
 
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import deque
+from math import isfinite
 from typing import Any, Protocol
 
 from agv_motion.errors import ConfigurationError
@@ -87,9 +88,9 @@ class RunningQuantiles:
     def restore(self, state: dict[str, Any]) -> None:
         """Take up the bins of an earlier run."""
         try:
-            bins = [(float(time), float(mean)) for time, mean in state['bins']]
-        except (KeyError, TypeError, ValueError) as error:
-            msg = f'saved bins are unreadable ({error!r}): delete the state file'
+            bins = [(_finite(time), _finite(mean)) for time, mean in state['bins']]
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            msg = f'saved bins are unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
         self._bins = deque(bins)
         self._sorted = sorted(mean for _, mean in bins)
@@ -121,9 +122,19 @@ class RunningRange:
     def restore(self, state: dict[str, Any]) -> None:
         """Take up the range of an earlier run."""
         try:
-            self._smallest, self._largest = (
-                None if end is None else float(end) for end in state['range']
-            )
-        except (KeyError, TypeError, ValueError) as error:
-            msg = f'saved range is unreadable ({error!r}): delete the state file'
+            smallest, largest = state['range']
+            if (smallest, largest) != (None, None):
+                smallest, largest = sorted((_finite(smallest), _finite(largest)))
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            msg = f'saved range is unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
+        self._smallest, self._largest = smallest, largest
+
+
+def _finite(value: Any) -> float:
+    """Return ``value`` as a number; raises ValueError or TypeError if it is no finite one."""
+    number = float(value)
+    if not isfinite(number):
+        msg = f'{number} is not finite'
+        raise ValueError(msg)
+    return number

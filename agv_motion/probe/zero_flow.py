@@ -10,6 +10,7 @@ trees: theory and practice", Acta Botanica Sinica 46, 2004.
 
 from __future__ import annotations
 
+from math import isfinite
 from statistics import median
 from typing import Any
 
@@ -94,8 +95,10 @@ class ZeroFlow:
         """
         try:
             nights = {int(day): float(value) for day, value in state['nights']}
-        except (KeyError, TypeError, ValueError) as error:
-            msg = f'saved zero-flow nights are unreadable ({error!r}): delete the state file'
+            if not all(isfinite(value) for value in nights.values()):
+                raise ValueError(nights)  # noqa: TRY301 - as unreadable as the rest
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            msg = f'saved zero-flow nights are unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
         self._nights = {day: value for day, value in nights.items() if 0.0 < value < 1e6}
         self.value = max(self._nights.values(), default=None)

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import os
+import struct
+import tracemalloc
+import zipfile
+from io import BytesIO
 
 import numpy as np
 import pytest
@@ -69,6 +73,94 @@ def test_any_damage_is_noticed_or_harmless(tmp_path, data):
         assert not again.felt.any()
     else:
         assert np.array_equal(again.flow, full().flow, equal_nan=True)
+
+
+def in_the_old_format(path):
+    """Write a file as it was written before the digest."""
+    np.savez_compressed(path, version=1, **full().grid()._asdict())
+    return path
+
+
+def test_a_file_of_the_time_before_digests_is_taken_up(tmp_path):
+    again = Memory(ZONE)
+    assert restore(in_the_old_format(tmp_path / 'memory.npz'), again) == ''
+    assert np.array_equal(again.flow, full().flow, equal_nan=True)
+
+
+@pytest.mark.parametrize('old', [False, True], ids=['new', 'old'])
+def test_no_flipped_bit_stops_the_start(tmp_path, old):
+    """One bit of each byte, each in its turn; with a digest, each is seen."""
+    path, memory = tmp_path / 'memory.npz', Memory(ZONE)
+    if old:
+        in_the_old_format(path)
+    else:
+        save(path, full().grid())
+    content = bytearray(path.read_bytes())
+    for place in range(len(content)):
+        content[place] ^= 1 << place % 8
+        path.write_bytes(content)
+        complaint = restore(path, memory)
+        content[place] ^= 1 << place % 8
+        if complaint or not old:
+            assert 'set aside as memory.npz.unusable' in complaint, place
+            (tmp_path / 'memory.npz.unusable').unlink()
+
+
+def bomb(path, shape, packed, **change):
+    """Write an archive whose member `flow` says it has ``shape`` and holds ``packed``."""
+    in_the_old_format(path)
+    with zipfile.ZipFile(path) as whole:
+        members = {name: whole.read(name) for name in whole.namelist()}
+    head = BytesIO()
+    np.lib.format.write_array_header_1_0(
+        head, {'descr': '<f8', 'fortran_order': False, 'shape': shape, **change}
+    )
+    members['flow.npy'] = head.getvalue() + packed
+    with zipfile.ZipFile(path, 'w', zipfile.ZIP_DEFLATED) as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+
+
+@pytest.mark.parametrize(
+    ('shape', 'packed', 'change', 'word'),
+    [
+        ((10**6, 10**6), bytes(64), {}, 'is said to hold'),
+        ((2**62, 4), b'', {}, 'is said to hold'),
+        ((0, 10**12), b'', {}, 'shapes'),
+        ((16, 16), bytes(4 * 10**7), {}, 'would unpack to 40000'),
+        ((16, 16), bytes(2048), {'descr': '|O'}, 'is said to hold'),
+        ((16, 16), bytes(2048), {'fortran_order': True}, 'is said to hold'),
+    ],
+)
+def test_sizes_are_checked_before_anything_is_allocated(tmp_path, shape, packed, change, word):
+    path = tmp_path / 'memory.npz'
+    bomb(path, shape, packed, **change)
+    tracemalloc.start()
+    try:
+        complaint = restore(path, Memory(ZONE))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert word in complaint
+    assert peak < 2e6
+
+
+def test_an_archive_that_lies_about_its_size_is_not_unpacked(tmp_path):
+    """Said to unpack to 2 kB, packed from 30 MB."""
+    path = tmp_path / 'memory.npz'
+    bomb(path, (16, 16), bytes(30_000_000))
+    with zipfile.ZipFile(path) as archive:
+        size = archive.getinfo('flow.npy').file_size
+    content = path.read_bytes()
+    path.write_bytes(content.replace(struct.pack('<I', size), struct.pack('<I', 2176)))
+    tracemalloc.start()
+    try:
+        complaint = restore(path, Memory(ZONE))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert 'set aside' in complaint
+    assert peak < 2e6
 
 
 @pytest.mark.parametrize(

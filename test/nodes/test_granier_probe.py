@@ -18,6 +18,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import StartError
+from agv_motion.saved_state import load
 
 QUICK = {'rate': 20.0, 'simulated__period': 0.1}
 
@@ -104,9 +105,35 @@ def test_what_was_learnt_survives_a_restart(tester, tmp_path):
     first = tester.start(GranierProbe, state_file=str(path), **QUICK)
     tester.wait(flows)
     first.trigger_shutdown()
-    assert len(json.loads(path.read_text())['probes']) == 3
+    assert len(json.loads(load(path))['probes']) == 3
     flows.clear()
     tester.start(GranierProbe, state_file=str(path), warm_up_days=0.0, **QUICK)
+    tester.wait(flows)
+
+
+def test_a_state_that_is_damaged_is_set_aside_and_the_node_starts(tester, tmp_path, capfd):
+    path = tmp_path / 'state.json'
+    path.write_text('{"version": 1')
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    tester.start(GranierProbe, state_file=str(path), **QUICK)
+    tester.wait(flows)
+    assert 'set aside as state.json.unusable' in capfd.readouterr().err
+    assert (tmp_path / 'state.json.unusable').read_text() == '{"version": 1'
+    assert len(json.loads(load(path))['probes']) == 3
+
+
+def test_a_folder_as_state_file_stops_the_start_and_stays(tester, tmp_path, capfd):
+    with pytest.raises(StartError):
+        tester.start(GranierProbe, state_file=str(tmp_path), **QUICK)
+    assert 'is a folder: give a file in it' in capfd.readouterr().err
+    assert tmp_path.is_dir()
+
+
+def test_a_disk_that_takes_nothing_is_told_at_the_start(tester, tmp_path):
+    (tmp_path / 'file').write_text('no folder')
+    flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
+    node = tester.start(GranierProbe, state_file=str(tmp_path / 'file' / 'state'), **QUICK)
+    assert 'cannot keep what was learnt' in node.complaint
     tester.wait(flows)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from datetime import datetime, timezone
 from math import nan, pi, sin
 
@@ -88,15 +89,59 @@ def test_a_restart_needs_no_week(tmp_path):
     assert second.update(now, 18.5).sap_flow == pytest.approx(first.update(now, 18.5).sap_flow)
 
 
+def state(nights, normaliser):
+    """Return the state of one probe as its file has it."""
+    probe = f'{{"zero_flow": {{"nights": [{nights}]}}, "normaliser": {normaliser}}}'
+    return f'{{"version": 1, "probes": [{probe}]}}'
+
+
 @pytest.mark.parametrize(
-    'content', ['', '{', '[]', '{"version": 1, "probes": []}', '{"version": 1, "probes": [{}]}']
-)
+    'content',
+    [
+        '', '{', '[]', '{"version": 1, "probes": []}', '{"version": 1, "probes": [{}]}',
+        '[' * 100_000,
+        '9' * 5000,
+        state('[1e999, 20.0]', '{"bins": []}'),
+        state('[1, NaN]', '{"bins": []}'),
+        state('', '{"bins": [[0.0, NaN]]}'),
+        state('', '{"bins": [[-Infinity, 0.0]]}'),
+        state('', '{"bins": [[1' + '0' * 400 + ', 0.0]]}'),
+        state('', '{"range": [0.0, 1.0]}'),
+    ],
+)  # fmt: skip
 def test_a_state_that_cannot_be_used_is_set_aside(tmp_path, content):
     path = tmp_path / 'probes.json'
     path.write_text(content)
-    assert 'was set aside' in state_file.restore(path, [Probe(ProbeParameters())])
+    assert 'set aside as' in state_file.restore(path, [Probe(ProbeParameters())])
     assert (tmp_path / 'probes.json.unusable').read_text() == content
     assert not path.exists()
+
+
+def test_a_state_of_which_one_half_is_unusable_is_taken_up_by_no_probe(tmp_path):
+    _, _, learnt = readings(3)
+    path = tmp_path / 'probes.json'
+    state_file.save(path, [learnt, learnt])
+    content = json.loads(path.read_bytes().partition(b'\n')[2])
+    content['probes'][1] = {}
+    path.write_text(json.dumps(content))
+    probes = [Probe(ProbeParameters()), Probe(ProbeParameters())]
+    assert 'set aside as' in state_file.restore(path, probes)
+    assert probes[0].state() == Probe(ProbeParameters()).state()
+
+
+def test_a_state_of_the_time_before_digests_is_taken_up(tmp_path):
+    _, _, learnt = readings(3)
+    path = tmp_path / 'probes.json'
+    path.write_text(json.dumps({'version': 1, 'probes': [learnt.state()]}))
+    again = Probe(ProbeParameters())
+    assert state_file.restore(path, [again]) == ''
+    assert again.state() == learnt.state()
+
+
+def test_a_folder_is_refused_and_stays(tmp_path):
+    with pytest.raises(ConfigurationError, match='is a folder'):
+        state_file.restore(tmp_path, [])
+    assert tmp_path.is_dir()
 
 
 @pytest.mark.parametrize(
