@@ -78,6 +78,7 @@ setup(
             'networkx>=3.1',
             'pyarrow>=14',
             'pytest>=8',
+            'pytest-timeout>=2.3',
             'pytest-xdist>=3.5',
             'ruff>=0.12',
             'types-pyserial',

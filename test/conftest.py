@@ -2,12 +2,41 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import random
+import socket
+import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 
+DOMAINS = range(1, 102)
+"""0 is everyone's; the ports of those above 101 are among those that the system gives away"""
+
+
+def free_domain():
+    """Return a ROS domain of this process alone, and what keeps it until the process ends.
+
+    A name in the abstract space of the system keeps other runs of these tests out: it is gone with
+    its process, however that ends. Other graphs are seen by the port of their first participant.
+    """
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        lock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        with port, suppress(OSError):
+            lock.bind(f'\0agv_motion.test.domain.{domain}')
+            port.bind(('127.0.0.1', 7400 + 250 * domain + 10))
+            return domain, lock
+        lock.close()
+    msg = f'all ROS domains of {DOMAINS} are in use on this machine: end what uses them'
+    raise RuntimeError(msg)
+
+
+DOMAIN, LOCK = free_domain()
+atexit.register(LOCK.close)
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-os.environ['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 100)
+os.environ['ROS_DOMAIN_ID'] = str(DOMAIN)
 # shared memory left by a killed process can swallow messages of the next one on its port
 os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
 
@@ -42,11 +71,79 @@ class Graph:
             assert time.monotonic() < end, 'timed out'
             self.executor.spin_once(timeout_sec=0.05)
 
+    def repeat(self, act, until, every=0.1, timeout=60.0):
+        """Call ``act()`` again and again, as a talker does, until ``until()``."""
+        end = time.monotonic() + timeout
+        while not until():
+            assert time.monotonic() < end, 'timed out'
+            act()
+            self.spin_for(every)
+
+    def quiet(self, inbox, seconds=0.3, timeout=60.0):
+        """Spin until nothing has come into ``inbox`` for a while."""
+        end = time.monotonic() + timeout
+        while True:
+            inbox.clear()
+            self.spin_for(seconds)
+            if not inbox:
+                return
+            assert time.monotonic() < end, 'never quiet'
+
+    def meet(self):
+        """Wait until all ends of topics on this graph know each other, logs included.
+
+        What is said earlier is lost, and nobody says it again. What cannot meet (other types,
+        other quality of service) is not waited for.
+        """
+        self.spin_until(lambda: not self._strangers())
+
+    def _strangers(self):
+        """Return the ends that have not met all that they should."""
+        from rclpy.qos import QoSCompatibility, qos_check_compatible
+
+        speakers = [p for node in self.nodes for p in node.publishers]
+        hearers = [s for node in self.nodes for s in node.subscriptions]
+
+        def fit(speaker, hearer):
+            return (
+                speaker.topic_name == hearer.topic_name
+                and speaker.msg_type is hearer.msg_type
+                and qos_check_compatible(speaker.qos_profile, hearer.qos_profile)[0]
+                is not QoSCompatibility.ERROR
+            )
+
+        logs = len(self.nodes)  # each node's publisher of /rosout is not among its publishers
+        return [
+            speaker
+            for speaker in speakers
+            if speaker.get_subscription_count() < sum(fit(speaker, hearer) for hearer in hearers)
+        ] + [
+            hearer
+            for hearer in hearers
+            if hearer.get_publisher_count()
+            < sum(fit(speaker, hearer) for speaker in speakers)
+            + logs * (hearer.topic_name == '/rosout')
+        ]
+
     def spin_for(self, seconds):
         """Spin for a while: the only way to see that nothing comes."""
         end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.executor.spin_once(timeout_sec=0.02)
+        while (left := end - time.monotonic()) > 0.0:
+            self.executor.spin_once(timeout_sec=min(left, 0.02))
+
+
+@pytest.fixture(scope='session')
+def wait_until():
+    """Return what waits for something outside this process (a file, a thread): it has no event."""
+    tick = threading.Event()
+
+    def wait(condition, timeout=60.0):
+        end = time.monotonic() + timeout
+        while not condition():
+            assert time.monotonic() < end, 'timed out'
+            tick.wait(0.005)
+
+    return wait
 
 
 @pytest.fixture
@@ -107,6 +204,7 @@ class DrivenRobot:
 
         self.odometry = self.node.create_publisher(Odometry, 'odom', SENSOR)
         self.graph.spin_until(lambda: self.odometry.get_subscription_count() >= 1)
+        self.graph.meet()
         self.silent = False
         self.report()
 

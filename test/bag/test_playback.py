@@ -38,8 +38,9 @@ def bag(tmp_path):
 class Player:
     """A playback, and what it sent with the time of sending."""
 
-    def __init__(self, bag, **given):
+    def __init__(self, bag, wait_until, **given):
         self.sent, self.times = [], []
+        self.wait_until = wait_until
         self.playback = Playback(bag, PlaybackParameters(**given), self.take)
         self.begun = time.perf_counter()
         self.playback.start()
@@ -49,23 +50,26 @@ class Player:
         self.sent.append(message.data.decode())
 
     def to_the_end(self):
-        assert self.playback.finished.wait(10.0)
+        assert self.playback.finished.wait(60.0)
         assert not self.playback.failure
         return self.sent
 
     def until(self, count):
-        end = time.monotonic() + 10.0
-        while len(self.sent) < count:
-            assert time.monotonic() < end, self.sent
-            time.sleep(0.002)
+        self.wait_until(lambda: len(self.sent) >= count)
+
+    def sends_nothing(self, seconds):
+        """Return whether nothing comes for a while."""
+        count = len(self.sent)
+        assert not self.playback.finished.wait(seconds)
+        return len(self.sent) == count
 
 
 @pytest.fixture
-def play(bag):
+def play(bag, wait_until):
     players = []
 
     def start(**given):
-        players.append(Player(bag, **given))
+        players.append(Player(bag, wait_until, **given))
         return players[-1]
 
     yield start
@@ -82,14 +86,14 @@ def test_every_message_at_its_time(play):
     assert numbers(player.to_the_end()) == list(range(20))
     delays = [t - i * 0.05 for i, t in enumerate(player.times)]
     assert min(delays) >= 0.0
-    assert sorted(delays)[10] < 0.02
+    assert sorted(delays)[10] < 0.2  # a busy machine wakes late
     assert player.playback.lag.count == 20
 
 
 def test_twice_as_fast_takes_half_the_time(play):
     player = play(rate=10.0)
     player.to_the_end()
-    assert 0.095 <= player.times[-1] < 0.5
+    assert 0.095 <= player.times[-1] < 0.9
 
 
 @pytest.mark.parametrize(
@@ -122,13 +126,13 @@ def test_loop_begins_again_with_what_is_latched(play):
 
 def test_paused_it_waits_and_goes_message_by_message(play):
     player = play(start_paused=True, topics=('/a',))
-    time.sleep(0.1)
+    assert player.sends_nothing(0.1)
     assert player.sent == []
     player.playback.play_next()
     player.until(1)
     player.playback.play_next(3)
     player.until(4)
-    time.sleep(0.05)
+    assert player.sends_nothing(0.05)
     assert player.sent == ['00', '01', '02', '03']
     player.playback.set_rate(100.0)
     player.playback.resume()
@@ -142,7 +146,7 @@ def test_pause_holds_the_time_of_the_bag(play):
     player.until(3)
     player.playback.pause()
     position, count = player.playback.position(), len(player.sent)
-    time.sleep(0.2)
+    player.playback.finished.wait(0.2)
     assert player.playback.position() == position
     assert len(player.sent) <= count + 1
 
@@ -204,5 +208,5 @@ def test_a_send_that_fails_ends_it_with_the_reason(bag):
 
     playback = Playback(bag, PlaybackParameters(), fail)
     playback.start()
-    assert playback.finished.wait(5.0)
+    assert playback.finished.wait(60.0)
     assert 'no network' in playback.failure

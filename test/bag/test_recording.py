@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -47,13 +46,6 @@ def numbers(path):
         return [int(data[8:16]) for _, _, data in reader.messages()]
 
 
-def wait(condition, seconds=10.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, 'timed out'
-        time.sleep(0.01)
-
-
 def test_everything_handed_over_is_in_the_bag_and_reported(tmp_path):
     one = recording(tmp_path / 'bag')
     topic = one.add_topic('/text', TEXT, VOLATILE)
@@ -83,12 +75,12 @@ def test_by_duration_a_new_file_begins_with_the_message_that_is_due(tmp_path):
     assert starts == [0, 10 * SECOND, 20 * SECOND]
 
 
-def test_by_size_files_stay_near_the_limit(tmp_path):
+def test_by_size_files_stay_near_the_limit(tmp_path, wait_until):
     one = recording(tmp_path / 'bag', max_bag_size=0.1, compression='none', flush_period=0.05)
     topic = one.add_topic('/text', TEXT, VOLATILE)
     for i in range(40):
         one.put(topic, i, text(i, 20_000), i)
-        time.sleep(0.005)
+        wait_until(lambda: i - one.messages < 4)  # noqa: B023 - it is called at once
     one.close()
     sizes = [file.stat().st_size for file in sorted((tmp_path / 'bag').glob('*.mcap'))]
     assert len(sizes) > 2
@@ -126,11 +118,11 @@ def test_split_on_demand(tmp_path):
     assert numbers(tmp_path / 'bag') == [0, 1, 2]
 
 
-def test_the_floor_ends_a_recording_clearly(tmp_path):
+def test_the_floor_ends_a_recording_clearly(tmp_path, wait_until):
     one = recording(tmp_path / 'bag', keep_free=1e9, flush_period=0.05)
     topic = one.add_topic('/text', TEXT, VOLATILE)
     one.put(topic, 0, text(0), 0)
-    wait(lambda: one.failure)
+    wait_until(lambda: one.failure)
     one.put(topic, 1, text(1), 1)
     (report,) = one.close()
     assert 'keep_free' in one.failure
@@ -153,14 +145,14 @@ def small_disk(tmp_path):
 
 
 @pytest.mark.parametrize('size', [3_000, 300_000])
-def test_a_full_disk_ends_a_recording_with_a_whole_bag(small_disk, size):
+def test_a_full_disk_ends_a_recording_with_a_whole_bag(small_disk, size, wait_until):
     one = recording(small_disk / 'bag', compression='none', flush_period=0.05)
     topic = one.add_topic('/text', TEXT, VOLATILE)
     handed = 0
     while not one.failure:
         one.put(topic, handed, text(handed, size), handed)
         handed += 1
-        time.sleep(0.0005)
+        wait_until(lambda: one.failure or (handed - one.messages) * size < 300_000)  # noqa: B023
     one.close()
     assert 'No space left' in one.failure
     found = numbers(small_disk / 'bag')
@@ -171,7 +163,7 @@ def test_a_full_disk_ends_a_recording_with_a_whole_bag(small_disk, size):
         assert reader.get_summary().statistics.message_count == len(found)
 
 
-def test_a_ring_on_a_small_disk_goes_on(small_disk):
+def test_a_ring_on_a_small_disk_goes_on(small_disk, wait_until):
     one = recording(
         small_disk / 'bag', compression='none', flush_period=0.05, max_bag_size=0.4,
         keep_free=1.2, when_full='drop_oldest',
@@ -179,7 +171,7 @@ def test_a_ring_on_a_small_disk_goes_on(small_disk):
     topic = one.add_topic('/text', TEXT, VOLATILE)
     for i in range(300):
         one.put(topic, i, text(i, 30_000), i)
-        time.sleep(0.003)
+        wait_until(lambda: one.failure or i - one.messages < 6)  # noqa: B023
     one.close()
     assert not one.failure
     found = numbers(small_disk / 'bag')
@@ -189,18 +181,20 @@ def test_a_ring_on_a_small_disk_goes_on(small_disk):
 
 
 RECORDER = """
-import sys, time
+import sys, threading, time
 from pathlib import Path
 sys.path.insert(0, sys.argv[2])
 from test_recording import VOLATILE, TEXT, recording, text
 one = recording(Path(sys.argv[1]))
 topic = one.add_topic('/text', TEXT, VOLATILE)
 i = 0
+pace = threading.Event()
 while True:
     now = time.time_ns()
     one.put(topic, now, text(i), now)
+    print(now, flush=True)
     i += 1
-    time.sleep(0.001)
+    pace.wait(0.001)
 """
 
 
@@ -214,25 +208,25 @@ def unfinished(file):
 
 
 def test_kill_9_loses_at_most_the_last_second(tmp_path):
-    process = subprocess.Popen(  # noqa: S603 - our own code
-        [sys.executable, '-c', RECORDER, str(tmp_path / 'bag'), str(Path(__file__).parent)]
-    )
-    wait((tmp_path / 'bag').exists)
-    time.sleep(1.6)
-    process.send_signal(signal.SIGKILL)
-    killed = time.time_ns()
-    process.wait()
+    with subprocess.Popen(  # noqa: S603 - our own code
+        [sys.executable, '-c', RECORDER, str(tmp_path / 'bag'), str(Path(__file__).parent)],
+        stdout=subprocess.PIPE, text=True,
+    ) as process:  # fmt: skip
+        first = last = int(process.stdout.readline())
+        while last - first < 1.6 * SECOND:
+            last = int(process.stdout.readline())
+        process.send_signal(signal.SIGKILL)
     found = list(unfinished(tmp_path / 'bag' / 'bag_0.mcap'))
     assert [number for number, _ in found] == list(range(len(found)))
-    assert killed - found[-1][1] < SECOND
+    assert last - found[-1][1] < SECOND
 
 
-def test_a_stamp_that_fits_no_field_ends_a_recording_with_a_whole_bag(tmp_path):
+def test_a_stamp_that_fits_no_field_ends_a_recording_with_a_whole_bag(tmp_path, wait_until):
     one = recording(tmp_path / 'bag')
     topic = one.add_topic('/text', TEXT, VOLATILE)
     one.put(topic, 1, text(0), 1)
     one.put(topic, -1, text(1), 1)
-    wait(lambda: one.failure)
+    wait_until(lambda: one.failure)
     assert 'log time -1' in one.failure
     one.close()
     assert numbers(tmp_path / 'bag') == [0]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import signal
-import time
 
 import pytest
 from rosbags.rosbag2 import Reader
 
 rclpy = pytest.importorskip('rclpy')
 
+from rclpy.duration import Duration
 from rclpy.qos import QoSProfile
 from std_msgs.msg import Int32
 
@@ -25,8 +25,9 @@ def test_until_ctrl_c_and_then_what_was_lost(agv, graph, publisher, tmp_path):
     graph.spin_until(publisher.get_subscription_count)
     for i in range(500):
         publisher.publish(Int32(data=i))
-        time.sleep(0.0005)
-    graph.spin_for(0.3)
+        graph.spin_for(0.0005)
+    assert publisher.wait_for_all_acked(Duration(seconds=60.0))
+    graph.spin_for(0.5)  # acknowledged is not yet recorded
     process.send_signal(signal.SIGINT)
     out, errors = process.communicate(timeout=60.0)
     assert process.returncode == 0, errors

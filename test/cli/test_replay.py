@@ -44,6 +44,11 @@ def inbox(graph):
     return numbers
 
 
+def _found(node):
+    """Return whether what listens to the bag has met who plays it."""
+    return all(s.get_publisher_count() for s in node.subscriptions if s.topic_name == '/other')
+
+
 def test_to_the_end_remapped_with_a_report(agv, graph, inbox, bag):
     process = agv.start(
         'replay', bag, '-p', '-r', '2', '-m', '/number:=/other', '--start-offset', '0.5',
@@ -51,8 +56,8 @@ def test_to_the_end_remapped_with_a_report(agv, graph, inbox, bag):
     )  # fmt: skip
     (node,) = graph.nodes
     resume = node.create_client(Trigger, '/bag_player/resume')
-    graph.spin_until(lambda: node.count_publishers('/other') and resume.service_is_ready())
-    graph.spin_for(0.5)
+    graph.spin_until(lambda: _found(node) and resume.service_is_ready())
+    graph.spin_for(0.5)  # so that the player has found the listener too
     resume.call_async(Trigger.Request())
     graph.spin_until(lambda: process.poll() is not None)
     out, errors = process.communicate()
@@ -76,7 +81,7 @@ def test_keys_in_a_terminal(graph, inbox, bag):
         stdin=other, stdout=other, stderr=other,
     )  # fmt: skip
     (node,) = graph.nodes
-    graph.spin_until(lambda: node.count_publishers('/other'))
+    graph.spin_until(lambda: _found(node))
     graph.spin_for(0.5)
     os.write(main, b'\x1b[C\x1b[C\x1b[C')
     graph.spin_until(lambda: inbox == [0, 1, 2])

@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from math import nan
 from pathlib import Path
 
@@ -153,7 +152,7 @@ def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_
 
 
 @pytest.fixture
-def cluster(tmp_path):
+def cluster(tmp_path, wait_until):
     """Return the address of a real scheduler with a worker process."""
     pytest.importorskip('distributed')
     dask = [sys.executable, '-m', 'distributed.cli.dask_scheduler']
@@ -168,20 +167,19 @@ def cluster(tmp_path):
         [sys.executable, '-m', 'distributed.cli.dask_worker', '--scheduler-file',
          str(address_file), '--nthreads', '1', '--no-dashboard'], **quiet,
     )  # fmt: skip
-    end = time.monotonic() + 30.0
-    while not (address_file.exists() and address_file.stat().st_size):
-        assert time.monotonic() < end
-        time.sleep(0.05)
-    yield json.loads(address_file.read_text())['address']
-    for process in (worker, scheduler):
-        process.terminate()
-        process.wait(20)
+    try:
+        wait_until(lambda: address_file.exists() and address_file.stat().st_size)
+        yield json.loads(address_file.read_text())['address']
+    finally:
+        for process in (worker, scheduler):
+            process.terminate()
+            process.wait(60)
 
 
 def test_a_cluster_gives_the_same_bytes(alone, recorded, tmp_path, cluster):
     status, _, errors = alone(
         'reprocess', recorded, tmp_path / 'far' / 'out', '-m', 'pose:=fix', '--scheduler', cluster,
-        timeout=60,
+        timeout=120,
     )  # fmt: skip
     assert status == 1
     assert f'error: {recorded / "b"}' in errors

@@ -37,11 +37,14 @@ def test_list(alone, talker):
 
 
 def test_info(alone, talker):
-    status, out, _ = alone('topic', 'info', '/chatter')
+    status, out, _ = alone('topic', 'info', '/chatter', '--spin-time', '4')
     assert (status, out) == (
         0, 'Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n',
     )  # fmt: skip
-    assert 'Endpoint type: PUBLISHER' in alone('topic', 'info', '/chatter', '-v')[1]
+    assert (
+        'Endpoint type: PUBLISHER'
+        in alone('topic', 'info', '/chatter', '-v', '--spin-time', '4')[1]
+    )
 
 
 @pytest.mark.parametrize(
@@ -75,7 +78,7 @@ def test_what_the_filter_leaves_out_is_not_shown(alone, talker):
 
 def test_hz_and_bw(alone, talker):
     _, out, _ = alone('topic', 'hz', '/chatter', '--duration', '2')
-    assert 40 <= int(re.findall(r'average rate: (\d+)\.', out)[-1]) <= 60
+    assert 10 <= int(re.findall(r'average rate: (\d+)\.', out)[-1]) <= 100
     assert re.search(r'\tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+', out)
     _, out, _ = alone('topic', 'bw', '/chatter', '--duration', '2')
     assert out.startswith('Subscribed to [/chatter]\n')

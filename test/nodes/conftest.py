@@ -9,7 +9,9 @@ import pytest
 rclpy = pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from rcl_interfaces.msg import Log
 from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
 from std_msgs.msg import Bool, String
 
 from agv_motion.nodes.motion_generator import MotionGenerator
@@ -35,18 +37,25 @@ class Tester:
         )
         if activate:
             start(node)
+        self.graph.meet()
         return node
 
     def listen(self, kind, topic, qos=COMMAND):
-        """Return the list into which messages of ``topic`` come."""
+        """Return the list into which messages of ``topic`` come; who speaks already is found."""
         inbox = self.received.setdefault(topic, [])
         self.node.create_subscription(kind, topic, inbox.append, qos)
+        self.graph.meet()
         return inbox
+
+    def logs(self):
+        """Return the list into which comes what the nodes of this graph log from now on."""
+        return self.listen(Log, '/rosout', QoSProfile(depth=1000))
 
     def publisher(self, kind, topic, qos=COMMAND):
         """Return a publisher that has found its listener."""
         publisher = self.node.create_publisher(kind, topic, qos)
         self.graph.spin_until(lambda: publisher.get_subscription_count() >= 1)
+        self.graph.meet()
         return publisher
 
     def ask(self, kind, service, request):

@@ -108,6 +108,7 @@ def test_a_pause_is_left_out_and_not_called_a_loss(tester, record, tmp_path):
     recorded(tester, node, 1)
     assert tester.ask(Trigger, 'bag_recorder/pause', Trigger.Request()).success
     send(publisher, 2)
+    assert publisher.wait_for_all_acked()
     tester.graph.spin_for(0.2)
     assert tester.ask(Trigger, 'bag_recorder/toggle_paused', Trigger.Request()).success
     send(publisher, 3)

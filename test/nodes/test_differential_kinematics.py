@@ -11,7 +11,6 @@ rclpy = pytest.importorskip('rclpy')
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
-from rcl_interfaces.msg import Log
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
@@ -35,20 +34,16 @@ class Robot:
         self.cmd_vel = tester.publisher(TwistStamped, 'cmd_vel')
         self.encoders = tester.publisher(JointState, 'wheels/state', SENSOR)
 
-    def log(self):
-        """Return the list into which what the node logs from now on comes."""
-        told = self.tester.listen(Log, '/rosout', 100)
-        while not told:
-            self.node.get_logger().info('listening')
-            self.tester.graph.spin_for(0.05)
-        return told
-
-    def send(self, vx=0.0, vy=0.0, wz=0.0):
+    @staticmethod
+    def twist(vx=0.0, vy=0.0, wz=0.0):
         message = TwistStamped()
         message.header.stamp.sec = 42
         message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = vx, vy, wz
+        return message
+
+    def send(self, **components):
         self.commands.clear()
-        self.cmd_vel.publish(message)
+        self.cmd_vel.publish(self.twist(**components))
 
     def drive(self, **components):
         self.send(**components)
@@ -95,11 +90,11 @@ def test_a_quarter_circle_is_told_exactly(tester):
 def test_what_it_cannot_do_is_refused_and_is_no_sign_of_life(tester, twist, word):
     robot = Robot(tester, report_after=0.1, stop_after=0.2)
     assert any(robot.drive(vx=0.3).velocity)
-    for _ in range(5):
-        robot.send(**twist)
-        tester.graph.spin_for(0.1)
+    tester.graph.repeat(
+        lambda: robot.cmd_vel.publish(robot.twist(**twist)),
+        until=lambda: list(robot.commands[-1].velocity) == [0.0, 0.0],
+    )
     assert word in robot.node.complaint
-    assert list(robot.commands[-1].velocity) == [0.0, 0.0]
 
 
 def test_silence_stop_and_the_end_are_explicit_zeros(tester):
@@ -117,24 +112,23 @@ def test_silence_stop_and_the_end_are_explicit_zeros(tester):
     assert any(robot.drive(vx=0.3).velocity)
     robot.commands.clear()
     robot.node.trigger_deactivate()
-    tester.graph.spin_for(0.1)
+    tester.graph.spin_until(lambda: robot.commands)
     assert list(robot.commands[-1].velocity) == [0.0, 0.0]
 
 
 def test_silence_is_told_once_and_so_is_its_end(tester):
     robot = Robot(tester, report_after=0.1, stop_after=0.3)
-    told = robot.log()
+    told = tester.logs()
     robot.drive(vx=0.3)
     tester.wait(told, lambda m: 'no cmd_vel' in m.msg and 'stopping' in m.msg)
     assert robot.node.diagnose().level == WARN
     tester.graph.spin_for(0.5)
-    for _ in range(100):
-        robot.send(vx=0.3)
-        tester.graph.spin_for(0.05)
-        if 'cmd_vel is back after' in told[-1].msg:
-            break
+    tester.graph.repeat(
+        lambda: robot.send(vx=0.3),
+        until=lambda: 'cmd_vel is back after' in told[-1].msg,
+        every=0.05,
+    )
     back = told[-1]
-    assert 'cmd_vel is back after' in back.msg
     assert sum('stopping' in m.msg for m in told) == 1
     tester.graph.spin_for(1.0)  # silent again, so soon that it is not worth a word
     assert told[-1] is back
@@ -142,7 +136,7 @@ def test_silence_is_told_once_and_so_is_its_end(tester):
 
 def test_a_robot_that_was_told_to_stand_misses_nobody(tester):
     robot = Robot(tester, report_after=0.5, stop_after=0.6)
-    told = robot.log()
+    told = tester.logs()
     robot.drive(vx=0.3)
     robot.drive(vx=0.0)
     tester.graph.spin_for(1.0)
@@ -154,11 +148,11 @@ def test_encoders_that_fall_silent_stop_the_robot(tester):
     robot = Robot(tester, report_after=0.1, stop_after=0.2)
     robot.tell([0.0, 0.0], 1.0)
     tester.wait(robot.odometry)
-    for _ in range(4):
-        robot.send(vx=0.3)
-        tester.graph.spin_for(0.1)
-    assert list(robot.commands[-1].velocity) == [0.0, 0.0]
-    assert 'wheels/state is lost' in robot.node.diagnose().message
+    tester.graph.repeat(
+        lambda: robot.cmd_vel.publish(robot.twist(vx=0.3)),
+        until=lambda: 'wheels/state is lost' in robot.node.diagnose().message,
+    )
+    assert list(robot.drive(vx=0.3).velocity) == [0.0, 0.0]
 
 
 def test_one_encoder_alone_is_refused(tester):

@@ -143,10 +143,7 @@ def test_abort_brakes_and_cmd_vel_is_free_afterwards(course):
     speeds = [twist.vx for twist in course.robot.commands if any(twist)]
     assert any(0.1 < speed < 0.4 for speed in speeds)  # a ramp, no jump
     course.robot.stands()
-    course.tester.graph.spin_for(1.2)
-    course.robot.commands.clear()
-    course.tester.graph.spin_for(0.2)
-    assert course.robot.commands == []
+    course.tester.graph.quiet(course.robot.commands)
 
 
 def test_silence_of_the_pose_is_an_explicit_stop(tester):

@@ -68,13 +68,10 @@ def test_silence_of_an_input_means_an_explicit_stop(tester, make_senses, silent)
     senses.stand(7.0, 1.0, 0.0)
     senses.feel(0.9, 0.9, 0.9)
     senses.moves()
-    for _ in range(8):
-        if silent == 'pose':
-            senses.feel(0.9, 0.9, 0.9)
-        else:
-            senses.stand(7.0, 1.0, 0.0)
-        tester.graph.spin_for(0.1)
-    assert not senses.moving(senses.commands[-1])
+    senses.tester.graph.repeat(
+        lambda: senses.feel(0.9, 0.9, 0.9) if silent == 'pose' else senses.stand(7.0, 1.0, 0.0),
+        until=lambda: not senses.moving(senses.commands[-1]),
+    )
     tester.wait(senses.states, lambda m: f'no {silent}' in m.data)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import count
 from math import inf, nan, pi, sqrt
 
 import pytest
@@ -119,7 +120,7 @@ def test_silence_stop_and_the_end_are_explicit_zeros(tester):
     assert any(robot.drive(vx=0.3).velocity)
     robot.commands.clear()
     robot.node.trigger_deactivate()
-    tester.graph.spin_for(0.1)
+    tester.graph.spin_until(lambda: robot.commands)
     assert list(robot.commands[-1].velocity) == [0.0] * 3
 
 
@@ -130,20 +131,24 @@ def test_silence_is_worth_a_warning_only_where_the_robot_was_driven(tester, spee
     robot = Robot(tester, report_after=0.1, stop_after=0.2)
     robot.drive(vx=speed)
     tester.graph.spin_for(0.5)
-    assert robot.node.diagnose()[:2] == found
+    tester.graph.spin_until(lambda: robot.node.diagnose()[:2] == found)
 
 
 def test_encoders_that_fall_silent_stop_the_robot(tester):
     robot = Robot(tester, report_after=0.1, stop_after=0.3)
     robot.tell(state([0.0] * 3, 1.0))
-    for _ in range(6):
-        robot.drive(vx=0.3)
-        tester.graph.spin_for(0.1)
+    tester.graph.repeat(
+        lambda: robot.drive(vx=0.3),
+        until=lambda: 'wheels/state is lost' in robot.node.diagnose().message,
+    )
     assert not any(robot.drive(vx=0.3).velocity)
-    assert 'wheels/state is lost' in robot.node.diagnose().message
-    robot.tell(state([0.0] * 3, 2.0))
-    tester.graph.spin_for(0.15)
-    assert any(robot.drive(vx=0.3).velocity)
+    stamps = count(2)
+
+    def speak():
+        robot.encoders.publish(state([0.0] * 3, next(stamps)))
+        robot.drive(vx=0.3)
+
+    tester.graph.repeat(speak, until=lambda: any(robot.commands[-1].velocity))
 
 
 def test_odometry_tells_pose_twist_covariance_rollers_and_slip(tester):

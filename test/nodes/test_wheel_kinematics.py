@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from itertools import pairwise
+from itertools import count, pairwise
 from math import cos, inf, nan, pi, sin
 
 import pytest
@@ -127,10 +127,10 @@ def test_the_last_word_of_a_deactivated_node_is_zero(tester, drive):
     tester.wait(commands, lambda m: any(m.velocity))
     node.trigger_deactivate()
     tester.graph.spin_until(lambda: rates(commands[-1]) == [0.0, 0.0])
-    count = len(commands)
+    told = len(commands)
     cmd_vel.publish(twist(vx=0.3))
     tester.graph.spin_for(0.3)
-    assert len(commands) == count
+    assert len(commands) == told
 
 
 def test_the_stop_service_holds_until_released(tester, drive):
@@ -362,15 +362,18 @@ def test_turrets_that_fall_silent_stop_the_platform(tester, drive):
     joint_states = tester.publisher(JointState, 'turrets/state', SENSOR)
     tester.graph.spin_for(0.2)
     joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.1))
-    for _ in range(10):
-        cmd_vel.publish(twist(vx=0.3))
-        tester.graph.spin_for(0.1)
-    assert rates(commands[-1]) == [0.0, 0.0]
-    joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.2))
-    tester.graph.spin_for(0.3)
-    commands.clear()
     cmd_vel.publish(twist(vx=0.3))
     tester.wait(commands, lambda m: any(m.velocity))
+    tester.graph.repeat(
+        lambda: cmd_vel.publish(twist(vx=0.3)), until=lambda: rates(commands[-1]) == [0.0, 0.0]
+    )
+    stamps = count(2)
+
+    def speak():
+        joint_states.publish(state([0.0, 0.0], [0.0, 0.0], 0.1 * next(stamps)))
+        cmd_vel.publish(twist(vx=0.3))
+
+    tester.graph.repeat(speak, until=lambda: any(commands[-1].velocity))
 
 
 def test_before_anything_is_known_the_turrets_are_left_alone(tester, drive):
