@@ -13,7 +13,7 @@ import sys
 from rich.progress import track
 
 from agv_motion.simulation.tracking_trial import TrackingTrial, TrackingTrialParameters
-from agv_motion.trajectory.follower import Following
+from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 LIMIT = 0.02

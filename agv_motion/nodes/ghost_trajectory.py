@@ -17,8 +17,9 @@ from agv_motion.ros.messages import fill_path, fill_pose, pose_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
-from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.following import Following
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,6 +36,7 @@ WORDS = {
     Following.LOCKED: 'locked: call ~/lock with data: false to go on',
     Following.WAITING: 'the Ghost waits for the robot',
     Following.SETTLING: 'settling',
+    Following.CORRECTING: 'correcting: driving to where the Ghost stands',
     Following.ARRIVED: 'arrived',
     Following.ABORTED: 'aborted',
 }
@@ -117,7 +119,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
             'locked': str(follower.ghost.locked), 'rotating': str(follower.ghost.rotating),
             'backward': str(follower.ghost.backward), 'finished': str(follower.ghost.finished),
         }  # fmt: skip
-        if follower.state is Following.LOST:
+        if follower.failure:
             return Diagnosis(ERROR, self.told, values)
         blind = bool(self.lost) and not follower.at_rest
         waits = follower.state is Following.WAITING
@@ -140,9 +142,8 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _words(self) -> str:
         follower = self._follower
-        if follower.state is Following.LOST:
-            limit = self.parameters.follow.leash.lost_beyond
-            return f'lost: {follower.separation:.2f} m from the Ghost, limit {limit:g} m'
+        if follower.failure:
+            return f'{follower.state.value}: {follower.failure}'
         if follower.state is Following.DRIVING:
             ghost = follower.ghost
             return 'turning' if ghost.rotating else 'backing' if ghost.backward else 'driving'
@@ -150,7 +151,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _show_ghost(self) -> None:
         self.stamp(self._ghost_pose)
-        fill_pose(self._ghost_pose.pose, self._follower.ghost.pose)
+        fill_pose(self._ghost_pose.pose, self._follower.leader.pose)
         self._pose_publisher.publish(self._ghost_pose)
 
     # Goals

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Protocol
 from agv_motion.errors import AgvMotionError
 from agv_motion.planar import REST, Pose, Twist
 from agv_motion.route.follower import RouteFollower
-from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.following import Following
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
     from agv_motion.route.route import Route
     from agv_motion.sequence.actions import GhostAction
+    from agv_motion.trajectory.follower import Follower
 
 EASE = 0.5
 """[s] In which a robot on a route comes from full speed to a pause."""
@@ -97,9 +98,7 @@ class GhostPerformance:
     def step(self, dt: float, pose: Pose) -> Twist:
         """Follow the Ghost."""
         twist = self._follower.step(dt, pose)
-        if self._follower.state is Following.LOST:
-            limit = self._follower.parameters.leash.lost_beyond
-            self.failure = f'{self._follower.separation:.2f} m off its way, limit {limit:g} m'
+        self.failure = self._follower.failure
         return twist
 
     def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is

@@ -17,12 +17,13 @@ from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, wrap
 from agv_motion.simulation.differential import DifferentialRobot, DifferentialRobotParameters
-from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.trajectory.following import Following
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
 

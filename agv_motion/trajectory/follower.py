@@ -1,17 +1,23 @@
 """A robot behind its Ghost: one twist a cycle, from the measured pose.
 
 The Ghost runs along its trajectory, a law of control keeps the robot on it, and the leash between
-them makes the Ghost wait for a robot that falls back, and stop one that is lost.
+them makes the Ghost wait for a robot that falls back, and stop one that is lost. Whatever the law
+asks for, the twist keeps the limits of the robot.
+
+Arrival is measured: by the pose, not by the Ghost. A law of two wheels closes no error across at
+rest, and wheels may be slow or slip; where the law brings the robot no nearer, a second Ghost leads
+it from where it is to where the first one stands, by turns on the spot and a straight line.
 """
 
 from __future__ import annotations
 
-from enum import Enum
-from math import hypot
+from math import degrees, hypot
 from typing import TYPE_CHECKING
 
-from agv_motion.planar import REST, Pose, Twist, require_finite
+from agv_motion.planar import REST, Pose, Twist, compose, inverse, require_finite
+from agv_motion.trajectory.approach import Approach, is_calm
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.following import AT_REST, Following
 from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.leash import Leash
 from agv_motion.trajectory.motions import Speeds
@@ -23,23 +29,8 @@ if TYPE_CHECKING:
     from agv_motion.trajectory.trajectory import Trajectory
 
 
-class Following(Enum):
-    """What the robot and its Ghost are doing."""
-
-    IDLE = 'idle'
-    LOCKED = 'locked'
-    DRIVING = 'driving'
-    WAITING = 'waiting'
-    """The Ghost waits for the robot"""
-    SETTLING = 'settling'
-    """The Ghost has arrived, the robot closes the last centimetres"""
-    ARRIVED = 'arrived'
-    ABORTED = 'aborted'
-    LOST = 'lost'
-
-
-AT_REST = frozenset({Following.IDLE, Following.ARRIVED, Following.ABORTED, Following.LOST})
-"""In these states nothing moves until there is a new trajectory."""
+CORRECTION_SPEED, CORRECTION_RAMPS = 0.1, 0.2
+"""[m/s], [m/s2] Of the second Ghost, which leads over centimetres."""
 
 
 class Follower:
@@ -56,15 +47,25 @@ class Follower:
         """[m] as of the last step, heading included"""
         self.held = False
         """Whether the Ghost is to stand still"""
+        self.failure = ''
+        """Why it ended without having arrived; empty if it did not"""
         self._law = self.parameters.make_law()
         self._leash = Leash(self.parameters.leash)
         self._aborting = False
-        self._settling = 0.0
+        self._correction: Ghost | None = None
+        self._corrections = 0
+        self._approach = Approach()
+        self._heed = 0.0
 
     @property
     def at_rest(self) -> bool:
         """Whether nothing moves until there is a new trajectory."""
         return self.state in AT_REST
+
+    @property
+    def leader(self) -> Ghost:
+        """The Ghost behind which the robot is: its own, or the one that corrects."""
+        return self._correction or self.ghost
 
     def depart(self, pose: Pose, plan: Callable[[Ghost], Trajectory]) -> Trajectory:
         """Set out on what ``plan`` makes the Ghost compute.
@@ -82,16 +83,18 @@ class Follower:
 
         """
         require_finite('pose', pose)
-        if self.at_rest:
+        if self.at_rest or self._correction:
             fresh = Ghost(pose, self.parameters.ghost)
             trajectory = plan(fresh)
             self.ghost = fresh
-            self._leash.restart(moving=not self.held)
+            self._start_from_rest(moving=not self.held)
             fresh.lock(self.held)
         else:
             trajectory = plan(self.ghost)
         self.state = Following.LOCKED if self.held else Following.DRIVING
-        self._aborting, self._settling = False, 0.0
+        self._aborting, self.failure = False, ''
+        self._correction, self._corrections = None, 0
+        self._approach.restart()
         return trajectory
 
     def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
@@ -104,12 +107,12 @@ class Follower:
             return
         self.held, self._aborting = False, True
         if self._leash.pace == 1.0:
-            self.ghost.abort()  # at full pace, with the ramps of the trajectory
+            self.leader.abort()  # at full pace, with the ramps of the trajectory
 
     def halt(self) -> None:
-        """Stand at once and without a ramp, for as long as the pose is lost; `step` goes on."""
-        self._leash.restart(moving=False)
-        self.ghost.lock(True)  # noqa: FBT003 - the name says what the flag is
+        """Stand at once and without a ramp, as long as something is wrong; `step` goes on."""
+        self._start_from_rest(moving=False)
+        self.leader.lock(True)  # noqa: FBT003 - the name says what the flag is
         if self._aborting:
             self._end(Following.ABORTED)
 
@@ -136,50 +139,129 @@ class Follower:
 
         """
         require_finite('pose', pose)
-        ghost = self.ghost
         if self.at_rest:
             return REST
-        ghost.advance(dt, self._leash.pace)
-        place, linear, angular = ghost.controller_kinetics(self.parameters.delay)
+        leader = self.leader
+        leader.advance(dt, self._leash.pace)
+        place, linear, angular = leader.controller_kinetics(self.parameters.delay)
         self.error = tracking_error(place, pose)
         self.separation = self._leash.separation(self.error)
         if self._leash.is_lost(self.separation):
-            return self._end(Following.LOST)
+            return self._lose()
         self._pace(dt)
         if self.state is Following.LOCKED:
+            self._heed = 0.0
             return REST  # the robot stands, as near as it came
-        twist = self._law.twist(self.error, Speeds(linear, angular))
-        if ghost.finished:
-            self._settling += dt
-            if ghost.aborted:
-                return self._end(Following.ABORTED)
-            if self._is_settled(twist):
-                return self._end(Following.ARRIVED)
-        return twist
+        twist = self._twist(Speeds(linear, angular), dt)
+        if leader.finished and leader.aborted:
+            return self._end(Following.ABORTED)
+        return self._close_in(twist, dt)
+
+    def _lose(self) -> Twist:
+        limit = self.parameters.leash.lost_beyond
+        return self._end(Following.LOST, f'{self.separation:.2f} m off its way, limit {limit:g} m')
+
+    def _twist(self, reference: Speeds, dt: float) -> Twist:
+        """Return what the law asks for, within the limits of the robot.
+
+        From rest on it heeds the error by and by: the robot may have been moved meanwhile.
+        """
+        given = self.parameters
+        self._heed = min(self._heed + dt / given.leash.ease, 1.0)
+        error = TrackingError(*(self._heed * part for part in self.error))
+        return given.ghost.hold(self._law.twist(error, reference))
 
     def _pace(self, dt: float) -> None:
         """Let the Ghost go on, dawdle or wait, and say so."""
-        ghost, leash = self.ghost, self._leash
+        ghost, leash = self.leader, self._leash
         if not ghost.aborted:  # its braking must not be stretched
             leash.ease(self.separation, dt, hold=self.held or self._aborting)
         ghost.lock(leash.pace == 0.0)
         if self._aborting and ghost.locked:
             ghost.abort()
-        if ghost.finished:
+        if ghost.locked and self.held and not ghost.finished:
+            self.state = Following.LOCKED
+        elif self._correction:
+            self.state = Following.CORRECTING
+        elif ghost.finished:
             self.state = Following.SETTLING
-        elif ghost.locked:
-            self.state = Following.LOCKED if self.held else Following.WAITING
         else:
-            self.state = Following.DRIVING
+            self.state = Following.WAITING if ghost.locked else Following.DRIVING
 
-    def _is_settled(self, twist: Twist) -> bool:
+    def _close_in(self, twist: Twist, dt: float) -> Twist:
+        """Return what to drive instead, where the leader stands and the robot comes no nearer."""
+        given, approach, leader = self.parameters, self._approach, self.leader
+        if not leader.finished and not leader.locked:
+            approach.restart()
+            return twist
+        approach.update(self.error, self.separation, twist, dt, given.settle_time)
+        stalled = approach.stalled > given.settle_time
+        if not leader.finished:  # a robot that is held is asked for more
+            calm = is_calm(approach.twist, given.settle_speed, given.settle_turn)
+            return self._correct() if calm and stalled else twist
+        calm = is_calm(twist, given.settle_speed, given.settle_turn)
+        if (calm and self._is_near(self.error)) or (stalled and self._is_near(approach.error)):
+            return self._come_up()
+        return self._correct() if stalled else twist
+
+    def _is_near(self, error: TrackingError) -> bool:
+        """Return whether the robot is where it should be; of a turn only the heading counts."""
         given = self.parameters
-        calm = (
-            hypot(twist.vx, twist.vy) <= given.settle_speed and abs(twist.wz) <= given.settle_turn
-        )
-        return calm or self._settling > given.settle_time
+        near = self._only_turns() or hypot(error.along, error.across) <= given.tolerance
+        return near and abs(error.heading) <= given.heading_tolerance
 
-    def _end(self, state: Following) -> Twist:
-        self.ghost.lock(True)  # noqa: FBT003 - the name says what the flag is
-        self.state = state
+    def _only_turns(self) -> bool:
+        motions = self.ghost.trajectory.motions
+        return bool(motions) and all(motion.rotating for motion in motions)
+
+    def _come_up(self) -> Twist:
+        """Arrive; or go on behind the first Ghost, if it has only waited."""
+        if self.ghost.finished:
+            return self._end(Following.ARRIVED)
+        self._correction, self._corrections = None, 0
+        self._start_from_rest(moving=False)
+        return REST
+
+    def _correct(self) -> Twist:
+        """Lead the robot from where it is to where the first Ghost stands, or give up."""
+        given = self.parameters
+        if given.law == 'holonomic' or self._corrections >= given.corrections:
+            return self._end(Following.NOT_ARRIVED, self._shortfall())
+        here = compose(self.leader.pose, inverse(Pose(*self._approach.error)))
+        second = Ghost(here, given.ghost)
+        if self._only_turns():
+            pace = given.ghost.turn_acceleration, given.ghost.turn_rate
+        else:
+            pace = CORRECTION_RAMPS, CORRECTION_SPEED
+        second.compute_trajectory(
+            self.ghost.pose, 0.0, *pace,
+            pure_rotation=self._only_turns(), backward=self._approach.error.along < 0.0,
+        )  # fmt: skip
+        second.lock(False)  # noqa: FBT003 - the name says what the flag is
+        self._correction = second
+        self._corrections += 1
+        self._start_from_rest(moving=True)
+        return REST
+
+    def _shortfall(self) -> str:
+        """Return how far the robot is from where it should be, in words."""
+        given, (along, across, heading) = self.parameters, self._approach.error
+        ahead = -along if self.ghost.backward else along
+        return (
+            f'{100.0 * abs(along):.1f} cm {"short" if ahead >= 0.0 else "too far"}, '
+            f'{100.0 * abs(across):.1f} cm to the side, {degrees(abs(heading)):.1f} deg turned '
+            f'off; tolerance {100.0 * given.tolerance:g} cm, '
+            f'{degrees(given.heading_tolerance):.1f} deg'
+        )
+
+    def _start_from_rest(self, *, moving: bool) -> None:
+        """Note that the robot stands; the leader starts at full pace, or is eased into it."""
+        self._leash.restart(moving=moving)
+        self._heed = 0.0
+        self._approach.restart()
+
+    def _end(self, state: Following, failure: str = '') -> Twist:
+        self.leader.lock(True)  # noqa: FBT003 - the name says what the flag is
+        self.state, self.failure = state, failure
+        self._correction = None
         return REST

@@ -32,17 +32,33 @@ class FollowerParameters:
             dynamic=True,
         ),
     ] = 0.03
+    tolerance: Annotated[
+        float,
+        Spec('it has arrived no further than this from the goal', 'm', (1e-4, 10.0), dynamic=True),
+    ] = 0.03
+    heading_tolerance: Annotated[
+        float, Spec('... and turned from it no more than this', 'rad', (1e-4, 3.2), dynamic=True)
+    ] = 0.06
     settle_speed: Annotated[
         float,
-        Spec('at the end: arrived when the law asks for less', 'm/s', (0.0, 1.0), dynamic=True),
-    ] = 0.02
+        Spec('within these, it need not wait when the law asks for less', 'm/s', (0.0, 1.0),
+             dynamic=True),
+    ] = 0.02  # fmt: skip
     settle_turn: Annotated[
         float, Spec('... and for less of a turn', 'rad/s', (0.0, 1.0), dynamic=True)
     ] = 0.04
     settle_time: Annotated[
         float,
-        Spec('it has arrived as well as it can after so long', 's', (0.0, 60.0), dynamic=True),
-    ] = 1.0
+        Spec('time without coming nearer after which it is as near as the law brings it', 's',
+             (0.0, 60.0), dynamic=True),
+    ] = 1.0  # fmt: skip
+    corrections: Annotated[
+        int,
+        Spec(
+            'number of times that it then drives the last stretch anew, before it has failed; '
+            'none with the holonomic law', '1', (0, 100), dynamic=True,
+        ),
+    ] = 2  # fmt: skip
     kanayama: KanayamaGains = field(default_factory=KanayamaGains)
     ramsete: RamseteGains = field(default_factory=RamseteGains)
     holonomic: HolonomicGains = field(default_factory=HolonomicGains)

@@ -80,6 +80,25 @@ class TurnRate(_BendLimit):
         return self._rate / np.maximum(np.abs(curvature), STRAIGHT)
 
 
+class LinearSpeed(_BendLimit):
+    r"""The robot drives no faster than it may, in bends and straight on: :math:`v \le v_l`."""
+
+    name = 'linear speed'
+
+    def __init__(self, speed: float) -> None:
+        """Keep v_l [m/s].
+
+        Raises:
+            ConfigurationError: It is not positive and finite.
+
+        """
+        self._speed = require_positive('linear speed', speed, 'm/s')
+
+    def ceiling(self, curvature: Column) -> Column:
+        """Return v_l everywhere."""
+        return np.full(len(curvature), self._speed)
+
+
 class WheelSpeed(_BendLimit):
     r"""The outer wheel of a differential drive: :math:`v (1 + |\kappa| b / 2) \le v_w`."""
 

@@ -2,14 +2,15 @@ r"""The nonlinear law of Samson, with the gains that De Luca et al. gave it; kno
 
 .. math:: v = v_r \cos\theta_e + k x_e, \qquad
     \omega = \omega_r + k \theta_e + b\, v_r \frac{\sin\theta_e}{\theta_e} y_e, \qquad
-    k = 2 \zeta \sqrt{\omega_r^2 + b v_r^2}   \tag{1}
+    k = \sqrt{4 \zeta^2 (\omega_r^2 + b v_r^2) + k_0^2}   \tag{1}
 
 With :math:`V = \frac{b}{2} (x_e^2 + y_e^2) + \frac12 \theta_e^2`,
 
 .. math:: \dot V = -b k x_e^2 - k \theta_e^2 \le 0   \tag{2}
 
-for :math:`b > 0` and :math:`0 < \zeta < 1`, the condition of the paper. The gain follows the speed,
-so at rest the law leaves the robot alone: it ends as well as it followed, and no better.
+for :math:`b > 0` and :math:`0 < \zeta < 1`, the condition of the paper. There :math:`k_0 = 0`: the
+gain follows the speed alone, so a robot behind a Ghost that waits for it, or has arrived, would
+never come up. With :math:`k_0 > 0` it does, and (2), which holds for any positive gain, stays.
 
 Source: A. De Luca, G. Oriolo, M. Vendittelli, "Control of wheeled mobile robots: an experimental
 overview", RAMSETE, Springer LNCIS 270, 2001; after C. Samson, "Time-varying feedback
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RamseteGains:
-    """The two gains of equation (1).
+    """The gains of equation (1).
 
     Raises:
         ConfigurationError: b is not above 0, or zeta not between 0 and 1.
@@ -46,6 +47,13 @@ class RamseteGains:
     zeta: Annotated[float, Spec('damping zeta, between 0 and 1', '1', (0.0, 1.0), dynamic=True)] = (
         0.9
     )
+    at_rest: Annotated[
+        float,
+        Spec(
+            'k_0, on the errors along and of heading, even behind a Ghost that stands', '1/s',
+            (0.01, 100.0), dynamic=True,
+        ),
+    ] = 2.0  # fmt: skip
 
     def __post_init__(self) -> None:
         """Check every row, and that zeta lies inside its range."""
@@ -64,9 +72,10 @@ class Ramsete:
 
     def twist(self, error: TrackingError, reference: Speeds) -> Twist:
         """Return the twist of equation (1)."""
-        b, (linear, angular) = self.gains.b, reference
+        gains, (linear, angular) = self.gains, reference
         along, across, heading = error
-        gain = 2.0 * self.gains.zeta * sqrt(angular * angular + b * linear * linear)
+        b, damping, at_rest = gains.b, 2.0 * gains.zeta, gains.at_rest
+        gain = sqrt(damping**2 * (angular * angular + b * linear * linear) + at_rest**2)
         small = abs(heading) < SMALL_ANGLE
         sinc = 1.0 - heading * heading / 6.0 if small else sin(heading) / heading
         return Twist(

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from math import hypot, inf, nan, pi
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose, Twist, integrate
-from agv_motion.trajectory.follower import Follower, Following
+from agv_motion.trajectory.follower import Follower
+from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory.holonomic import HolonomicGains
+from agv_motion.trajectory.kanayama import KanayamaGains
 from agv_motion.trajectory.leash import LeashParameters
+from agv_motion.trajectory.ramsete import RamseteGains
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 GOAL = Pose(2.0, 1.0, 0.5)
@@ -43,7 +51,10 @@ class Ideal:
         return self.follower.state
 
 
-@pytest.mark.parametrize('law', ['kanayama', 'ramsete', 'holonomic'])
+EACH_LAW = pytest.mark.parametrize('law', ['kanayama', 'ramsete', 'holonomic'])
+
+
+@EACH_LAW
 @pytest.mark.parametrize('kind', [{}, {'backward': True}, {'delta': 0.0}, {'pure_rotation': True}])
 def test_it_arrives_where_it_was_sent(law, kind):
     robot = Ideal(Pose(0.0, 0.0, 0.2), law=law)
@@ -53,6 +64,76 @@ def test_it_arrives_where_it_was_sent(law, kind):
     assert hypot(robot.pose.x - goal.x, robot.pose.y - goal.y) < 0.015
     assert abs(robot.pose.theta - goal.theta) < 0.03
     assert robot.twists[-1] == REST
+
+
+@EACH_LAW
+@pytest.mark.parametrize('share', [0.3, 0.7, 1.2])
+@pytest.mark.parametrize('kind', [{}, {'backward': True}, {'delta': 0.0}, {'pure_rotation': True}])
+def test_with_slow_or_slipping_wheels_it_arrives_within_its_tolerances(law, share, kind):
+    robot = Ideal(Pose(0.0, 0.0, 0.2), law=law)
+    robot.share = share
+    robot.go(**kind)
+    assert robot.run() is Following.ARRIVED
+    goal = Pose(0.0, 0.0, 0.5) if 'pure_rotation' in kind else GOAL
+    assert hypot(robot.pose.x - goal.x, robot.pose.y - goal.y) <= 0.03
+    assert abs(robot.pose.theta - goal.theta) <= 0.06
+
+
+def nearly_there(robot):
+    ghost = robot.follower.ghost
+    return ghost.trajectory.duration - ghost.time < 1.5 * DT
+
+
+def test_a_robot_beside_its_goal_is_led_there():
+    """A law of two wheels closes no error across at rest: 5 cm to the left of a goal ahead."""
+    robot = Ideal()
+    robot.go(Pose(1.0, 0.0, 0.0), delta=0.0)
+    robot.run(until=nearly_there)
+    robot.pose = robot.pose._replace(y=0.05)
+    robot.run(until=lambda robot: robot.follower.state is Following.CORRECTING)
+    assert robot.follower.state is Following.CORRECTING
+    assert robot.run() is Following.ARRIVED
+    assert hypot(robot.pose.x - 1.0, robot.pose.y) <= 0.03
+    assert abs(robot.pose.theta) <= 0.06
+
+
+@EACH_LAW
+def test_a_robot_that_cannot_come_up_has_not_arrived_and_says_how_far_it_is(law):
+    robot = Ideal(law=law)
+    robot.go(Pose(1.0, 0.0, 0.0), delta=0.0)
+    robot.run(until=lambda robot: robot.pose.x > 0.9)
+    robot.share = 0.0
+    robot.run(until=lambda robot: robot.follower.ghost.finished)
+    robot.pose = Pose(0.94, 0.0, 0.0)
+    assert robot.run() is Following.NOT_ARRIVED
+    assert robot.twists[-1] == REST
+    said = r'6\.[0-4] cm short, 0\.0 cm to the side, 0\.0 deg turned off; tolerance 3 cm, 3\.4 deg'
+    assert re.fullmatch(said, robot.follower.failure)
+    robot.share = 1.0
+    robot.go()
+    assert robot.follower.failure == ''
+    assert robot.run() is Following.ARRIVED
+
+
+def test_beyond_its_goal_it_says_so():
+    robot = Ideal(corrections=0)
+    robot.go(Pose(-1.0, 0.0, 0.0), delta=0.0, backward=True)
+    robot.run(until=nearly_there)
+    robot.pose, robot.share = Pose(-1.05, 0.0, 0.0), 0.0
+    assert robot.run() is Following.NOT_ARRIVED
+    assert robot.follower.failure.startswith('5.0 cm too far')
+
+
+@EACH_LAW
+def test_pushed_aside_while_the_ghost_waits_it_is_led_back_to_its_way(law):
+    """0.35 m beside a Ghost that waits from 0.25 m on: without a correction it would for ever."""
+    robot = Ideal(law=law)
+    robot.go(Pose(3.0, 0.0, 0.0))
+    robot.run(seconds=3.0)
+    x, y, theta = robot.pose
+    robot.pose = Pose(x, y + 0.35, theta)
+    assert robot.run() is Following.ARRIVED
+    assert hypot(robot.pose.x - 3.0, robot.pose.y) <= 0.03
 
 
 def test_a_zero_move_arrives_at_once():
@@ -71,12 +152,14 @@ def test_before_and_after_it_stands():
     assert robot.follower.step(DT, robot.pose) == REST
 
 
-def test_the_ghost_waits_for_a_robot_that_is_held_and_goes_on_with_it():
-    robot = Ideal()
+@EACH_LAW
+@pytest.mark.parametrize('seconds', [2.0, 50.0])
+def test_the_ghost_waits_for_a_robot_that_is_held_and_goes_on_with_it(law, seconds):
+    robot = Ideal(law=law)
     robot.go()
     robot.run(seconds=2.0)
     robot.share = 0.0  # somebody stands in the way
-    robot.run(seconds=5.0)
+    robot.run(seconds=seconds)
     assert robot.follower.state is Following.WAITING
     assert robot.follower.ghost.locked
     assert 0.2 < robot.follower.separation < 0.6
@@ -108,6 +191,63 @@ def test_a_robot_turned_away_is_lost_too():
     robot.pose = robot.pose._replace(theta=-pi)
     robot.run(seconds=DT)
     assert robot.follower.state is Following.LOST
+
+
+def excess(twist, limits):
+    """Return the share of its limit that the fastest part of ``twist`` uses."""
+    linear = hypot(twist.vx, twist.vy)
+    rim = linear + 0.5 * limits.track * abs(twist.wz)
+    return max(
+        linear / limits.linear_speed, abs(twist.wz) / limits.turn_rate, rim / limits.wheel_speed
+    )
+
+
+@EACH_LAW
+def test_held_it_asks_for_no_more_than_the_robot_can_do_and_goes_no_faster_when_released(law):
+    """4 1/s times 0.25 m and more would be 1 m/s; its wheels do 0.3 m/s."""
+    robot = Ideal(law=law, ghost=GhostParameters(wheel_speed=0.3))
+    robot.go()
+    robot.run(seconds=2.0)
+    robot.share = 0.0
+    robot.run(seconds=50.0)
+    assert hypot(*robot.twists[-1][:2]) > 0.1
+    robot.share = 1.0
+    assert robot.run() is Following.ARRIVED
+    assert max(excess(t, robot.follower.parameters.ghost) for t in robot.twists) < 1.0 + 1e-9
+
+
+GAINS = st.floats(0.001, 100.0)
+
+
+@settings(max_examples=60)
+@given(
+    st.sampled_from(['kanayama', 'ramsete', 'holonomic']), GAINS, GAINS,
+    st.builds(
+        GhostParameters, wheel_speed=st.floats(0.01, 5.0), linear_speed=st.floats(0.01, 5.0),
+        turn_rate=st.floats(0.01, 9.0), track=st.floats(0.01, 3.0),
+    ),
+    st.lists(
+        st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(-pi, pi)),
+        min_size=1, max_size=20,
+    ),
+)  # fmt: skip
+def test_whatever_the_gains_and_the_offset_the_twist_holds_every_limit(
+    law, first, second, limits, offsets
+):
+    robot = Ideal(
+        law=law,
+        ghost=limits,
+        kanayama=KanayamaGains(first, second, second),
+        ramsete=RamseteGains(b=first, at_rest=max(second, 0.01)),
+        holonomic=HolonomicGains(first, second),
+        leash=LeashParameters(lost_beyond=50.0),
+    )
+    robot.go()
+    for dx, dy, turn in offsets:
+        x, y, _ = robot.follower.ghost.pose
+        robot.pose = Pose(x + dx, y + dy, turn)
+        robot.run(seconds=0.2)
+    assert max(excess(twist, limits) for twist in robot.twists) < 1.0 + 1e-9
 
 
 def greatest_change(twists):

@@ -26,7 +26,8 @@ LAWS = st.one_of(
         st.floats(0.1, 20.0), st.floats(0.1, 100.0), st.floats(0.1, 50.0), st.floats(0.0, 10.0),
     ),
     st.builds(
-        lambda b, zeta: Ramsete(RamseteGains(b, zeta)), st.floats(0.1, 100.0), st.floats(0.05, 0.95)
+        lambda *gains: Ramsete(RamseteGains(*gains)),
+        st.floats(0.1, 100.0), st.floats(0.05, 0.95), st.floats(0.01, 20.0),
     ),
     st.builds(
         lambda p, h: Holonomic(HolonomicGains(p, h)), st.floats(0.1, 20.0), st.floats(0.1, 20.0)
@@ -95,6 +96,12 @@ def test_a_robot_that_can_go_sideways_closes_every_error_at_rest():
     assert robot[:2] == pytest.approx((0.3 * 0.0183156, -0.2 * 0.0183156), rel=1e-3)
 
 
+def test_ramsete_comes_up_to_a_ghost_that_stands():
+    """Gain 2 1/s at rest: 0.2 m along ask for 0.4 m/s, 0.1 rad for 0.2 rad/s."""
+    twist = Ramsete().twist(TrackingError(0.2, 0.3, 0.1), STILL)
+    assert twist == pytest.approx((0.4, 0.0, 0.2))
+
+
 def test_kanayama_turning_on_the_spot_minds_the_heading():
     twist = Kanayama().twist(TrackingError(0.0, 0.0, 0.1), Speeds(0.0, 0.5))
     assert twist.wz > 0.5
@@ -106,7 +113,7 @@ def test_kanayama_turning_on_the_spot_minds_the_heading():
     ('kind', 'name'),
     [
         (KanayamaGains, 'along'), (KanayamaGains, 'across'), (KanayamaGains, 'heading'),
-        (RamseteGains, 'b'), (RamseteGains, 'zeta'),
+        (RamseteGains, 'b'), (RamseteGains, 'zeta'), (RamseteGains, 'at_rest'),
         (HolonomicGains, 'position'), (HolonomicGains, 'heading'),
     ],
 )  # fmt: skip
