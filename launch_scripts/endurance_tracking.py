@@ -13,8 +13,8 @@ import sys
 from rich.progress import track
 
 from agv_motion.simulation.tracking_trial import TrackingTrial, TrackingTrialParameters
-from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.following import Following
 
 LIMIT = 0.02
 """[m] root mean square of the distance between robot and Ghost"""

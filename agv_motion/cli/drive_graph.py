@@ -39,7 +39,7 @@ LATCHED_TIME = 0.5
 LONGEST_BRAKING = 10.0
 """[s] After Ctrl-C the robot brakes; no longer is waited for it."""
 
-ENDS = ('arrived', 'aborted', 'lost')
+ENDS = ('arrived', 'aborted', 'lost', 'not arrived')
 """How a drive ends, as `ghost/state` begins then."""
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.simulation.tracking_trial import TrackingTrial, TrackingTrialParameters
-from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.following import Following
 
 
 @pytest.mark.parametrize('law', ['kanayama', 'ramsete'])

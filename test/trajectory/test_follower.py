@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.trajectory.follower import Follower
-from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.following import Following
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.holonomic import HolonomicGains
 from agv_motion.trajectory.kanayama import KanayamaGains
