@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +10,8 @@ import typer
 from rich.console import Console
 
 from agv_motion.cli.demo_differential import differential
+from agv_motion.cli.demo_domain import take_domain
+from agv_motion.cli.demo_folder import results
 from agv_motion.cli.demo_omni import omni
 from agv_motion.cli.demo_trees import trees
 
@@ -46,11 +47,12 @@ def demo(
     """
     # what drives a simulated robot must never reach a real one on the network
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    console = Console()
+    take_domain(console.print)
     if context.invoked_subcommand:
         return
     from agv_motion.cli.demo_graph import DemoGraph
 
-    console = Console()
     given: dict[str, Any] = {'simulated__seed': seed}
     if probes is not None:
         from agv_motion.cli.demo_probes import recorded
@@ -61,8 +63,7 @@ def demo(
             f'Playing {days:g} days of {probes} from {given["csv__start"]}: '
             f'{", ".join(given["csv__columns"])} [{given["csv__unit"]}]'
         )
-    bag = output / 'bag'
-    shutil.rmtree(bag, ignore_errors=True)
-    graph = DemoGraph(given, zone, seed, time_factor, bag)
-    graph.run(minutes * 60.0, console, live=live)
-    graph.report(console, output)
+    with results(output, 'walk.png') as bag:
+        graph = DemoGraph(given, zone, seed, time_factor, bag)
+        graph.run(minutes * 60.0, console, live=live)
+        graph.report(console, output)

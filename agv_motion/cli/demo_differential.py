@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
+
+from agv_motion.cli.demo_folder import results
 
 if TYPE_CHECKING:
     from agv_motion.nodes.differential_simulator import DifferentialSimulator
@@ -44,11 +45,10 @@ def differential(
     from agv_motion.cli.run_figure import draw
 
     console = Console()
-    bag = output / 'bag'
-    shutil.rmtree(bag, ignore_errors=True)
-    told, success = _perform(sequence, time_factor, seed, bag, console)
-    console.print(told)
-    draw(read_run(bag), None, output / 'run.png')
+    with results(output, 'run.png') as bag:
+        told, success = _perform(sequence, time_factor, seed, bag, console)
+        console.print(told)
+        draw(read_run(bag), None, output / 'run.png')
     console.print(f'Bag: {bag}\nFigure: {output / "run.png"}')
     if not success:
         raise typer.Exit(1)

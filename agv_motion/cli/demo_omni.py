@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
+
+from agv_motion.cli.demo_folder import results
 
 
 def omni(
@@ -36,11 +37,11 @@ def omni(
     from agv_motion.cli.demo_omni_report import draw, read_run, summary
 
     console = Console()
-    bag = output / 'bag'
-    shutil.rmtree(bag, ignore_errors=True)
     seconds = 60.0 * minutes
-    OmniGraph(seed, time_factor, bag).run(seconds, seconds / 1.5 if carry else 2 * seconds, console)
-    run = read_run(bag)
-    console.print(summary(run))
-    draw(run, output / 'path.png')
+    carried = seconds / 1.5 if carry else 2 * seconds
+    with results(output, 'path.png') as bag:
+        OmniGraph(seed, time_factor, bag).run(seconds, carried, console)
+        run = read_run(bag)
+        console.print(summary(run))
+        draw(run, output / 'path.png')
     console.print(f'\nBag: {bag}\nFigure: {output / "path.png"}')

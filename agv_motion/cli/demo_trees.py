@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
+
+from agv_motion.cli.demo_folder import results
 
 
 def trees(
@@ -38,15 +39,14 @@ def trees(
     from agv_motion.cli.demo_trees_report import draw, nearest, read_walks, summary
 
     console = Console()
-    bag = output / 'bag'
-    shutil.rmtree(bag, ignore_errors=True)
-    graph = TreesGraph(count, zone, seed, time_factor, bag)
-    graph.run(60.0 * minutes, console)
-    walks = read_walks(bag, graph.names)
-    if not all(len(walk.time) for walk in walks):
-        console.print(f'Ended before every tree had told where it is.\n\nBag: {bag}')
-        return
-    console.print(summary(walks))
-    console.print(nearest(walks, graph.traffic))
-    draw(walks, graph.zone, graph.traffic, output / 'trees.png')
+    with results(output, 'trees.png') as bag:
+        graph = TreesGraph(count, zone, seed, time_factor, bag)
+        graph.run(60.0 * minutes, console)
+        walks = read_walks(bag, graph.names)
+        if not all(len(walk.time) for walk in walks):
+            console.print(f'Ended before every tree had told where it is.\n\nBag: {bag}')
+            return
+        console.print(summary(walks))
+        console.print(nearest(walks, graph.traffic))
+        draw(walks, graph.zone, graph.traffic, output / 'trees.png')
     console.print(f'\nBag: {bag}\nFigure: {output / "trees.png"}')
