@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from agv_motion.cli.participants import missing, on_this_machine
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -19,11 +20,15 @@ if TYPE_CHECKING:
 DISCOVERY = 0.5
 """[s] How long to listen to the graph before telling what is there, as `ros2` does."""
 
-SETTLED, LONGEST = 0.4, 4.0
+SETTLED, LONGEST = 0.4, 10.0
 """[s] ... and on until nothing new has come for so long, but no longer than this in all."""
 
+ALONE = 4.0
+"""[s] Another machine may be there of which nothing was heard: a lost announcement comes again
+after three seconds."""
+
 PATIENCE = 5.0
-"""[s] A lost announcement comes again after three seconds; a named topic is worth that wait."""
+"""[s] That a topic which was named is waited for, where another machine may have it."""
 
 
 def forever() -> bool:
@@ -33,13 +38,28 @@ def forever() -> bool:
 
 @contextmanager
 def joined(
-    spin_time: float = DISCOVERY, *, use_sim_time: bool = False, name: str = ''
+    spin_time: float = DISCOVERY,
+    *,
+    use_sim_time: bool = False,
+    name: str = '',
+    whole: bool = False,
+    endless: bool = False,
 ) -> Iterator[Any]:
-    """Yield a hidden node that has listened to the graph for ``spin_time`` [s]."""
+    """Yield a hidden node that has listened to the graph for ``spin_time`` [s].
+
+    Args:
+        spin_time: How long to listen at least [s].
+        use_sim_time: Whether the node's clock is `/clock`.
+        name: Of the node; empty: a hidden one.
+        whole: Whether an answer that lacks a part of the graph is a failure (exit status 1).
+        endless: Whether a signal is the usual end of the command (exit status 0), not a failure.
+
+    """
     import rclpy
     from rclpy.parameter import Parameter
+    from rclpy.signals import SignalHandlerOptions
 
-    rclpy.init()
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node(
         name or f'_agv_{os.getpid()}',
         start_parameter_services=False,
@@ -49,13 +69,24 @@ def joined(
         if spin_time > 0.0:
             _listen(node, spin_time)
         yield node
+        if whole and missing(node):
+            typer.echo(
+                f'warning: {missing(node)} of the DDS participants on this machine were not heard '
+                'in time, so something may be missing above: try again with --spin-time 10',
+                err=True,
+            )
+            raise typer.Exit(1)
+    except KeyboardInterrupt:
+        if not endless:
+            raise
+        raise typer.Exit from None
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
 
 
 def _listen(node: Any, spin_time: float) -> None:
-    """Spin for ``spin_time`` [s], then until others have been found and nothing new comes."""
+    """Spin for ``spin_time`` [s], then until all have been heard and nothing new comes."""
     start = changed = time.monotonic()
     known: tuple[int, int] = (0, 0)
 
@@ -65,37 +96,41 @@ def _listen(node: Any, spin_time: float) -> None:
         found = len(node.get_node_names()), len(node.get_topic_names_and_types())
         if found != known:
             known, changed = found, now
-        quiet = now - changed >= SETTLED and _complete(node)
-        return now - start >= spin_time and (quiet or now - start >= max(LONGEST, spin_time))
+        if now - start < spin_time or now - changed < SETTLED:
+            return now - start >= max(LONGEST, spin_time)
+        if _heard_all(node):
+            return True
+        limit = LONGEST if missing(node) else ALONE
+        return now - start >= max(limit, spin_time)
 
     spin(node, settled)
 
 
-def _complete(node: Any) -> bool:
-    """Return whether there are other nodes and something of each of them is known."""
+def _heard_all(node: Any) -> bool:
+    """Return whether nobody can be there of whom nothing is known."""
+    local = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() == 'LOCALHOST'
+    others = [one for one in node.get_node_names_and_namespaces() if one[0] != node.get_name()]
+    if missing(node) or not (others or (local and on_this_machine(node.context.get_domain_id()))):
+        return False
+    return _complete(node, others)
+
+
+def _complete(node: Any, others: list[tuple[str, str]]) -> bool:
+    """Return whether something of each of the other nodes is known."""
     from rclpy.node import NodeNameNonExistentError
 
-    others = [one for one in node.get_node_names_and_namespaces() if one[0] != node.get_name()]
     try:
-        return bool(others) and all(
-            node.get_publisher_names_and_types_by_node(*other) for other in others
-        )
+        return all(node.get_publisher_names_and_types_by_node(*other) for other in others)
     except NodeNameNonExistentError:  # it has left meanwhile
         return False
 
 
 def spin(node: Any, until: Callable[[], bool] = forever) -> None:
-    """Spin ``node`` until ``until()`` or the end of the context."""
+    """Spin ``node`` until ``until()``, or a signal that ends the command."""
     import rclpy
-    from rclpy.executors import ExternalShutdownException
 
-    try:
-        while rclpy.ok() and not until():
-            rclpy.spin_once(node, timeout_sec=0.05)
-    except ExternalShutdownException:
-        return
-    except KeyboardInterrupt:
-        raise typer.Exit from None
+    while not until():
+        rclpy.spin_once(node, timeout_sec=0.05)
 
 
 def topics(node: Any, *, hidden: bool = False) -> dict[str, list[str]]:
@@ -175,8 +210,8 @@ def require_topic(node: Any, topic: str) -> list[str]:
 
 
 def _await(node: Any, name: str) -> None:
-    """Give a topic that was named the time to be found."""
-    end = time.monotonic() + PATIENCE
+    """Give a topic that was named the time to be found, where somebody may not have been heard."""
+    end = time.monotonic() + (0.0 if _heard_all(node) else PATIENCE)
     spin(node, lambda: name in topics(node, hidden=True) or time.monotonic() > end)
 
 

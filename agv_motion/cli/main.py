@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 import typer
@@ -24,6 +25,9 @@ from agv_motion.cli import (
     topic,
 )  # fmt: skip
 from agv_motion.errors import AgvMotionError
+
+INTERRUPTED = 130
+"""Exit status of a command that was to give an answer, and was ended before; as shells have it"""
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -55,14 +59,20 @@ app.command()(doctor.doctor)
 
 
 def main() -> None:
-    """Run the command; errors are told in one line, and a closed pipe is no error."""
+    """Run the command; errors are told in one line, and a closed pipe is no error.
+
+    SIGTERM and SIGHUP end it as Ctrl-C does, where the command has no end of its own.
+    """
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup
+            signal.signal(number, signal.default_int_handler)
     try:
         app(standalone_mode=True)
     except AgvMotionError as error:
         typer.echo(f'error: {error}', err=True)
         sys.exit(1)
     except KeyboardInterrupt:
-        sys.exit(0)
+        sys.exit(INTERRUPTED)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)

@@ -24,7 +24,7 @@ def nodes(
     spin_time: Annotated[float, typer.Option(help='Seconds to wait for discovery.')] = DISCOVERY,
 ) -> None:
     """List the nodes of the graph; of lifecycle nodes, the state too."""
-    with joined(spin_time) as node:
+    with joined(spin_time, whole=True) as node:
         found = sorted(
             f'{namespace.rstrip("/")}/{name}'
             for name, namespace in node.get_node_names_and_namespaces()

@@ -40,7 +40,7 @@ def list_(
 
     Example: agv topic list -t
     """
-    with joined(spin_time, use_sim_time=use_sim_time) as node:
+    with joined(spin_time, use_sim_time=use_sim_time, whole=True) as node:
         found = topics(node, hidden=include_hidden_topics)
         if count_topics:
             typer.echo(len(found))
@@ -78,7 +78,7 @@ def info(
 
     Example: agv topic info /cmd_vel -v
     """
-    with joined(spin_time, use_sim_time=use_sim_time) as node:
+    with joined(spin_time, use_sim_time=use_sim_time, whole=True) as node:
         types = require_topic(node, topic_name)
         end = '\n\n' if verbose else '\n'
         typer.echo(f'Type: {types[0] if len(types) == 1 else types}{end}', nl=False)

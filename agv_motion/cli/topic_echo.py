@@ -84,7 +84,7 @@ def echo(
         else:
             typer.echo(f'{text.yaml(part)}---')
 
-    with joined(spin_time, use_sim_time=use_sim_time) as node:
+    with joined(spin_time, use_sim_time=use_sim_time, endless=True) as node:
         kind = interface_class(message_type) if message_type else topic_class(node, topic_name)
         offered = [end.qos_profile for end in node.get_publishers_info_by_topic(topic_name)]
         qos = _subscriber_qos(qos_profile, qos_depth, qos_reliability, qos_durability, offered)
@@ -96,11 +96,28 @@ def echo(
 
 
 def predicate(expression: str) -> Callable[[Any], bool]:
-    """Return a test of a message from the user's own Python expression."""
+    """Return a test of a message from the user's own Python expression.
+
+    Raises:
+        ConfigurationError: The expression is none, or (by the test) it fails on a message.
+
+    """
     if not expression:
         return lambda _: True
-    code = compile(expression, '--filter', 'eval')
-    return lambda m: bool(eval(code, {'m': m}))  # noqa: S307 - as in ros2: the user's own words
+    try:
+        code = compile(expression, '--filter', 'eval')
+    except (SyntaxError, ValueError) as error:
+        msg = f"--filter '{expression}' is no Python expression: {error}"
+        raise ConfigurationError(msg) from error
+
+    def test(message: Any) -> bool:
+        try:
+            return bool(eval(code, {'m': message}))  # noqa: S307 - as in ros2: the user's own words
+        except Exception as error:
+            msg = f"--filter '{expression}': {error} (m is a {type(message).__name__})"
+            raise ConfigurationError(msg) from error
+
+    return test
 
 
 def part_of(message: Any, field: str) -> Any:

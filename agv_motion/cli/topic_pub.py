@@ -51,7 +51,7 @@ def pub(
     matching = (
         int(times > 0) if wait_matching_subscriptions is None else wait_matching_subscriptions
     )
-    with joined(spin_time, use_sim_time=use_sim_time, name=node_name) as node:
+    with joined(spin_time, use_sim_time=use_sim_time, name=node_name, endless=True) as node:
         qos = preset_qos(qos_profile, qos_depth, qos_reliability, qos_durability)
         publisher = node.create_publisher(type(message), topic_name, qos)
         _wait_for_subscriptions(node, publisher, matching, max_wait_time_secs)

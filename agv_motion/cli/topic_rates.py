@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from agv_motion.cli.graph import DISCOVERY, joined, spin, topic_class
+from agv_motion.cli.topic_echo import predicate
 from agv_motion.cli.topic_options import SimTime, SpinTime
 
 Duration = Annotated[float, typer.Option(help='Stop after so many seconds; 0: never.', min=0.0)]
@@ -64,12 +65,12 @@ def hz(
     Example: agv topic hz /turrets/command
     """
     intervals = {topic: Intervals(window) for topic in topic_name}
-    code = compile(filter_expr or 'True', '--filter', 'eval')
-    with joined(spin_time, use_sim_time=use_sim_time) as node:
+    wanted = predicate(filter_expr)
+    with joined(spin_time, use_sim_time=use_sim_time, endless=True) as node:
 
         def counter(topic: str) -> Any:
             def count(message: Any) -> None:
-                if eval(code, {'m': message}):  # noqa: S307 - as in ros2: the user's own words
+                if wanted(message):
                     clock = node.get_clock().now().nanoseconds * 1e-9
                     intervals[topic].add(time.time() if wall_time else clock)
 
@@ -137,7 +138,7 @@ def bw(
     Example: agv topic bw /turrets/command
     """
     seen: deque[tuple[float, int]] = deque(maxlen=window)
-    with joined(spin_time, use_sim_time=use_sim_time) as node:
+    with joined(spin_time, use_sim_time=use_sim_time, endless=True) as node:
 
         def weigh(data: bytes) -> None:
             seen.append((node.get_clock().now().nanoseconds * 1e-9, len(data)))

@@ -130,3 +130,64 @@ def test_mistakes_are_told_in_one_line(alone, talker, arguments, word):
     assert status == 1
     assert word in errors
     assert 'Traceback' not in errors
+
+
+@pytest.mark.parametrize(
+    ('command', 'sign'),
+    [
+        (('hz', '/chatter'), 'average rate'),
+        (('bw', '/chatter'), 'Message size'),
+        (('echo', '/chatter'), 'data: hello'),
+        (('pub', '-r', '50', '/other', 'std_msgs/msg/String'), 'publishing #3'),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else '',
+)
+@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_signal_ends_what_has_no_end(alone, talker, command, sign, number):
+    process = alone.start('topic', *command)
+    while sign not in process.stdout.readline():
+        assert process.poll() is None
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=60.0)
+    assert (process.returncode, errors) == (0, '')
+
+
+def test_an_answer_that_was_not_waited_for_is_no_success(alone, talker):
+    process = alone.start('topic', 'list', '--spin-time', '600')
+    alone('topic', 'info', '/chatter')  # as long as the other needs to join
+    process.send_signal(signal.SIGTERM)
+    out, errors = process.communicate(timeout=60.0)
+    assert (process.returncode, out) == (130, '')
+    assert 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('expression', ['m.nothing > 1', 'm.data >', '1 / 0'])
+def test_a_filter_that_fails_is_told(alone, talker, expression):
+    status, _, errors = alone('topic', 'echo', '/chatter', '--filter', expression)
+    assert status == 1
+    assert errors.startswith(f"error: --filter '{expression}'")
+    assert 'Traceback' not in errors
+
+
+def test_a_topic_that_nobody_has_ends_with_a_warning(alone, talker):
+    status, out, errors = alone('topic', 'echo', '/nothing')
+    assert status == 1
+    assert out == 'WARNING: topic [/nothing] does not appear to be published yet\n'
+    assert errors == 'error: Could not determine the type for the passed topic\n'
+
+
+def test_who_is_there_but_not_heard_makes_a_list_a_failure(alone, talker):
+    frozen = alone.start('topic', 'pub', '-r', '50', '/frozen', 'std_msgs/msg/String')
+    while 'publishing #1' not in frozen.stdout.readline():
+        assert frozen.poll() is None
+    frozen.send_signal(signal.SIGSTOP)
+    try:
+        status, out, errors = alone('topic', 'list')
+    finally:
+        frozen.send_signal(signal.SIGCONT)
+        frozen.send_signal(signal.SIGTERM)
+        frozen.communicate(timeout=60.0)
+    assert '/chatter' in out
+    assert '/frozen' not in out
+    assert status == 1
+    assert 'warning: 1 of the DDS participants on this machine were not heard' in errors
