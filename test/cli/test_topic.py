@@ -133,17 +133,17 @@ def test_mistakes_are_told_in_one_line(alone, talker, arguments, word):
 
 
 @pytest.mark.parametrize(
-    ('command', 'sign'),
+    ('number', 'command', 'sign'),
     [
-        (('hz', '/chatter'), 'average rate'),
-        (('bw', '/chatter'), 'Message size'),
-        (('echo', '/chatter'), 'data: hello'),
-        (('pub', '-r', '50', '/other', 'std_msgs/msg/String'), 'publishing #3'),
+        (signal.SIGTERM, ('hz', '/chatter'), 'average rate'),
+        (signal.SIGHUP, ('hz', '/chatter'), 'average rate'),
+        (signal.SIGTERM, ('bw', '/chatter'), 'Message size'),
+        (signal.SIGTERM, ('echo', '/chatter'), 'data: hello'),
+        (signal.SIGTERM, ('pub', '-r', '50', '/other', 'std_msgs/msg/String'), 'publishing #3'),
+        (signal.SIGINT, ('pub', '-r', '50', '/other', 'std_msgs/msg/String'), 'publishing #3'),
     ],
-    ids=lambda value: value[0] if isinstance(value, tuple) else '',
 )
-@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
-def test_a_signal_ends_what_has_no_end(alone, talker, command, sign, number):
+def test_a_signal_ends_what_has_no_end(alone, talker, number, command, sign):
     process = alone.start('topic', *command)
     while sign not in process.stdout.readline():
         assert process.poll() is None
