@@ -1,11 +1,44 @@
 """Errors of the package: one base class, one subclass per kind of mistake.
 
-Every message gives the value, what was expected, and what to do about it.
+Every message gives the value, what was expected, and what to do about it. A value that somebody
+sends may be of any length: messages quote no more than `QUOTED` characters of it.
 """
+
+from __future__ import annotations
+
+import re
+
+QUOTED = 200
+"""Characters after which a quotation ends."""
+LONGEST = 1000
+"""Characters of a whole message: of a longer one the middle is left out, the remedy stays."""
+
+_LONG_QUOTATION = re.compile(
+    rf"(?P<kept>(?<!\w)'[^']{{{QUOTED}}})[^']+(?=')|(?P<list>\[[^\]]{{{QUOTED}}})[^\]]+(?=\])"
+)
+
+
+def shortened(message: str) -> str:
+    """Return a message whose quotations ('...', [...]) end after `QUOTED` characters."""
+    if len(message) > QUOTED:
+        message = _LONG_QUOTATION.sub(_cut, message)
+    if len(message) > LONGEST:
+        head, tail = message[: LONGEST - 3 * QUOTED // 2], message[-QUOTED:]
+        message = f'{head} ... ({len(message) - len(head) - len(tail)} characters) ... {tail}'
+    return message
+
+
+def _cut(found: re.Match[str]) -> str:
+    kept = found['kept'] or found['list']
+    return f'{kept}... ({len(found[0]) - len(kept)} characters more)'
 
 
 class AgvMotionError(Exception):
-    """Base of every error that this package raises on purpose."""
+    """Base of every error that this package raises on purpose; its message is `shortened`."""
+
+    def __init__(self, *arguments: object) -> None:
+        """Keep the message, its quotations shortened."""
+        super().__init__(*(shortened(a) if isinstance(a, str) else a for a in arguments))
 
 
 class GeometryError(AgvMotionError, ValueError):

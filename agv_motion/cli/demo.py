@@ -14,6 +14,7 @@ from agv_motion.cli.demo_domain import take_domain
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.demo_omni import omni
 from agv_motion.cli.demo_trees import trees
+from agv_motion.ros.stop import end_at_once
 
 app = typer.Typer()
 app.command()(trees)
@@ -47,6 +48,7 @@ def demo(
     """
     # what drives a simulated robot must never reach a real one on the network
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    end_at_once()  # until the graph is there
     console = Console()
     take_domain(console.print)
     if context.invoked_subcommand:

@@ -63,7 +63,8 @@ def _perform(
     from rich.progress import Progress
 
     from agv_motion.cli.demo_recorder import DemoRecorder
-    from agv_motion.ros.run import Stop, spin, start
+    from agv_motion.ros.run import spin, start
+    from agv_motion.ros.stop import Stop
     from agv_motion.sequence.runner import ENDS, Running
 
     status: Status | None = None

@@ -27,7 +27,8 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.config import find_config
-from agv_motion.ros.run import Stop, spin, start
+from agv_motion.ros.run import spin, start
+from agv_motion.ros.stop import Stop
 
 if TYPE_CHECKING:
     import pathlib

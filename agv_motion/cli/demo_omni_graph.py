@@ -25,7 +25,8 @@ from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.messages import fill_twist, pose_of
 from agv_motion.ros.qos import COMMAND, SENSOR
-from agv_motion.ros.run import Stop, spin, start
+from agv_motion.ros.run import spin, start
+from agv_motion.ros.stop import Stop
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -21,7 +21,7 @@ from std_srvs.srv import Trigger
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.ros.messages import fill_pose
 from agv_motion.ros.qos import COMMAND, LATCHED
-from agv_motion.ros.run import Stop
+from agv_motion.ros.stop import Stop
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

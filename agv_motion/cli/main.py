@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 
 import typer
 
 from agv_motion.cli import (
+    INTERRUPTED,
     bag,
     calibrate,
     demo,
@@ -25,9 +25,7 @@ from agv_motion.cli import (
     topic,
 )  # fmt: skip
 from agv_motion.errors import AgvMotionError
-
-INTERRUPTED = 130
-"""Exit status of a command that was to give an answer, and was ended before; as shells have it"""
+from agv_motion.ros.stop import interrupt
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -63,9 +61,7 @@ def main() -> None:
 
     SIGTERM and SIGHUP end it as Ctrl-C does, where the command has no end of its own.
     """
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup
-            signal.signal(number, signal.default_int_handler)
+    interrupt()
     try:
         app(standalone_mode=True)
     except AgvMotionError as error:

@@ -12,6 +12,7 @@ import typer
 import agv_motion.nodes
 from agv_motion.cli.graph import DISCOVERY, joined, meant, spin
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.stop import end_at_once
 
 app = typer.Typer(help='Which nodes are on the graph, and in which state.')
 
@@ -90,5 +91,6 @@ def run(
         typer.echo('\n'.join(available()))
         return
     require_node(node)
+    end_at_once()  # until the node's `run` takes over
     sys.argv = [node, *context.args]
     importlib.import_module(f'agv_motion.nodes.{node}').main()

@@ -106,7 +106,8 @@ def _record(given: dict[str, Any], duration: float) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_recorder import BagRecorder
-    from agv_motion.ros.run import Stop, overrides, spin, start
+    from agv_motion.ros.run import overrides, spin, start
+    from agv_motion.ros.stop import Stop
 
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()

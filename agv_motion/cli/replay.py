@@ -99,7 +99,8 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_player import BagPlayer
-    from agv_motion.ros.run import Stop, overrides, spin, start
+    from agv_motion.ros.run import overrides, spin, start
+    from agv_motion.ros.stop import Stop
 
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()

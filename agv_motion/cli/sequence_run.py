@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.nodes.sequence import SequenceNode
-    from agv_motion.ros.run import Stop
+    from agv_motion.ros.stop import Stop
 
 LONGEST_BRAKING = 10.0
 """[s] After Ctrl-C the robot brakes on its way; it is stopped at once after so long."""
@@ -32,7 +32,8 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.sequence import SequenceNode
-    from agv_motion.ros.run import Stop, overrides, spin, start
+    from agv_motion.ros.run import overrides, spin, start
+    from agv_motion.ros.stop import Stop
 
     extra = ['--ros-args', '--params-file', str(config), '--'] if config else []
     rclpy.init(

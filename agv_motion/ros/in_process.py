@@ -93,6 +93,11 @@ class InProcessNode(_Rclpy):
         return self._world_clock
 
     @property
+    def services(self) -> list[Any]:
+        """Return none."""
+        return []
+
+    @property
     def publishers(self) -> list[Publisher]:
         """All publishers of this node."""
         every = self.world.publishers.values()
@@ -181,6 +186,18 @@ def _stamp(node: InProcessNode, message: Any) -> float:
     return float(now) * 1e-9
 
 
+class _Every:
+    """Tells each refusal: the world counts them itself."""
+
+    def line(self, reason: str, _: float) -> str:
+        """Return the reason."""
+        return reason
+
+
+def _raise(_: Any, __: str, error: Exception) -> None:
+    raise error
+
+
 def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
     """Return the class of nodes of ``kind`` that live in a :class:`World`."""
     return type(
@@ -194,5 +211,8 @@ def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
             # publishes them every second of it; here there is one clock, and nobody to look
             '_steady': property(InProcessNode.get_clock, lambda *_: None),
             '_publish_diagnostics': lambda _: None,
+            '_refusals': property(lambda _: _Every(), lambda *_: None),
+            # a defect ends a reprocessing at once
+            'stop_for': _raise,
         },
     )

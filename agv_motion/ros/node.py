@@ -17,8 +17,10 @@ from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallba
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.qos import QoSProfile
 
-from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
 from agv_motion.ros.parameters import DeclaredParameters
+from agv_motion.ros.rclpy_services import answer_all
+from agv_motion.ros.refusals import Refusals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,6 +35,9 @@ OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.E
 COMPLAINT_LIFETIME = 10.0
 """[s] How long a refused input keeps the diagnostics at WARN."""
 
+
+DEFECT_TRACE = 2000
+"""Characters of the trace of a defect that are logged, from its end."""
 
 LAST_WORD = 1.0
 """[s] that a stopping node waits until its listeners have acknowledged its last messages."""
@@ -66,11 +71,15 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """Why the last input that was not used was refused."""
         self._complained_at = -COMPLAINT_LIFETIME
         self._refused = 0
+        self._refusals = Refusals()
+        self.defect = ''
+        """What went wrong in a callback by a fault of ours: the node was deactivated for it."""
         self._declared = DeclaredParameters(self, parameters, self._accept)
         self._diagnostics = self._create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
         )
         self.create_timer(1.0, self._publish_diagnostics, clock=self._steady)
+        answer_all(self)
 
     # What a node overrides
 
@@ -128,6 +137,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
                     callback(message)
                 except AgvMotionError as error:
                     self.refuse(f'{topic}: {error}')
+                except Exception as error:  # noqa: BLE001 - a defect
+                    self.stop_for(topic, error)
 
         subscription = self.create_subscription(
             kind, topic, guarded, qos,
@@ -146,6 +157,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
                     callback()
                 except AgvMotionError as error:
                     self.refuse(str(error))
+                except Exception as error:  # noqa: BLE001 - a defect
+                    self.stop_for('a timer', error)
 
         timer = self.create_timer(seconds, guarded, clock=clock)
         self._entities.append(lambda: self.destroy_timer(timer))
@@ -158,15 +171,18 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
         def guarded(request: Any, response: Any) -> Any:
             try:
-                if not self.active:
-                    msg = f'{self.get_name()} is not active: activate it first'
-                    raise ConfigurationError(msg)
+                self._require_active()
                 message, response.success = act(request), True
             except AgvMotionError as error:
                 message = f'refused: {error}'
+            except Exception as error:  # noqa: BLE001 - a defect
+                self.stop_for(name, error)
+                message = f'refused: {self.defect}'
             if hasattr(response, 'message'):
                 response.message = message.removeprefix('refused: ')
-            self.get_logger().info(f'{name}: {message}')
+            line = self._refusals.line(f'{name}: {shortened(message)}', self.steady_seconds())
+            if line:
+                self.get_logger().info(line)
             return response
 
         service = self.create_service(kind, name, guarded)
@@ -175,8 +191,24 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def refuse(self, reason: str) -> None:
         """Tell of an input that was not used, in the log and in the diagnostics."""
         self._refused += 1
-        self.complaint, self._complained_at = reason, self.steady_seconds()
-        self.get_logger().warning(f'refused: {reason}', throttle_duration_sec=1.0)
+        self.complaint, self._complained_at = shortened(reason), self.steady_seconds()
+        line = self._refusals.line(self.complaint, self._complained_at)
+        if line:
+            self.get_logger().warning(f'refused: {line}')
+
+    def stop_for(self, where: str, error: Exception) -> None:
+        """Deactivate the node for a defect: nobody knows what state its callback has left.
+
+        So the outputs are left safe; and it is told, as what an executor raises may end unheard.
+        """
+        self.defect = shortened(f'a defect in {where}: {type(error).__name__}: {error}')
+        trace = ''.join(traceback.format_exception(error))
+        self.get_logger().fatal(
+            f'{self.defect}: deactivated, its outputs safe; activate it again, and report this: '
+            f'{trace[-DEFECT_TRACE:]}'
+        )
+        if self.active:
+            self.trigger_deactivate()
 
     # Lifecycle
 
@@ -190,6 +222,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def on_activate(self, _: LifecycleState) -> TransitionCallbackReturn:
         """Let the callbacks act."""
         result = self._attempt('activate', self.begin)
+        self.defect = ''
         self.active = result is TransitionCallbackReturn.SUCCESS
         return result
 
@@ -207,7 +240,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:
         """Close the topics."""
         while self._entities:
-            self._entities.pop()()
+            self._attempt('close', self._entities.pop())
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -227,7 +260,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
             kind, topic, qos, event_callbacks=PublisherEventCallbacks(use_default_callbacks=False)
         )
 
-    def _attempt(self, transition: str, act: Callable[[], None]) -> TransitionCallbackReturn:
+    def _attempt(self, transition: str, act: Callable[[], Any]) -> TransitionCallbackReturn:
         """Run one step of a transition; rclpy would swallow its exception without a word."""
         try:
             act()
@@ -239,14 +272,27 @@ class ManagedNode(LifecycleNode, Generic[P]):
             return TransitionCallbackReturn.SUCCESS
         return TransitionCallbackReturn.FAILURE
 
+    def _require_active(self) -> None:
+        if not self.active:
+            msg = f'{self.get_name()} is not active: activate it first'
+            raise ConfigurationError(msg)
+
     def _accept(self, parameters: P) -> None:
         if self._entities:
             self.accept(parameters)
 
+    def _condition(self) -> Diagnosis:
+        if self.active:
+            try:
+                return self.diagnose()
+            except Exception as error:  # noqa: BLE001 - a defect
+                self.stop_for('the diagnostics', error)
+        if self.defect:
+            return Diagnosis(ERROR, f'stopped by {self.defect}', {})
+        return Diagnosis(WARN, 'not active', {})
+
     def _publish_diagnostics(self) -> None:
-        level, message, values = (
-            self.diagnose() if self.active else Diagnosis(WARN, 'not active', {})
-        )
+        level, message, values = self._condition()
         if self._refused:
             values = values | {'refused inputs': str(self._refused), 'last': self.complaint}
         if level == OK and self.steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:

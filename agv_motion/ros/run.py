@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-import signal
 import sys
+import time
+import traceback
 from typing import TYPE_CHECKING, Any
 
 import rclpy
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.exceptions import (
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    NameValidationException,
+)
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.ros.stop import Stop, end_no_more
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -32,35 +39,40 @@ EXECUTORS: dict[str, Callable[..., Executor]] = {
 SPIN_PERIOD = 0.1
 """[s] EventsExecutor hangs or burns a core when it waits without a limit (rclpy 7.1)."""
 
+HOPELESS = 5.0
+"""[s] in which every round of the executor has failed: then it is no single request any more."""
+
+LONGEST_TRACE = 2000
+"""Characters of a trace that are logged, from its end."""
+
+UNUSABLE = (
+    AgvMotionError,
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    NameValidationException,
+    rclpy_implementation.RCLError,
+    rclpy_implementation.UnknownROSArgsError,
+)
+"""What is wrong with what the user gave, told in a line; anything else is a defect of ours."""
+
 
 class StartError(AgvMotionError):
     """A transition on the way to `active` did not succeed; the node has logged why."""
 
 
-def start(node: ManagedNode[Any]) -> None:
-    """Configure and activate ``node``.
+def start(node: ManagedNode[Any], until: Callable[[], bool] = lambda: False) -> None:
+    """Configure and activate ``node``, unless ``until()`` turns true meanwhile.
 
     Raises:
         StartError: One of the two transitions failed.
 
     """
     for transition in (node.trigger_configure, node.trigger_activate):
+        if until():
+            return
         if transition() is not TransitionCallbackReturn.SUCCESS:
             msg = f'{node.get_name()}: {transition.__name__[8:]} failed, see the error logged above'
             raise StartError(msg)
-
-
-class Stop:
-    """Turns true at SIGINT or SIGTERM; the context stays alive, so that a last word can be sent."""
-
-    def __init__(self) -> None:
-        """Take over both signals."""
-        self.requested = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._on_signal)
-
-    def _on_signal(self, *_: object) -> None:
-        self.requested = True
 
 
 def spin(
@@ -69,40 +81,88 @@ def spin(
     executor: str = 'events',
     context: Context | None = None,
 ) -> None:
-    """Spin ``nodes`` until ``until()``, then let each leave its outputs safe, first to last."""
+    """Spin ``nodes`` until ``until()``, then let each leave its outputs safe, first to last.
+
+    What a request to rclpy's own services raises (of nodes, `ManagedNode` sees to it) is told, and
+    the nodes live on.
+    """
     executor_object = EXECUTORS[executor](context=context)
     for node in nodes:
         executor_object.add_node(node)
+    sound = time.monotonic()
     try:
         while rclpy.ok(context=context) and not until():
-            executor_object.spin_once(timeout_sec=SPIN_PERIOD)
+            error = _spin_once(executor_object)
+            if error is None:
+                sound = time.monotonic()
+                continue
+            _tell(nodes[0], 'the executor goes on after a failure', error)
+            if time.monotonic() - sound > HOPELESS:
+                raise error
     finally:
         for node in nodes:
-            node.trigger_shutdown()
+            _shut_down(node)
+
+
+def _spin_once(executor: Executor) -> Exception | None:
+    """Let an executor do what is due; return what it raised."""
+    try:
+        executor.spin_once(timeout_sec=SPIN_PERIOD)
+    except ExternalShutdownException:  # the loop that called ends
+        return None
+    except Exception as error:  # noqa: BLE001 - judged by the caller
+        return error
+    return None
+
+
+def _shut_down(node: LifecycleNode) -> None:
+    """Let a node leave its outputs safe; a failure must not keep the next one from it."""
+    try:
+        node.trigger_shutdown()
+    except rclpy_implementation.RCLError:
+        return  # somebody has shut it down before
+    except Exception as error:  # noqa: BLE001 - told with its trace
+        _tell(node, 'cannot shut down', error)
+
+
+def _tell(node: LifecycleNode, what: str, error: Exception) -> None:
+    """Log an exception with its trace, now and then."""
+    trace = ''.join(traceback.format_exception(error))
+    node.get_logger().error(f'{what}: {trace[-LONGEST_TRACE:]}', throttle_duration_sec=1.0)
 
 
 def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
     """Run one node until it is told to stop: the whole ``main`` of every node of this package.
 
-    The exit status is 0 after SIGINT or SIGTERM, and 1 when the node could not start.
+    The exit status is 0 after SIGINT, SIGTERM or SIGHUP, and 1 when the node could not start.
     """
-    rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
     try:
-        node = make_node()
-        autostart = bool(node.declare_parameter('autostart', True).value)  # noqa: FBT003
-        executor = str(node.declare_parameter('executor', 'events').value)
-        if executor not in EXECUTORS:
-            msg = f"executor = '{executor}': choose one of {', '.join(EXECUTORS)}"
-            raise ConfigurationError(msg)
-        if autostart:
-            start(node)
-        spin([node], lambda: stop.requested, executor)
-    except (AgvMotionError, InvalidParameterTypeException, InvalidParameterValueException) as error:
-        print(f'error: {error}', file=sys.stderr)  # noqa: T201 - there may be no node to log
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+        _run(make_node(), lambda: stop.requested)
+    except UNUSABLE as error:
+        print(f'error: {_line(error)}', file=sys.stderr)  # noqa: T201 - there may be no node to log
         sys.exit(1)
     finally:
         rclpy.try_shutdown()
+        end_no_more()
+
+
+def _run(node: ManagedNode[Any], until: Callable[[], bool]) -> None:
+    autostart = bool(node.declare_parameter('autostart', True).value)  # noqa: FBT003
+    executor = str(node.declare_parameter('executor', 'events').value)
+    if executor not in EXECUTORS:
+        msg = f"executor = '{executor}': choose one of {', '.join(EXECUTORS)}"
+        raise ConfigurationError(msg)
+    if autostart:
+        start(node, until)
+    spin([node], until, executor)
+
+
+def _line(error: Exception) -> str:
+    """Return an error in one line, without where in rcl's C code it was found."""
+    text = ' '.join(str(error).split())
+    return text.partition(', at /')[0]
 
 
 def overrides(**values: Any) -> list[Parameter]:

@@ -1,0 +1,111 @@
+"""A signal ends a node quietly, with status 0 and an explicit zero, at whatever time it comes."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from sensor_msgs.msg import JointState
+
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+BEGIN = """
+import os, signal, sys
+from agv_motion.nodes.differential_kinematics import DifferentialKinematics
+from agv_motion.ros.run import run
+def end():
+    for _ in range(2):
+        os.kill(os.getpid(), signal.SIGINT)
+class Node(DifferentialKinematics):
+    pass
+def make():
+    return Node()
+"""
+PHASES = {
+    'before the node': 'def make(): end(); return Node()',
+    'after its construction': 'def make(): node = Node(); end(); return node',
+    'while it is configured': 'Node.open = lambda s: (DifferentialKinematics.open(s), end())',
+    'while it is activated': 'Node.begin = lambda self: end()',
+    'while it says its last word': """
+Node.begin = lambda self: end()
+Node.halt = lambda self: (end(), DifferentialKinematics.halt(self))
+""",
+}
+
+
+def ended(process):
+    """Return exit status and errors."""
+    _, errors = process.communicate(timeout=60.0)
+    return process.returncode, errors
+
+
+@pytest.fixture
+def slow_import(tmp_path):
+    """Return where an rclpy lies whose import says so, and then takes for ever."""
+    package = tmp_path / 'rclpy'
+    package.mkdir()
+    (package / '__init__.py').write_text(
+        "import time\nprint('importing', flush=True)\ntime.sleep(1e6)\n"
+    )
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ('number', 'command'),
+    [
+        *((number, ['-m', 'agv_motion.nodes.wheel_kinematics']) for number in SIGNALS),
+        (signal.SIGINT, ['-m', 'agv_motion.cli.main', 'run', 'wheel_kinematics']),
+        (signal.SIGINT, ['-m', 'agv_motion.cli.main', 'demo']),
+    ],
+)
+def test_during_the_imports(slow_import, command, number):
+    root = str(Path(__file__).parents[2])
+    process = subprocess.Popen(  # noqa: S603 - our own
+        [sys.executable, *command], cwd=slow_import, text=True,
+        env={'PYTHONPATH': f'{slow_import}:{root}', 'PATH': '/usr/bin:/bin'},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    assert process.stdout.readline() == 'importing\n'
+    process.send_signal(number)
+    assert ended(process) == (0, '')
+
+
+@pytest.mark.parametrize('phase', PHASES)
+def test_twice_in_each_phase_of_a_start(phase):
+    code = f'{BEGIN}\n{PHASES[phase]}\nrun(make)\n'
+    process = subprocess.Popen(  # noqa: S603 - our own
+        [sys.executable, '-c', code], text=True, stderr=subprocess.PIPE
+    )
+    assert ended(process) == (0, '')
+
+
+def test_a_node_whose_terminal_is_closed_says_zero_first(graph):
+    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    commands = []
+    node.create_subscription(JointState, 'wheels/command', commands.append, 1)
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'agv_motion.nodes.differential_kinematics'],
+        stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    graph.spin_until(lambda: commands)
+    process.send_signal(signal.SIGHUP)
+    graph.spin_until(lambda: process.poll() is not None)
+    graph.spin_until(lambda: commands)
+    assert ended(process)[0] == 0
+    assert list(commands[-1].velocity) == [0.0, 0.0]
+
+
+def test_a_node_begun_by_nohup_outlives_its_terminal():
+    code = (
+        'import signal; signal.signal(signal.SIGHUP, signal.SIG_IGN)\n'
+        'from agv_motion.ros.stop import Stop; stop = Stop()\n'
+        'signal.raise_signal(signal.SIGHUP); assert not stop.requested\n'
+        'signal.raise_signal(signal.SIGINT); assert stop.requested\n'
+    )
+    process = subprocess.Popen([sys.executable, '-c', code], text=True, stderr=subprocess.PIPE)  # noqa: S603 - our own
+    assert ended(process) == (0, '')
