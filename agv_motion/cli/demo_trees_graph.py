@@ -89,11 +89,12 @@ class TreesGraph:
         zone = zone or 'zone_outdoor.yaml'
         self.zone = load_zone(find_config(zone))
         chance = random.Random(seed)  # noqa: S311 - a simulation, no secret
-        starts = scattered(self.zone, count, 2.0 * self.traffic.radius, chance)
+        starts = scattered(self.zone, count, self.traffic.clearance, chance)
         self._nodes: list[ManagedNode[Any]] = []
         self._simulators: list[Simulator] = []
         for i, (name, (x, y)) in enumerate(zip(self.names, starts, strict=True)):
-            self._nodes += _minds(name, zone, seed + i)
+            others = [other for other in self.names if other != name]
+            self._nodes += _minds(name, others, zone, seed + i)
             start_at = {'start_x': x, 'start_y': y, 'start_heading': chance.uniform(-pi, pi)}
             clock = {'clock': 'follow' if i else 'lead', 'time_factor': time_factor}
             body = {'rate': RATE, 'seed': seed + i, **start_at, **clock}
@@ -127,9 +128,12 @@ class TreesGraph:
         rclpy.try_shutdown()
 
 
-def _minds(name: str, zone: str, seed: int) -> list[ManagedNode[Any]]:
+def _minds(name: str, others: list[str], zone: str, seed: int) -> list[ManagedNode[Any]]:
     """Return all nodes of one tree but its simulator."""
-    shared = {'rate': RATE, 'share_zone': True, 'zone_file': zone, 'goals__seed': seed}
+    shared = {
+        'rate': RATE, 'share_zone': True, 'traffic__expected': others, 'zone_file': zone,
+        'goals__seed': seed,
+    }  # fmt: skip
     return [
         GranierProbe(**_given('granier_probe', name, {'simulated__seed': seed})),
         MotionGenerator(**_given('motion_generator', name, shared)),

@@ -92,7 +92,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _join(self, given: MotionGeneratorParameters) -> CompanyKeeper:
         name = given.tree_name or self.get_namespace().strip('/')
-        return CompanyKeeper(self, self._mind, given.traffic, name, given.map_frame)
+        return CompanyKeeper(self, self._mind, given.traffic, name, given.peers_file)
 
     def begin(self) -> None:
         """Tell where the tree means to go, and what it remembers."""
@@ -104,7 +104,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         """Send the last word: no motion; then keep what is remembered."""
         self._publish(self._limits.stop(), 'stopped')
         if self._company is not None and self._pose is not None:
-            self._company.park(self.seconds(), self._pose)
+            self._company.park(self._pose)
         if self._keeper is not None:
             self._keeper.save_at_last()
 
@@ -122,7 +122,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             values |= self._keeper.report()
         if self._company is not None:
             values |= self._company.report()
-        return Diagnosis(WARN if self._lost else OK, self._told, values)
+        alarmed = self._company is not None and self._company.alarm
+        return Diagnosis(WARN if self._lost or alarmed else OK, self._told, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector = message.vector
@@ -205,7 +206,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if self._obstacle or self._sap_flow is None or self._pose is None:
             self._publish(self._limits.stop(), self._obstacle)
             if self._company is not None and self._pose is not None:
-                self._company.stay(self.seconds(), self._pose)
+                self._company.stay(self._pose)
             return
         now = self.seconds()
         thought = self._think(now, self._pose, self._sap_flow)

@@ -54,6 +54,10 @@ class MotionGeneratorParameters:
     tree_name: Annotated[
         str, Spec('by which the other trees know this one; empty: its namespace')
     ] = ''
+    peers_file: Annotated[
+        str,
+        Spec('where to keep the names of the other trees over a restart; empty: nowhere'),
+    ] = ''
     map_period: Annotated[
         float, Spec('time between two publications of the memory maps', 's', (0.1, 3600.0))
     ] = 5.0

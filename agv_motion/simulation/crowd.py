@@ -120,7 +120,7 @@ class Crowd:
         self.zone, self.parameters = zone, parameters
         chance = random.Random(parameters.seed)  # noqa: S311 - a simulation, no secret
         self.candidates = grid(zone, 0.5)
-        clearance = 2.0 * parameters.traffic.radius
+        clearance = parameters.traffic.clearance
         places = places or scattered(zone, parameters.trees, clearance, chance)
         names = [f'tree_{i}' for i in range(len(places))]
         paths = Paths(zone)
@@ -157,7 +157,7 @@ class Crowd:
         for walker in self.walkers:
             believed = walker.supposed(given.step, given.error)
             if walker.resting:
-                walker.traffic.rest(believed)
+                walker.traffic.rest(believed, self.now + walker.skew)
                 walker.moved_at = self.now
             else:
                 walker.decide(believed, self.candidates, self.now)
@@ -177,7 +177,7 @@ class Crowd:
                     for w in (a, b)
                 )
             )
-            self.least_held_gap = min(self.least_held_gap, held - 2.0 * traffic.radius)
+            self.least_held_gap = min(self.least_held_gap, held - traffic.clearance)
 
 
 def grid(zone: Zone, spacing: float) -> NDArray[np.float64]:

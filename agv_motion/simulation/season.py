@@ -107,7 +107,7 @@ class Season:
         self._needed = given.traffic.body if self.zone.margin > given.traffic.body else 0.0
         self._deep_inside = self.zone.floor.buffer(-self.zone.margin)
         shapely.prepare(self._deep_inside)
-        clearance = 2.0 * given.traffic.radius + HomeParameters().arrival + 0.1
+        clearance = given.traffic.clearance + HomeParameters().arrival + 0.1
         homes = scattered(self.zone, given.trees, clearance, chance)
         self._obstacles = _obstacles(self.zone, chance)
         paths = Paths(self.zone)

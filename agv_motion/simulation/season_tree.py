@@ -57,7 +57,7 @@ class SeasonTree:
         dx, dy = (keep * e + self._chance.gauss(0.0, fresh) for e in self._error)
         shrink = min(3.0 * deviation / max(hypot(dx, dy), 1e-9), 1.0)
         self._error = dx, dy = shrink * dx, shrink * dy
-        thought = self.company.think(now, Pose(x + dx, y + dy, theta), flow)
+        thought = self.company.think(now, Pose(x + dx, y + dy, theta), flow, now)
         self._count(thought, now, flow.s1)
         command = thought.wanted
         if command == STILL:

@@ -24,7 +24,7 @@ BODY, MARGIN = 0.3, 0.1
 SMALL = {
     'traffic__body': BODY, 'traffic__margin': MARGIN, 'traffic__tolerance': 0.05,
     'traffic__listen': 0.5, 'platform_radius': BODY, 'linear_speed': 0.6, 'rest__arrival': 0.3,
-    'limits__v_rate': 5.0, 'share_zone': True,
+    'limits__v_rate': 5.0, 'share_zone': True, 'traffic__expected': ['oak', 'ash'],
 }  # fmt: skip
 
 
@@ -98,6 +98,6 @@ def test_a_tree_tells_where_it_is_and_parks_at_the_end(tester, zone):
 
 def test_a_tree_without_name_or_zone_does_not_start(tester, zone):
     with pytest.raises(StartError):
-        tester.start(MotionGenerator, share_zone=True, zone_file=zone)
+        tester.start(MotionGenerator, share_zone=True, zone_file=zone, traffic__expected=['ash'])
     with pytest.raises(StartError):
         tester.start(MotionGenerator, share_zone=True, tree_name='oak')

@@ -2,32 +2,48 @@
 
 from __future__ import annotations
 
+import json
 from math import nan
 
 import pytest
 
 pytest.importorskip('rclpy')
 
+from geometry_msgs.msg import Point
+
 from agv_motion.errors import SignalError
-from agv_motion.motion.traffic.claim import Claim
+from agv_motion.motion.traffic.claim import Claim, Word
 from agv_motion.ros.claims import claim_message, claim_of
 
 CLAIM = Claim(
-    'oak', 1_700_000_000_123_456_789, 1.58, ((1.0, 2.0), (3.0, 2.0)), ((3.0, 2.0), (3.0, 4.0)),
-    ((3.0, 4.0), (8.0, 9.0), (9.0, 9.0)), 1_699_999_999_000_000_001, {'ash': 42}, parked=False,
+    'oak', Word(2**64 - 1, 12), 1.48, ((1.0, 2.0), (3.0, 2.0)), ((3.0, 2.0), (3.0, 4.0)),
+    ((3.0, 4.0), (8.0, 9.0), (9.0, 9.0)), 17, {'ash': Word(2**63 + 1, 42)}, parked=False,
+    margin=0.2,
 )  # fmt: skip
 
 
+def _set(change):
+    """Return what changes the text of the first marker."""
+
+    def act(message):
+        told = json.loads(message.markers[0].text)
+        change(told)
+        message.markers[0].text = json.dumps(told)
+
+    return act
+
+
 @pytest.mark.parametrize(
-    'claim', [CLAIM, Claim('ash', 7, 0.4, ((1.0, 2.0),), heard={}, parked=True)]
+    'claim', [CLAIM, Claim('ash', Word(7, 0), 0.4, ((1.0, 2.0),), heard={}, parked=True)]
 )
 def test_there_and_back(claim):
-    assert claim_of(claim_message(claim, 'map'), 'map') == claim
+    assert claim_of(claim_message(claim, 'map', 1.5), 'map') == claim
 
 
 def test_its_corridor_is_as_wide_as_the_tree():
-    strip = claim_message(CLAIM, 'map').markers[0]
-    assert strip.scale.x == pytest.approx(3.16)
+    strip = claim_message(CLAIM, 'map', 1.5).markers[0]
+    assert strip.scale.x == pytest.approx(2.96)
+    assert (strip.header.stamp.sec, strip.header.stamp.nanosec) == (1, 500_000_000)
     assert strip.header.frame_id == 'map'
 
 
@@ -35,15 +51,33 @@ def test_its_corridor_is_as_wide_as_the_tree():
     ('change', 'word'),
     [
         (lambda m: m.markers.pop(), 'no claim of a tree'),
-        (lambda m: setattr(m.markers[0], 'text', '{}'), 'expected journey'),
-        (lambda m: setattr(m.markers[0], 'text', 'hello'), 'expected journey'),
+        (lambda m: setattr(m.markers[0], 'text', '{}'), 'expected run, number'),
+        (lambda m: setattr(m.markers[0], 'text', 'hello'), 'expected run, number'),
         (lambda m: setattr(m.markers[0].points[0], 'x', nan), 'must be finite'),
         (lambda m: setattr(m.markers[0].scale, 'x', 0.0), 'must be positive'),
         (lambda m: setattr(m.markers[0].header, 'frame_id', 'odom'), "expected 'map'"),
+        (lambda m: setattr(m.markers[2].header, 'frame_id', 'odom'), "expected 'map'"),
+        (lambda m: m.markers.append(m.markers[2]), '4 markers are no claim'),
+        (lambda m: setattr(m.markers[0].pose.position, 'x', 1.0), 'relative to a pose'),
+        (lambda m: setattr(m.markers[0], 'points', [Point()] * 1_000_000), '1000000 points'),
+        (lambda m: setattr(m.markers[0].points[0], 'x', 1e300), 'must be finite and within'),
+        (lambda m: setattr(m.markers[0], 'text', '[' * 50_000), 'expected run, number'),
+        (lambda m: setattr(m.markers[0], 'text', '7' * 99_999), 'expected run, number'),
+        (lambda m: setattr(m.markers[0], 'text', ' ' * 100_001), '100001 characters'),
+        (lambda m: [setattr(x, 'ns', '') for x in m.markers], 'needs name'),
+        (lambda m: [setattr(x, 'ns', '  ') for x in m.markers], 'needs name'),
+        (_set(lambda told: told.pop('run')), 'expected run, number'),
+        (_set(lambda told: told.update(number=1.5)), 'expected run, number'),
+        (_set(lambda told: told.update(number=-1)), 'must lie in'),
+        (_set(lambda told: told.update(journey=float('inf'))), 'expected run, number'),
+        (_set(lambda told: told.update(margin=nan)), 'margin nan'),
+        (_set(lambda told: told.update(parked='no')), 'expected run, number'),
+        (_set(lambda told: told.update(heard={'ash': [1]})), 'expected run, number'),
+        (_set(lambda told: told.update(heard=[])), 'expected run, number'),
     ],
 )
 def test_what_is_no_claim_is_refused(change, word):
-    message = claim_message(CLAIM, 'map')
+    message = claim_message(CLAIM, 'map', 1.5)
     change(message)
     with pytest.raises(SignalError, match=word):
         claim_of(message, 'map')

@@ -5,21 +5,43 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+
+import shapely
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, joined, line
+from agv_motion.motion.traffic.separation import Floor
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import shapely
+IDLE = 2**62
+"""[1] Journey of a tree that has none: younger than any."""
 
-IDLE = (2**31 - 1) * 10**9
-"""[ns] Journey of a tree that has none: younger than any."""
+MOST_POINTS = 1000
+"""of all three ways of a claim together; a way through a zone has a few corners"""
 
-TOUCH = 1e-6
-"""[m] Rounding that is no overlap."""
+FARTHEST = 1e6
+"""[m] No zone reaches farther from the origin of its map."""
+
+WIDEST = 1000.0
+"""[m] No tree is wider, nor keeps more margin."""
+
+LONGEST_NAME = 200
+"""[1] characters"""
+
+MOST_HEARD = 200
+"""[1] other trees in one claim"""
+
+
+class Word(NamedTuple):
+    """Which message of a tree: what others name to say that they have heard it."""
+
+    run: int
+    """of the sender since it last started: a number that chance makes once and never again"""
+    number: int
+    """of the message in its run, from 0 on"""
 
 
 @dataclass(frozen=True)
@@ -28,10 +50,10 @@ class Claim:
 
     name: str
     """of the tree: its namespace"""
-    stamp: int
-    """[ns] of the sender's clock; every message of a tree has a later one than the last"""
+    word: Word
+    """which message it is"""
     radius: float
-    """[m] of the disc about a centre that the tree may occupy: body, error and half the margin"""
+    """[m] of the disc about a centre that the tree may occupy: body and error"""
     held: Way
     """where its centre may be, from where it is on: nobody else may come near"""
     asked: Way = ()
@@ -39,29 +61,62 @@ class Claim:
     wish: Way = ()
     """the whole rest of its way"""
     journey: int = IDLE
-    """[ns] when the tree set out for its goal: who set out first goes first"""
-    heard: Mapping[str, int] = field(default_factory=dict)
-    """stamp of the last message it has of each tree that it hears"""
+    """later than every journey known when the tree set out: who set out first goes first"""
+    heard: Mapping[str, Word] = field(default_factory=dict)
+    """the last message it has of each tree that it hears"""
     parked: bool = False
     """it stays where it is, and asks before it ever moves again"""
+    margin: float = 0.0
+    """[m] it wants between its rim and that of any other, at least"""
 
     def __post_init__(self) -> None:
         """Refuse what would void the promises of :class:`RightOfWay`.
 
         Raises:
-            SignalError: No name, no place, or a number that is not finite.
+            SignalError: No name, no place, too long, or a number that is not finite or no sense.
 
         """
-        if not self.name or not self.held:
-            msg = f"claim of '{self.name}' with {len(self.held)} points held: needs name and place"
+        if not self.name.strip() or not self.held:
+            msg = f"claim of '{self.name:.40}' with {len(self.held)} points held: needs name, place"
             raise SignalError(msg)
-        if not (isfinite(self.radius) and self.radius > 0.0):
-            msg = f"claim of '{self.name}': radius {self.radius} m must be positive"
+        if len(self.name) > LONGEST_NAME or len(self.heard) > MOST_HEARD:
+            msg = (
+                f"claim of '{self.name:.40}' has a name of {len(self.name)} letters and has heard "
+                f'{len(self.heard)} trees: at most {LONGEST_NAME} and {MOST_HEARD}'
+            )
+            raise SignalError(msg)
+        self._check_numbers()
+        points = len(self.held) + len(self.asked) + len(self.wish)
+        if points > MOST_POINTS:
+            msg = f"claim of '{self.name}' goes through {points} points: at most {MOST_POINTS}"
             raise SignalError(msg)
         for x, y in (*self.held, *self.asked, *self.wish):
-            if not (isfinite(x) and isfinite(y)):
-                msg = f"claim of '{self.name}' goes through ({x}, {y}): must be finite"
+            if not (abs(x) <= FARTHEST and abs(y) <= FARTHEST):
+                msg = (
+                    f"claim of '{self.name}' goes through ({x}, {y}): must be finite and within "
+                    f'{FARTHEST:g} m of the origin of the map'
+                )
                 raise SignalError(msg)
+
+    def _check_numbers(self) -> None:
+        """Refuse sizes and counts that no tree has.
+
+        Raises:
+            SignalError: One is negative, not finite or beyond all reason.
+
+        """
+        if not (isfinite(self.radius) and 0.0 < self.radius <= WIDEST):
+            msg = f"claim of '{self.name}': radius {self.radius} m must be positive, <= {WIDEST:g}"
+            raise SignalError(msg)
+        if not 0.0 <= self.margin <= WIDEST:
+            msg = f"claim of '{self.name}': margin {self.margin} m must lie in [0, {WIDEST:g}]"
+            raise SignalError(msg)
+        words = (self.word, *self.heard.values())
+        if not all(0 <= n < 2**64 for word in words for n in word) or not (
+            0 <= self.journey <= IDLE
+        ):
+            msg = f"claim of '{self.name}': run, number and journey must lie in [0, 2^64)"
+            raise SignalError(msg)
 
     @property
     def precedence(self) -> tuple[int, str]:
@@ -84,11 +139,16 @@ class Claim:
         return line(joined(self.held, self.asked))
 
     @cached_property
+    def floor(self) -> Floor:
+        """What it holds, and where it is."""
+        return Floor(self.held_line, shapely.Point(self.held[0]))
+
+    @cached_property
+    def most_floor(self) -> Floor:
+        """All that it may hold by now, and where it was."""
+        return Floor(self.both, shapely.Point(self.held[0]))
+
+    @cached_property
     def wish_line(self) -> shapely.Geometry:
         """The way of ``wish``; empty if it has none."""
         return line(self.wish)
-
-
-def apart(a: shapely.Geometry, b: shapely.Geometry, clearance: float) -> bool:
-    """Return whether two ways keep ``clearance`` [m]; nothing keeps it from anything."""
-    return bool(not a.distance(b) < clearance - TOUCH)  # the distance of an empty one is NaN

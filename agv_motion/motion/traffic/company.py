@@ -24,8 +24,14 @@ class Company:
         self.mind, self.traffic = mind, traffic
         self._blocked = 0.0
 
-    def think(self, time: float, pose: Pose, flow: SapFlow) -> Thought:
+    def think(self, time: float, pose: Pose, flow: SapFlow, lived: float) -> Thought:
         """Return what to do now; see :meth:`Mind.think`.
+
+        Args:
+            time: Of the day, in seconds since 1970.
+            pose: Where the tree is.
+            flow: Of its sap.
+            lived: Time of its steady clock [s], which no other tree's is compared with.
 
         Where the way to a goal of its own choice has been blocked for long, the mind chooses
         another of those that can be reached past the others.
@@ -38,10 +44,10 @@ class Company:
         thought = mind.think(time, pose, flow, surroundings)
         self._blocked = 0.0
         if thought.wanted == STILL and not thought.aside:
-            self.traffic.rest(here)
+            self.traffic.rest(here, lived)
             return thought
         goal = thought.way[-1] if thought.way else None
-        passage = self.traffic.towards(goal, here, time)
+        passage = self.traffic.towards(goal, here, lived)
         if (
             goal is not None
             and thought.goal is mind.goal

@@ -11,11 +11,14 @@ from shapely import Polygon
 from agv_motion.errors import GeometryError
 from agv_motion.motion.paths import Paths
 from agv_motion.motion.polyline import Way, joined, straight_pieces
+from agv_motion.motion.traffic.separation import keeps_away
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from agv_motion.motion.polyline import Point
+    from agv_motion.motion.traffic.needs import Need
+    from agv_motion.motion.traffic.separation import Floor
     from agv_motion.motion.zone import Zone
 
 ROUNDING = 1e-6
@@ -28,7 +31,7 @@ ROUND = 1.0 / cos(pi / (4 * QUARTER)) + 1e-4
 """[-] A polygon on a circle so much larger has the circle inside."""
 
 
-def taken(lines: Iterable[tuple[shapely.Geometry, float]]) -> shapely.Geometry:
+def taken(lines: Iterable[Need]) -> shapely.Geometry:
     """Return the floor nearer to any of some ways than the clearance given with each [m].
 
     Each straight piece of a way is widened by itself: GEOS leaves a hole where a whole way bends
@@ -43,16 +46,23 @@ def taken(lines: Iterable[tuple[shapely.Geometry, float]]) -> shapely.Geometry:
     )
 
 
-def free_floor(zone: Zone, place: Point, blocked: shapely.Geometry) -> Polygon | None:
+def free_floor(
+    zone: Zone,
+    place: Point,
+    blocked: shapely.Geometry,
+    held: Iterable[tuple[Floor, float]] = (),
+) -> Polygon | None:
     """Return the connected piece of walkable floor outside ``blocked`` at, or nearest to, a place.
 
     Args:
         zone: Where the tree walks.
         place: Where it is [m].
         blocked: What others need.
+        held: What of it they hold, and the clearance to keep from each [m].
 
     Returns:
-        None where no straight step leads to free floor without leaving what may be walked on.
+        None where no straight step leads to free floor without leaving what may be walked on, or
+        through floor that another holds.
 
     """
     here = shapely.Point(place)
@@ -63,9 +73,11 @@ def free_floor(zone: Zone, place: Point, blocked: shapely.Geometry) -> Polygon |
         for piece in shapely.get_parts(part.difference(blocked))
         if isinstance(piece, Polygon) and piece.area > 0.0
     ]
-    ground = ground.buffer(ROUNDING)
+    ground, held = ground.buffer(ROUNDING), list(held)
     for piece in sorted(pieces, key=here.distance):
-        if shapely.covers(ground, shapely.shortest_line(here, piece)):
+        step = shapely.shortest_line(here, piece)
+        way = (place, tuple(step.coords[-1]))
+        if shapely.covers(ground, step) and all(keeps_away(way, *floor) for floor in held):
             return piece
     return None
 

@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-import shapely
-
-from agv_motion.motion.polyline import Way, cut, length, line
-from agv_motion.motion.traffic.claim import IDLE, apart
+from agv_motion.motion.polyline import cut, line
+from agv_motion.motion.traffic.claim import IDLE
+from agv_motion.motion.traffic.separation import Floor, free_part
 
 if TYPE_CHECKING:
-    from agv_motion.motion.traffic.peers import Peer
+    import shapely
+
+    from agv_motion.motion.polyline import Way
+    from agv_motion.motion.traffic.peer import Peer
     from agv_motion.motion.traffic.right_of_way import RightOfWay
 
 COURTESY = 4.0
 """[m] of the way of who goes first that the others keep off; who gave way keeps off all of it."""
 
-SAMPLE = 0.1
-"""[m] between the places at which a way is tested for how far it is free."""
 
-Need = tuple[shapely.Geometry, float]
-"""A way that another tree needs, and the clearance to keep from it [m]."""
+class Need(NamedTuple):
+    """A way that another tree needs, and the clearance to keep from it [m]."""
+
+    way: shapely.Geometry
+    clearance: float
+
+
+class Blocked(NamedTuple):
+    """How much of a way is free, and who is in the way of the rest; empty if nobody is."""
+
+    way: Way
+    by: str
 
 
 class Needs:
@@ -43,13 +52,19 @@ class Needs:
 
         """
         return [
-            need
+            Need(floor.line, self.clearance(peer))
             for peer in self._right.peers
             if not standing or not peer.claim.asked
-            for need in self._of(peer, wishes=wishes)
+            for floor in self._of(peer, wishes=wishes)
         ]
 
-    def leave(self, piece: Way, least: float, *, wishes: bool) -> tuple[Way, str]:
+    def held(self) -> list[tuple[Floor, float]]:
+        """Return the floor that others may hold, and the clearance to keep from each [m]."""
+        return [
+            (floor, self.clearance(peer)) for peer in self._right.peers for floor in peer.floors()
+        ]
+
+    def leave(self, piece: Way, least: float, *, wishes: bool) -> Blocked:
         """Return how much of ``piece`` keeps clear of all others, and who is in the way.
 
         Args:
@@ -60,23 +75,48 @@ class Needs:
         """
         blocker = ''
         for peer in self._right.peers:
-            for way, clearance in self._of(peer, wishes=wishes):
-                if len(piece) > 1 and not apart(line(piece), way, clearance):
-                    piece, blocker = _prefix(piece, way, clearance, least), peer.claim.name
-        return piece, blocker
+            for floor in self._of(peer, wishes=wishes):
+                free = free_part(piece, floor, self.clearance(peer), least)
+                if free != piece:
+                    piece, blocker = free, peer.claim.name
+        return Blocked(piece, blocker)
+
+    def step(self, piece: Way, spare: float) -> Blocked:
+        """Return how much of ``piece`` the tree may walk, whatever floor it was granted.
+
+        No step leads nearer to floor that another may hold, or to where it stands, than the
+        clearance, unless it leads away. This is the last guard: it stops a tree where a promise
+        was broken, as by one that was carried onto its floor.
+
+        Args:
+            piece: Straight from where the tree is.
+            spare: The tree may be off its way by so much, and nearer by it [m].
+
+        """
+        blocker = ''
+        for peer in self._right.peers:
+            clearance = self.clearance(peer) - spare
+            for floor in peer.floors():
+                free = free_part(piece, floor, clearance)
+                if free != piece:
+                    piece, blocker = free, peer.claim.name
+        return Blocked(piece, blocker)
 
     def wishes(self, reach: float, spare: float) -> list[Need]:
         """Return the first ``reach`` [m] of the wishes of all who go first, ``spare`` [m] wider."""
         return [
-            (line(cut(peer.claim.wish, reach)[0]), self.clearance(peer) + spare)
+            Need(line(cut(peer.claim.wish, reach)[0]), self.clearance(peer) + spare)
             for peer in self._right.peers
-            if not peer.silent and self._goes_first(peer)
+            if not peer.silent and peer.claim.wish and self._goes_first(peer)
         ]
 
     def last_begun(self) -> float | None:
-        """Return when the last of the journeys after this tree's own began [s]; None: no such."""
+        """Return when this tree first heard of the last of the journeys after its own [s].
+
+        None where there is no such journey. Clocks of two trees are never compared.
+        """
         after = [
-            peer.claim.journey * 1e-9
+            peer.journey_since
             for peer in self._right.peers
             if not (peer.silent or peer.claim.journey == IDLE or self._goes_first(peer))
         ]
@@ -84,33 +124,17 @@ class Needs:
 
     def clearance(self, peer: Peer) -> float:
         """Return the distance that the centres of the two trees keep [m]."""
-        return self._right.radius + peer.claim.radius
+        return self._right.clearance(peer.claim)
 
-    def _of(self, peer: Peer, *, wishes: bool) -> list[Need]:
-        claim, clearance = peer.claim, self.clearance(peer)
+    def _of(self, peer: Peer, *, wishes: bool) -> list[Floor]:
+        claim = peer.claim
         first = self._goes_first(peer)
-        needs = [(claim.held_line, clearance)]
-        if claim.asked and (first or not wishes):
-            needs.append((claim.asked_line, clearance))
+        floors = peer.floors()
+        if claim.asked and not peer.silent and (first or not wishes):
+            floors.append(Floor(claim.asked_line, claim.floor.body))
         if wishes and claim.wish and first and not peer.silent:
-            needs.append((line(cut(claim.wish, self.courtesy)[0]), clearance))
-        return needs
+            floors.append(Floor(line(cut(claim.wish, self.courtesy)[0]), claim.floor.body))
+        return floors
 
     def _goes_first(self, peer: Peer) -> bool:
         return peer.claim.precedence < self._right.precedence
-
-
-def _prefix(piece: Way, way: shapely.Geometry, clearance: float, least: float) -> Way:
-    """Return ``piece`` up to where it comes too near to ``way``, or nearer than it begins."""
-    count = max(int(length(piece) / SAMPLE) + 1, 2)
-    share = np.linspace(0.0, 1.0, count)
-    places = shapely.line_interpolate_point(line(piece), share, normalized=True)
-    away = shapely.distance(places, way)
-    bad = np.flatnonzero(away < min(clearance, float(away[0])))
-    upto = length(piece) * float(share[bad[0] - 1]) if len(bad) else length(piece)
-    while upto > least:
-        short = cut(piece, upto)[0]
-        if apart(line(short), way, min(clearance, float(away[0]))):
-            return short
-        upto /= 2.0
-    return piece[:1]

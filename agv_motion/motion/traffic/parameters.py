@@ -11,7 +11,7 @@ from agv_motion.parameters import Spec, check
 
 @dataclass(frozen=True)
 class TrafficParameters:
-    """How trees share a zone; the same for all trees of one."""
+    """How a tree shares a zone; body, margin and tolerance may differ between trees."""
 
     body: Annotated[float, Spec('rim of the tree from its centre', 'm', (0.01, 100.0))] = (
         PLATFORM_RADIUS
@@ -41,5 +41,10 @@ class TrafficParameters:
 
     @property
     def radius(self) -> float:
-        """Of the disc about its supposed centre that a tree may occupy, half the margin added."""
-        return self.body + self.tolerance + self.margin / 2.0
+        """Of the disc about its supposed centre that a tree may occupy [m]."""
+        return self.body + self.tolerance
+
+    @property
+    def clearance(self) -> float:
+        """Distance that the supposed centres of two such trees keep [m]."""
+        return 2.0 * self.radius + self.margin

@@ -5,41 +5,57 @@ To hold more it asks: the piece stands in every message it sends until it is gra
 It grants itself the piece when, for every other tree it knows, going by the last message of each,
 
 1. the piece keeps clear of all that the other holds,
-2. the other had heard of the request when it sent that message (its answer names the stamp), and
+2. the other, in its present run, says that it has heard of the request: its answer names a message
+   of this tree's present run from the request on, and
 3. the piece keeps clear of what the other asks for, or this tree has precedence.
 
-That no two hold overlapping floor follows without any word on time, so late and lost messages and
-clocks that differ only cost time. Say A has precedence over B and their pieces overlap.
+The invariant: *no tree takes floor that another may hold by any word not yet known to be outdated*.
+It follows without any word on time, so late and lost messages and clocks that differ only cost
+time. Say A has precedence over B and their pieces overlap.
 If B granted itself last, it had a message that A sent after hearing of B's request. Had A asked by
 then, that message showed it, and B gave way (3, or 1 where A held it by then). Had A not asked by
 then, A granted itself only on a message that B sent after hearing of A's request, hence while it
 knew of it: B gave way. If A granted itself last: A had such a message of B as well; were B's piece
 granted before B sent it, the message shows it as held (1); if after, B knew of A's request and
-gave way. A message overtaken by a later one is dropped, so nobody forgets what it knew.
+gave way. A message overtaken by a later one of its run is dropped, so nobody forgets what it knew.
+
+A tree that starts again has a new run: all it knew is void, and it holds the place where it stands,
+which its last run held. Answers to the last run do not count for the new one, and of a peer both
+old and new floor stay taken until its new run has answered (:mod:`.peer`). It takes nothing before
+all that it was told of, by ``expected`` or by a file, have answered.
 
 A tree that falls silent answers no more. What it held and asked for stays taken, and the floor is
 shared as :class:`Sides` says, with those who knew of each other. A tree that says it is parked
-needs no answer: it holds its place and will ask before it moves.
+needs no answer: it holds its place and will ask before it moves. Its word counts only where it
+knows of this tree as it is now, and not from before this tree was parked itself.
+
+What a message may not do is told, and for a while nobody moves: two trees of one name, and a claim
+that cannot be understood (:meth:`RightOfWay.alarm`).
 
 The idea is that of G. Ricart and A. K. Agrawala, "An optimal algorithm for mutual exclusion in
-computer networks", Communications of the ACM 24(1), 1981, with floor in place of one resource.
+computer networks", Communications of the ACM 24(1), 1981, with floor in place of one resource, and
+the order of journeys that of L. Lamport, "Time, clocks, and the ordering of events in a distributed
+system", Communications of the ACM 21(7), 1978.
 """
 
 from __future__ import annotations
 
+import secrets
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, cut, joined, length, line
-from agv_motion.motion.traffic.claim import IDLE, TOUCH, Claim, apart
-from agv_motion.motion.traffic.peers import Peer, Peers
+from agv_motion.motion.traffic.claim import IDLE, Claim, Word
+from agv_motion.motion.traffic.peers import Peers
+from agv_motion.motion.traffic.separation import apart, keeps_away
 
 if TYPE_CHECKING:
-    import shapely
+    from collections.abc import Sequence
 
     from agv_motion.motion.polyline import Point
     from agv_motion.motion.traffic.parameters import TrafficParameters
+    from agv_motion.motion.traffic.peer import Peer
 
 
 class Answer(Enum):
@@ -49,6 +65,7 @@ class Answer(Enum):
     PENDING = 'waits for the answer of'
     TAKEN = 'waits for'
     LISTENING = 'listens who else is there'
+    ALARM = 'stands:'
 
 
 class Verdict(NamedTuple):
@@ -64,22 +81,36 @@ class Verdict(NamedTuple):
 
 GRANTED = Verdict(Answer.GRANTED)
 
+MOST_WISHED = 500
+"""[1] corners of the rest of a way that are told"""
+
 
 class RightOfWay:
     """What one tree holds of the floor, and what it asks for."""
 
-    def __init__(self, name: str, place: Point, parameters: TrafficParameters) -> None:
+    def __init__(
+        self,
+        name: str,
+        place: Point,
+        parameters: TrafficParameters,
+        run: int | None = None,
+        known: Sequence[str] = (),
+    ) -> None:
         """Hold the place where the tree stands, and nothing else.
 
         Args:
             name: Of this tree, different from every other's.
             place: Where its centre is, in the map [m].
             parameters: How trees share the zone.
+            run: A number that no other run of any tree ever had; None: by chance, of 64 bits.
+            known: Names of other trees that earlier runs heard.
 
         """
         self.name, self.parameters = name, parameters
-        self.radius = parameters.radius
-        self.peers = Peers(name, parameters.silent_after)
+        self.run = secrets.randbits(64) if run is None else run
+        self.radius, self.margin = parameters.radius, parameters.margin
+        self.peers = Peers(name, self.run, parameters.silent_after)
+        self.awaited = [one for one in dict.fromkeys((*parameters.expected, *known)) if one != name]
         self.held: Way = (place,)
         self.parked = False
         self._journey = IDLE
@@ -88,31 +119,57 @@ class RightOfWay:
         self.asked: Way = ()
         self._asked_line = line(())
         self._asked_since: int | None = None
-        self._stamp = -1
+        self._number = -1
+        self._alarm: tuple[str, float] | None = None
+        self._twin: Word | None = None
 
     def hear(self, claim: Claim, now: float) -> None:
         """Take up the message of another tree.
 
         Raises:
-            SignalError: It bears the name of this tree, but this tree did not send it.
+            SignalError: It bears the name of this tree, but this run of it did not send it.
 
         """
         if claim.name != self.name:
-            self.peers.hear(claim, now, self._stamp + 1)
-        elif claim.stamp > self._stamp:
+            self.peers.hear(claim, now, self._number + 1)
+        elif claim.word.run != self.run:
+            self._twin = claim.word
+            if self.peers.echo(claim) >= 0:  # it heard this run: no late word of an earlier one
+                self.peers.hear(claim, now, self._number + 1)
             msg = f"another tree calls itself '{self.name}' as well: give each its own name"
+            self.alarm(msg, now)
             raise SignalError(msg)
 
+    def alarm(self, why: str, now: float) -> None:
+        """Take floor from nobody for the time of silence: what was heard makes no sense."""
+        self._alarm = why, now
+
+    def obstacle(self, now: float) -> str:
+        """Return why nobody may move at all now, in words; empty if nothing is wrong."""
+        if self._alarm is not None and now - self._alarm[1] <= self.parameters.silent_after:
+            return self._alarm[0]
+        doubled = next((name for name in self.peers.doubled(now) if name != self.name), None)
+        return f"two trees call themselves '{doubled}': give each its own name" if doubled else ''
+
     def claim(self, now: float, wish: Way = ()) -> Claim:
-        """Return the next message; it must be sent, for what it asks counts as announced."""
-        self._stamp = max(round(now * 1e9), self._stamp + 1)
+        """Return the next message; it must be sent, for what it asks counts as announced.
+
+        Args:
+            now: Time of this tree's steady clock [s].
+            wish: The rest of its way.
+
+        """
+        self._number += 1
         if self.asked and self._asked_since is None:
-            self._asked_since = self._stamp
+            self._asked_since = self._number
         self._begun = now if self._begun is None else self._begun
-        self.peers.judge(now, self._held_line, self.radius)
+        self.peers.judge(now, self._held_line)
+        heard = self.peers.heard()
+        if self._twin is not None:
+            heard[self.name] = self._twin
         return Claim(
-            self.name, self._stamp, self.radius, self.held, self.asked, wish, self._journey,
-            self.peers.heard(), self.parked,
+            self.name, Word(self.run, self._number), self.radius, self.held, self.asked,
+            wish[:MOST_WISHED], self._journey, heard, self.parked, self.margin,
         )  # fmt: skip
 
     def stand(self, place: Point) -> None:
@@ -138,19 +195,27 @@ class RightOfWay:
 
     @property
     def journey(self) -> int:
-        """When the tree set out for its goal [ns]: the older of two has precedence."""
+        """Which journey the tree is on: the older of two has precedence."""
         return self._journey
 
-    def set_out(self, journey: int) -> None:
-        """Begin another journey; a request stands for the precedence it was made with, and ends."""
+    def set_out(self, journey: int | None = None) -> None:
+        """Begin another journey; a request stands for the precedence it was made with, and ends.
+
+        Args:
+            journey: Which; None: one later than all that are known.
+
+        """
         self.withdraw()
+        if journey is None:
+            own = self._journey if self._journey < IDLE else 0
+            journey = min(max(own, self.peers.latest_journey()) + 1, IDLE - 1)
         self._journey = journey
 
     def ask(self, piece: Way) -> None:
         """Ask for ``piece``, which begins where the held way ends; :meth:`settle` may grant it."""
         if self.parked:
             self.parked = False
-            self.peers.forget_agreements(self._stamp + 1)
+            self.peers.forget_agreements(self._number + 1)
         self._ask(piece)
 
     def withdraw(self) -> None:
@@ -169,17 +234,24 @@ class RightOfWay:
         return length(self.held)
 
     def settle(self, now: float) -> Verdict:
-        """Add what is asked for to what is held, if no other tree objects."""
+        """Add what is asked for to what is held, if no other tree objects.
+
+        Args:
+            now: Time of this tree's steady clock [s].
+
+        """
         if not self.asked:
             return GRANTED
         self._begun = now if self._begun is None else self._begun
         if now - self._begun < self.parameters.listen:
             return Verdict(Answer.LISTENING)
-        missing = [name for name in self.parameters.expected if name not in self.peers]
-        if missing:
-            return Verdict(Answer.PENDING, ', '.join(missing))
-        self.peers.judge(now, self._held_line, self.radius)
+        if why := self.obstacle(now):
+            return Verdict(Answer.ALARM, why)
+        self.peers.judge(now, self._held_line)
         verdicts = [self._objection(peer) for peer in self.peers]
+        verdicts += [
+            Verdict(Answer.PENDING, name) for name in self.awaited if name not in self.peers
+        ]
         for answer in (Answer.TAKEN, Answer.PENDING):
             for verdict in verdicts:
                 if verdict.answer is answer:
@@ -188,29 +260,28 @@ class RightOfWay:
         self._ask(())
         return GRANTED
 
-    def clear_of(self, way: shapely.Geometry, peer: Peer) -> bool:
-        """Return whether ``way`` keeps clear of what ``peer`` holds.
+    def clearance(self, claim: Claim) -> float:
+        """Return the distance that the centres of this tree and another keep [m]."""
+        return self.radius + claim.radius + max(self.margin, claim.margin)
 
-        Where the two are too near already, a way that does not lead nearer will do.
-        """
-        held, clearance = peer.claim.held_line, self.radius + peer.claim.radius
-        if apart(way, held, clearance):
-            return True
-        return bool(way.distance(held) >= self._held_line.distance(held) - TOUCH)
+    def clear_of(self, way: Way, peer: Peer) -> bool:
+        """Return whether ``way`` keeps clear of what ``peer`` holds, or leads away from it."""
+        clearance = self.clearance(peer.claim)
+        return all(keeps_away(way, floor, clearance) for floor in peer.floors())
 
     def _objection(self, peer: Peer) -> Verdict:
-        claim, clearance = peer.claim, self.radius + peer.claim.radius
-        if not self.clear_of(self._asked_line, peer):
-            return Verdict(Answer.TAKEN, claim.name)
-        if claim.parked:
+        claim, clearance = peer.claim, self.clearance(peer.claim)
+        if peer.stays and self.clear_of(self.asked, peer):
             return GRANTED
         if peer.silent:
             allowed = peer.sides is not None and peer.sides.allow(self.asked, clearance)
             return GRANTED if allowed else Verdict(Answer.TAKEN, f'{claim.name}, which is silent')
+        if not self.clear_of(self.asked, peer):
+            return Verdict(Answer.TAKEN, claim.name)
         first = self.precedence < claim.precedence
         if not first and not apart(self._asked_line, claim.asked_line, clearance):
             return Verdict(Answer.TAKEN, claim.name)
-        if self._asked_since is None or not peer.answered(self.name, self._asked_since):
+        if self._asked_since is None or not peer.answered(self._asked_since):
             return Verdict(Answer.PENDING, claim.name)
         return GRANTED
 

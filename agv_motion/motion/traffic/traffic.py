@@ -25,10 +25,11 @@ import shapely
 from agv_motion.errors import GeometryError
 from agv_motion.motion.paths import Waypoints
 from agv_motion.motion.polyline import Way, cut, joined, length, line, nearest
-from agv_motion.motion.traffic.claim import IDLE, Claim, apart
+from agv_motion.motion.traffic.claim import IDLE, Claim
 from agv_motion.motion.traffic.detour import free_floor, refuge, taken, way_round
 from agv_motion.motion.traffic.needs import COURTESY, Needs
 from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
+from agv_motion.motion.traffic.separation import TOUCH, apart
 
 if TYPE_CHECKING:
     from agv_motion.motion.paths import Paths
@@ -48,7 +49,7 @@ LONG_WAY = 60.0
 """[s] A way round of more than twice the length is taken only when stuck for so long."""
 
 CORNER = 0.3
-"""[m] A corner counts as reached from here ..."""
+"""[m] A corner counts as reached from here, or from half the tolerance if that is less ..."""
 
 SLACK = 0.01
 """[m] ... unless the short cut would cut so deep into the margin."""
@@ -82,14 +83,15 @@ class Traffic:
 
         """
         self.right, self._needs = right, Needs(right)
+        self._spare = right.parameters.tolerance / 2.0  # the other half is for errors of position
         self._zone, self._paths = zone, paths
-        self._waypoints = Waypoints(zone, CORNER, SLACK)
+        self._waypoints = Waypoints(zone, min(CORNER, self._spare), SLACK)
         self._goal: Point | None = None
         self._route: Way = ()
         self._after_piece: Way = ()
         self._yielding = False
         self._reason = ''
-        self._going_at = self._planned_at = 0.0
+        self._going_at = self._planned_at = self._counted_at = 0.0
 
     def hear(self, claim: Claim, now: float) -> None:
         """Take up the message of another tree; see :meth:`RightOfWay.hear`."""
@@ -106,18 +108,16 @@ class Traffic:
         Args:
             goal: Where to go in the map [m]; None: nowhere, but give way to others.
             place: Where the centre is [m].
-            now: Time of this tree's clock [s].
+            now: Time of this tree's steady clock [s].
 
         """
         right = self.right
-        along = self._track(place)
+        along = self._track(place, now)
         if goal != self._goal or self._has_waited(now):
             self._set_out(goal, along, now)
             along = 0.0
         self._settle(now)
         ahead = right.ahead - along
-        if ahead > ARRIVED and not self._yielding:
-            self._going_at = now
         stuck = now - self._going_at
         if not right.asked and ahead <= ARRIVED and min(stuck, now - self._planned_at) >= STUCK:
             self._plan_again(along, stuck, now)
@@ -125,22 +125,46 @@ class Traffic:
         if not right.asked and ahead < STRETCH:
             self._ask()
             self._settle(now)
-        way = joined(self._waypoints.ahead(place, cut(right.held, along)[1]), self._route)
-        blocked = stuck if goal is not None else 0.0
-        if right.ahead - along <= ARRIVED:
-            return Passage(None, self._reason, blocked, way)
-        reason = 'gives way' if self._yielding else ''
-        return Passage(way[0], reason, blocked, way, self._yielding)
+        return self._passage(place, along, now)
 
-    def rest(self, place: Point) -> None:
+    def _passage(self, place: Point, along: float, now: float) -> Passage:
+        """Return how far the tree may go on the way it holds, as far as the last guard lets it."""
+        right = self.right
+        way = joined(self._waypoints.ahead(place, cut(right.held, along)[1]), self._route)
+        holds = right.ahead - along > ARRIVED
+        free = self._needs.step((place, way[0]), self._spare)
+        obstacle = right.obstacle(now)
+        walks = holds and not obstacle and length(free.way) > TOUCH
+        self._count(now, walks=walks and not self._yielding)
+        if holds and free.by and not walks:
+            self._let_go(along)
+            self._reason = f'waits for {free.by}, which is on its floor'
+        blocked = now - self._going_at if self._goal is not None else 0.0
+        if not walks:
+            return Passage(None, f'stands: {obstacle}' if obstacle else self._reason, blocked, way)
+        reason = 'gives way' if self._yielding else ''
+        return Passage(free.way[-1], reason, blocked, way, self._yielding)
+
+    def _count(self, now: float, *, walks: bool) -> None:
+        """Count for how long the tree could not go on; waiting for an answer does not count.
+
+        Else a tree on a slow network would take back each request before its answer can come.
+        """
+        if walks:
+            self._going_at = now
+        elif self.right.asked:
+            self._going_at = min(self._going_at + max(now - self._counted_at, 0.0), now)
+        self._counted_at = now
+
+    def rest(self, place: Point, now: float) -> None:
         """Hold nothing but the place where the tree is: it does not move for a while."""
-        self._let_go(self._track(place))
+        self._let_go(self._track(place, now))
         self._goal = None
         self.right.set_out(IDLE)
 
-    def park(self, place: Point) -> None:
+    def park(self, place: Point, now: float) -> None:
         """Rest, and promise to stay: nobody needs to wait for an answer of this tree."""
-        self.rest(place)
+        self.rest(place, now)
         self.right.park()
 
     def occupied(self) -> shapely.Geometry:
@@ -158,12 +182,19 @@ class Traffic:
 
     # Where the tree is on the way it holds
 
-    def _track(self, place: Point) -> float:
-        """Return how far along the way it holds the tree is, and let go of what lies behind."""
+    def _track(self, place: Point, now: float) -> float:
+        """Return how far along the way it holds the tree is, and let go of what lies behind.
+
+        A tree that is farther off than the tolerance was carried, or did not know where it was. It
+        holds the place where it is now, which may be floor of another, and stands until all had
+        time to hear so.
+        """
         right, tolerance = self.right, self.right.parameters.tolerance
         along, away = nearest(right.held, place)
         if away > tolerance:
             right.stand(place)
+            why = f'{away:.2f} m off its way, more than the tolerance of {tolerance:g} m'
+            right.alarm(f'it was {why}: others must hear first where it is', now)
             self._yielding = False
             self._plan()
             return 0.0
@@ -182,7 +213,7 @@ class Traffic:
     def _set_out(self, goal: Point | None, along: float, now: float) -> None:
         """Begin another journey."""
         self._let_go(along)
-        self.right.set_out(IDLE if goal is None else round(now * 1e9))
+        self.right.set_out(IDLE if goal is None else None)
         self._goal, self._going_at, self._planned_at = goal, now, now
         self._reason, self._needs.courtesy = '', COURTESY
         self._plan()
@@ -226,7 +257,8 @@ class Traffic:
         if self._goal is None:
             return False
         place = self.right.held[0]
-        floor = free_floor(self._zone, place, taken(self._needs.of_all()))
+        needs = self._needs
+        floor = free_floor(self._zone, place, taken(needs.of_all()), needs.held())
         if floor is None:
             return False
         way = way_round(self._zone, place, self._goal, floor, near=0.8)
@@ -241,7 +273,7 @@ class Traffic:
         here = shapely.Point(place)
         if all(apart(here, *wish) for wish in self._needs.wishes(np.inf, 0.0)):
             return False
-        floor = free_floor(self._zone, place, self.occupied())
+        floor = free_floor(self._zone, place, self.occupied(), self._needs.held())
         if floor is None:
             return False
         for reach in (np.inf, COURTESY):

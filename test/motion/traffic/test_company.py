@@ -13,7 +13,7 @@ from agv_motion.motion.mind import Mind, MindParameters
 from agv_motion.motion.paths import Paths
 from agv_motion.motion.polar import to_twist
 from agv_motion.motion.schedule import ScheduleParameters
-from agv_motion.motion.traffic.claim import IDLE, Claim
+from agv_motion.motion.traffic.claim import Claim, Word
 from agv_motion.motion.traffic.company import Company
 from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.traffic.right_of_way import RightOfWay
@@ -26,6 +26,8 @@ TRAFFIC = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, sil
 CLEARANCE = 2.0
 """[m] twice 0.7 + 0.2 + 0.2 / 2"""
 SPEED = 0.5
+RUN = 7
+"""of the tree under test"""
 ASLEEP = SapFlow(0.0, 0.5, 0.1)
 NIGHT = 1434344400.0
 """2015-06-15, 05:00 UTC"""
@@ -36,7 +38,7 @@ class Oak:
 
     def __init__(self, place, **given):
         mind = Mind(CORRIDOR, MindParameters(home=HomeParameters(speed=SPEED), **given))
-        right = RightOfWay('oak', place, TRAFFIC)
+        right = RightOfWay('oak', place, TRAFFIC, RUN)
         self.company = Company(mind, Traffic(right, CORRIDOR, Paths(CORRIDOR)))
         self.pose = Pose(*place, 0.0)
         self.going, self.giving_way, self.activities = set(), set(), []
@@ -47,10 +49,13 @@ class Oak:
             traffic = self.company.traffic
             way = (6.0, 1.25), (14.0, 1.25)
             traffic.hear(
-                Claim('ash', now * 10**9, 1.0, way[:1], (), way, 1, heard={'oak': IDLE}), now
-            )
+                Claim(
+                    'ash', Word(1, now), 0.9, way[:1], (), way, 0,
+                    heard={'oak': Word(RUN, now)}, margin=0.2,
+                ), now,
+            )  # fmt: skip
             traffic.claim(now)
-            thought = self.company.think(now, self.pose, flow)
+            thought = self.company.think(now, self.pose, flow, now)
             speeds = self.giving_way if 'gives way' in thought.activity else self.going
             speeds.add(thought.wanted.v)
             assert thought.way or not thought.wanted.v
@@ -82,7 +87,7 @@ def test_a_tree_steps_aside_as_its_sap_flows_but_no_slower(s1):
 def test_one_that_is_in_nobodys_way_rests_where_it_is():
     oak = Oak((20.0, 1.25)).live(ASLEEP, 300)
     assert (oak.pose.x, oak.pose.y) == (20.0, 1.25)
-    assert oak.company.think(NIGHT + 300, oak.pose, ASLEEP).way == ()
+    assert oak.company.think(NIGHT + 300, oak.pose, ASLEEP, NIGHT + 300).way == ()
 
 
 def test_nobody_steps_aside_before_opening():

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import line
-from agv_motion.motion.traffic.claim import Claim
+from agv_motion.motion.traffic.claim import Claim, Word
 from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.peers import Sides
 from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
+from agv_motion.motion.traffic.sides import Sides
 from agv_motion.simulation.radio import Radio, RadioParameters
 
 PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
@@ -125,14 +125,38 @@ def test_what_lies_behind_is_let_go():
     assert oak.held == ((5.0, 1.0),)
 
 
-def test_a_parked_tree_is_an_obstacle_that_need_not_answer():
+def test_a_parked_tree_that_knows_this_one_is_an_obstacle_that_need_not_answer():
     oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    talk([oak, pine], 0.0, rounds=2)
     pine.park()
     oak.hear(pine.claim(0.0), 0.0)
     asks(oak, (8.0, 0.0))
     assert oak.settle(10_000.0).answer is Answer.GRANTED
     asks(oak, (9.0, 0.0))
     assert oak.settle(10_000.0).answer is Answer.TAKEN
+
+
+def test_one_that_parked_without_knowing_this_one_is_not_relied_upon():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    pine.park()
+    oak.hear(pine.claim(0.0), 0.0)
+    asks(oak, (1.0, 0.0))
+    assert oak.settle(0.0).answer is Answer.PENDING
+
+
+def test_two_that_each_believe_the_other_parked_do_not_take_the_same_floor():
+    """Both parked, then both set out while neither hears the other any more."""
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    talk([oak, pine], 0.0, rounds=2)
+    oak.park()
+    pine.park()
+    talk([oak, pine], 1.0, rounds=2)
+    for one in (oak, pine):
+        asks(one, (5.0, 0.0))
+        one.claim(2.0)
+        assert one.settle(2.0).answer is Answer.PENDING
+        one.claim(100.0)
+        assert one.settle(100.0).answer is Answer.TAKEN, 'silent, and nothing is agreed'
 
 
 def test_a_parked_tree_asks_before_it_moves():
@@ -176,11 +200,158 @@ def test_a_message_overtaken_by_a_later_one_is_dropped():
     assert oak.settle(2.0).answer is Answer.TAKEN
 
 
-def test_two_trees_of_one_name_are_told():
+def test_two_trees_of_one_name_are_told_and_neither_moves_while_the_other_speaks():
     oak, other = tree('oak', 0.0), tree('oak', 10.0)
+    asks(oak, (3.0, 0.0))
     oak.claim(0.0)
     with pytest.raises(SignalError, match="calls itself 'oak'"):
         oak.hear(other.claim(1.0), 1.0)
+    assert "calls itself 'oak'" in oak.obstacle(31.0)
+    assert oak.settle(31.0).answer is Answer.ALARM
+    assert oak.settle(31.1).answer is Answer.GRANTED
+
+
+def test_the_floor_of_a_twin_that_heard_this_tree_stays_taken():
+    oak, twin = tree('oak', 0.0), tree('oak', 4.0)
+    for hearer, speaker in ((twin, oak), (oak, twin)):
+        with pytest.raises(SignalError):
+            hearer.hear(speaker.claim(0.0), 0.0)
+    asks(oak, (2.5, 0.0))
+    oak.claim(100.0)
+    assert oak.settle(100.0).answer is Answer.TAKEN
+
+
+def test_a_third_tree_tells_two_of_one_name_apart_and_stands():
+    """Both answer it in turn: neither can have ended before the other began."""
+    oak, one, other = tree('oak', 0.0), tree('pine', 10.0), tree('pine', 20.0)
+    for _ in range(4):
+        for twin in (one, other):
+            twin.hear(oak.claim(0.0), 0.0)
+            oak.hear(twin.claim(0.0), 0.0)
+    assert "call themselves 'pine'" in oak.obstacle(30.0)
+    asks(oak, (1.0, 0.0))
+    oak.claim(30.0)
+    assert oak.settle(30.0).answer is Answer.ALARM
+
+
+def test_after_a_claim_that_was_refused_nobody_moves_for_a_while():
+    oak = tree('oak', 0.0)
+    asks(oak, (3.0, 0.0))
+    oak.alarm('a claim was refused', 5.0)
+    assert str(oak.settle(35.0)) == 'stands: a claim was refused'
+    assert oak.settle(35.1).answer is Answer.GRANTED
+
+
+# Runs: a tree that starts again knows nothing
+
+
+def test_an_answer_to_an_earlier_run_is_none_for_this_one():
+    """The clock fell back over the restart; what counts is the run."""
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    for _ in range(5):
+        talk([oak, pine], 1000.0)
+    late = pine.claim(1000.0)
+    oak = tree('oak', 0.0)
+    asks(oak, (5.0, 0.0))
+    oak.claim(0.0)
+    oak.hear(late, 0.0)
+    assert oak.settle(0.0).answer is Answer.PENDING
+
+
+def test_of_a_peer_that_starts_again_old_and_new_floor_stay_taken_until_it_answers():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    talk([oak, pine], 1000.0, rounds=2)
+    again = tree('pine', 20.0)
+    oak.hear(again.claim(0.0), 1001.0)
+    for target, answer in (((8.5, 0.0), Answer.TAKEN), ((2.0, 0.0), Answer.PENDING)):
+        asks(oak, target)
+        oak.claim(1002.0)
+        assert oak.settle(1002.0).answer is answer
+    talk([oak, again], 1003.0, rounds=2)
+    asks(oak, (8.5, 0.0))
+    talk([oak, again], 1004.0, rounds=2)
+    assert oak.settle(1004.0).answer is Answer.GRANTED
+
+
+def test_a_late_word_of_an_ended_run_changes_nothing():
+    oak, pine = tree('oak', 0.0), tree('pine', 20.0)
+    talk([oak, pine], 0.0, rounds=2)
+    late, again = pine.claim(1.0), tree('pine', 8.0)
+    talk([oak, again], 2.0, rounds=3)
+    oak.hear(late, 3.0)
+    assert oak.obstacle(3.0) == ''
+    asks(oak, (7.0, 0.0))
+    oak.claim(3.0)
+    assert oak.settle(3.0).answer is Answer.TAKEN, 'the present run stands at 8'
+
+
+def test_a_late_word_of_a_run_never_heard_before_is_not_taken_for_the_present_one():
+    """The first run's words come after the second's: until an answer tells, both are taken."""
+    oak, first = tree('oak', 0.0), tree('pine', 20.0)
+    first.hear(oak.claim(0.0), 0.0)
+    late, again = first.claim(0.0), tree('pine', 8.0)
+    oak.hear(again.claim(1.0), 1.0)
+    oak.hear(late, 2.0)
+    asks(oak, (7.0, 0.0))
+    assert oak.settle(2.0).answer is Answer.TAKEN
+    talk([oak, again], 3.0, rounds=2)
+    assert [len(peer.floors()) for peer in oak.peers] == [1]
+
+
+def test_it_waits_for_all_that_an_earlier_run_knew():
+    oak = RightOfWay('oak', (0.0, 0.0), PARAMETERS, known=('pine',))
+    asks(oak, (5.0, 0.0))
+    oak.claim(0.0)
+    assert str(oak.settle(1000.0)) == 'waits for the answer of pine'
+
+
+def test_a_request_of_a_silent_tree_counts_as_granted_however_near_it_is():
+    """It asked for floor 1 m from here; had it been answered, it may be there by now."""
+    oak, pine = tree('oak', 0.0), tree('pine', 4.0)
+    talk([oak, pine], 0.0, rounds=2)
+    asks(pine, (2.0, 0.0))
+    talk([oak, pine], 1.0)
+    oak.stand((0.5, 0.0))
+    asks(oak, (0.6, 0.0))
+    oak.claim(100.0)
+    assert oak.settle(100.0).answer is Answer.TAKEN
+    assert [peer.floors()[0].line.bounds[0] for peer in oak.peers] == [2.0]
+
+
+def test_who_stands_on_the_floor_of_another_may_leave_it_but_not_along_it_towards_the_other():
+    """Carried there: pine holds all from 0 to 6 m and stands at 0, 1.5 m away."""
+    oak, pine = tree('oak', 1.5), tree('pine', 0.0)
+    asks(pine, (6.0, 0.0))
+    assert pine.settle(0.0).answer is Answer.GRANTED
+    talk([oak, pine], 0.0, rounds=2)
+    for target, answer in (((1.4, 0.0), Answer.TAKEN), ((1.5, -1.0), Answer.GRANTED)):
+        asks(oak, target)
+        talk([oak, pine], 0.0, rounds=2)
+        assert oak.settle(0.0).answer is answer
+
+
+def test_radius_and_margin_may_differ_and_the_larger_margin_holds():
+    """0.9 + 0.6 of radius and 0.5 of margin: 2.0 m."""
+    oak = tree('oak', 0.0)
+    pine = tree('pine', 10.0, body=0.3, tolerance=0.3, margin=0.5)
+    asks(oak, (8.01, 0.0))
+    talk([oak, pine], 0.0, rounds=2)
+    assert oak.settle(0.0).answer is Answer.TAKEN
+    oak.withdraw()
+    asks(pine, (2.0, 0.0))
+    talk([oak, pine], 0.0, rounds=2)
+    assert pine.settle(0.0).answer is Answer.GRANTED
+
+
+def test_journeys_are_ordered_by_who_had_heard_of_whom_not_by_clocks():
+    oak, pine = tree('oak', 0.0), tree('pine', 10.0)
+    oak.set_out()
+    pine.hear(oak.claim(5000.0), -5000.0)
+    pine.set_out()
+    assert oak.precedence < pine.precedence
+    oak.hear(pine.claim(-5000.0), 5000.0)
+    oak.set_out()
+    assert pine.precedence < oak.precedence
 
 
 def test_its_own_message_coming_back_says_nothing():
@@ -189,23 +360,32 @@ def test_its_own_message_coming_back_says_nothing():
     assert len(oak.peers) == 0
 
 
-def test_stamps_go_on_when_the_clock_falls_back():
+def test_every_message_of_a_run_has_a_number_of_its_own_whatever_the_clock_says():
     oak = tree('oak', 0.0)
-    assert oak.claim(100.0).stamp < oak.claim(50.0).stamp < oak.claim(50.0).stamp
+    assert [oak.claim(now).word.number for now in (100.0, 50.0, 50.0)] == [0, 1, 2]
+    assert oak.claim(0.0).word.run != tree('oak', 0.0).claim(0.0).word.run
 
 
 @pytest.mark.parametrize(
     ('changes', 'complaint'),
     [
-        ({'name': ''}, 'needs name and place'),
-        ({'held': ()}, 'needs name and place'),
+        ({'name': ''}, 'needs name, place'),
+        ({'held': ()}, 'needs name, place'),
         ({'radius': nan}, 'radius nan'),
         ({'radius': 0.0}, 'must be positive'),
         ({'asked': ((0.0, 0.0), (nan, 1.0))}, 'must be finite'),
+        ({'wish': ((0.0, 1e9),)}, 'must be finite and within'),
+        ({'wish': ((0.0, 1.0),) * 1001}, 'at most 1000'),
+        ({'radius': 1e9}, 'must be positive, <= 1000'),
+        ({'margin': nan}, 'margin nan'),
+        ({'name': 'x' * 201}, 'at most 200'),
+        ({'journey': -1}, 'must lie in'),
+        ({'word': Word(1, -1)}, 'must lie in'),
+        ({'heard': {'pine': Word(2**64, 0)}}, 'must lie in'),
     ],
 )
 def test_a_claim_that_says_nothing_sound_is_refused(changes, complaint):
-    sound = {'name': 'oak', 'stamp': 1, 'radius': 1.0, 'held': ((0.0, 0.0),)}
+    sound = {'name': 'oak', 'word': Word(1, 1), 'radius': 1.0, 'held': ((0.0, 0.0),)}
     with pytest.raises(SignalError, match=complaint):
         Claim(**(sound | changes))
 
@@ -279,7 +459,7 @@ class Chaos:
         elif dice < 0.34:
             one.withdraw()
         elif dice < 0.36:
-            one.set_out(round(1e9 * self.now))
+            one.set_out()
         elif dice < 0.37:
             one.park()
 

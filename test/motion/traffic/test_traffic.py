@@ -8,7 +8,7 @@ from math import dist
 import pytest
 
 from agv_motion.motion.paths import Paths
-from agv_motion.motion.traffic.claim import Claim
+from agv_motion.motion.traffic.claim import IDLE, Claim, Word
 from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.traffic.right_of_way import RightOfWay
 from agv_motion.motion.traffic.traffic import Traffic
@@ -21,13 +21,18 @@ HALL = Zone([[0, 0], [30, 0], [30, 20], [0, 20]], margin=1.0)
 CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
 
 
+RUN = 7
+"""of the tree under test"""
+
+
 def tree(name, x, y, zone=HALL):
-    return Traffic(RightOfWay(name, (x, y), PARAMETERS), zone, Paths(zone))
+    return Traffic(RightOfWay(name, (x, y), PARAMETERS, RUN), zone, Paths(zone))
 
 
 def other(now, *held, **rest):
     """Return what `ash` says, which has heard all there is to hear."""
-    return Claim('ash', round(now * 1e9), 1.0, held, heard={'oak': 10**18}, **rest)
+    word, heard = Word(1, round(now)), {'oak': Word(RUN, 10**9)}
+    return Claim('ash', word, 0.9, held, heard=heard, margin=0.2, **rest)
 
 
 def walk(oak, goal, seconds, ash=lambda now: None, start=0):
@@ -78,7 +83,7 @@ def test_courtesy_leaves_the_way_to_who_goes_first_while_it_speaks(silent):
     def ash(now):
         if silent and now > 10:
             return None
-        return other(now, (6.0, 10.0), journey=-1, wish=((6.0, 10.0), (6.0, 5.0)))
+        return other(now, (6.0, 10.0), journey=0, wish=((6.0, 10.0), (6.0, 5.0)))
 
     places = walk(tree('oak', 2.0, 5.0), (6.0, 5.0), 500, ash)
     assert (dist(places[-1], (6.0, 5.0)) < 0.1) is silent
@@ -88,7 +93,7 @@ def test_who_stands_in_the_way_of_one_that_goes_first_walks_out_of_it():
     """In the corridor the only refuge lies behind, beyond where the other goes; there it waits."""
 
     def ash(now):
-        return other(now, (6.0, 1.25), journey=-1, wish=((6.0, 1.25), (14.0, 1.25)))
+        return other(now, (6.0, 1.25), journey=0, wish=((6.0, 1.25), (14.0, 1.25)))
 
     places = walk(tree('oak', 10.0, 1.25, CORRIDOR), (2.0, 1.25), 600, ash)
     assert places[-1][0] == pytest.approx(14.0 + CLEARANCE, abs=0.11)
@@ -99,11 +104,12 @@ def test_who_goes_first_but_is_blocked_for_long_becomes_the_youngest():
     oak = tree('oak', 10.0, 1.25, CORRIDOR)
 
     def ash(now):
-        return other(now, (6.0, 1.25), journey=2 * 10**9, wish=((6.0, 1.25), (14.0, 1.25)))
+        journey = 2 if now else IDLE  # it sets out once oak has
+        return other(now, (6.0, 1.25), journey=journey, wish=((6.0, 1.25), (14.0, 1.25)))
 
     places = walk(oak, (2.0, 1.25), 250, ash)
-    assert oak.right.journey == 0
+    assert oak.right.journey == 1
     assert places[-1][0] == pytest.approx(8.0, abs=0.1)
     places = walk(oak, (2.0, 1.25), 600, ash, start=250)
-    assert oak.right.journey > 2 * 10**9
+    assert oak.right.journey > 2
     assert places[-1][0] == pytest.approx(14.0 + CLEARANCE, abs=0.11)

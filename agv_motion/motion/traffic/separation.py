@@ -1,0 +1,96 @@
+"""Whether a way keeps clear of floor that another tree holds, or at least leads away from it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import shapely
+
+from agv_motion.motion.polyline import cut, length, line
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from agv_motion.motion.polyline import Way
+
+TOUCH = 1e-6
+"""[m] Rounding that is no overlap."""
+
+SAMPLE = 0.05
+"""[m] between the places at which a way is tested."""
+
+
+class Floor(NamedTuple):
+    """Floor that another tree may be on."""
+
+    line: shapely.Geometry
+    """where its centre may be"""
+    body: shapely.Geometry
+    """where its centre is, as far as it said"""
+
+
+def apart(a: shapely.Geometry, b: shapely.Geometry, clearance: float) -> bool:
+    """Return whether two ways keep ``clearance`` [m]; nothing keeps it from anything."""
+    return bool(not a.distance(b) < clearance - TOUCH)  # the distance of an empty one is NaN
+
+
+def keeps_away(way: Way, floor: Floor, clearance: float) -> bool:
+    """Return whether ``way`` keeps ``clearance`` [m] from ``floor``, or leads away from it.
+
+    Where it begins nearer, neither the floor nor the tree on it may come nearer on any metre of it:
+    so who stands on another's floor may leave, and nothing else.
+    """
+    whole = line(way)
+    if apart(whole, floor.line, clearance):
+        return True
+    places = _places(way)
+    return all(
+        bool(whole.distance(thing) >= min(float(away[0]), clearance) - TOUCH)
+        and not _nearer(away, clearance).any()
+        for thing in floor
+        for away in (shapely.distance(places, thing),)
+    )
+
+
+def free_part(way: Way, floor: Floor, clearance: float, least: float = 0.0) -> Way:
+    """Return ``way`` up to where it no longer keeps away from ``floor``.
+
+    Args:
+        way: From where the tree is.
+        floor: Of another tree.
+        clearance: To keep from it [m].
+        least: A shorter piece is none [m].
+
+    """
+    if len(way) < 2 or keeps_away(way, floor, clearance):
+        return way
+    places = _places(way)
+    bad = np.zeros(len(places), bool)
+    for thing in floor:
+        bad |= _nearer(shapely.distance(places, thing), clearance)
+    first = int(np.flatnonzero(bad)[0]) if bad.any() else len(places)
+    upto = length(way) * (first - 1) / (len(places) - 1)
+    while upto > max(least, TOUCH):
+        short = cut(way, upto)[0]
+        if keeps_away(short, floor, clearance):
+            return short
+        upto /= 2.0
+    return way[:1]
+
+
+def _places(way: Way) -> NDArray[np.object_]:
+    """Return points along ``way``, both ends among them."""
+    if len(way) < 2:
+        return np.array([line(way)], dtype=object)
+    count = max(int(length(way) / SAMPLE) + 2, 2)
+    share = np.linspace(0.0, 1.0, count)
+    places: NDArray[np.object_] = shapely.line_interpolate_point(line(way), share, normalized=True)
+    return places
+
+
+def _nearer(away: NDArray[np.float64], clearance: float) -> NDArray[np.bool_]:
+    """Return at which places a way is nearer than before, and nearer than ``clearance``."""
+    farthest = np.minimum(np.maximum.accumulate(away), clearance)
+    nearer: NDArray[np.bool_] = away < farthest - TOUCH
+    return nearer
