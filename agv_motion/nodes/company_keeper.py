@@ -63,11 +63,13 @@ class CompanyKeeper:
             msg = 'share_zone without a name: start the node in a namespace, or give tree_name'
             raise ConfigurationError(msg)
         self._roster = Roster(peers_file)
+        if self._roster.complaint:
+            node.get_logger().error(self._roster.complaint)
         if not {*parameters.expected, *self._roster.names} - {name}:
             where = f"peers_file '{peers_file}' remembers" if peers_file else 'no peers_file tells'
             msg = (
-                f'share_zone knows no other tree than itself ({where} none): name the others in '
-                'traffic.expected, so that the tree waits for them where the network is slow'
+                f'share_zone knows no other tree ({where} none): name all others in '
+                'traffic.expected, else this one would walk into any that it does not hear yet'
             )
             raise ConfigurationError(msg)
         self._node, self._mind, self._parameters = node, mind, parameters
@@ -103,7 +105,7 @@ class CompanyKeeper:
     def report(self) -> dict[str, str]:
         """Return who else is there, and what is wrong with them, for the diagnostics."""
         if self._company is None:
-            return {'other trees': 'not known: no pose yet'}
+            return {'other trees': 'not known: no pose yet', 'nobody moves': 'no'}
         right = self._company.traffic.right
         told = [f'{p.claim.name}{" (silent)" if p.silent else ""}' for p in right.peers]
         told += [f'{name} (never heard)' for name in right.awaited if name not in right.peers]

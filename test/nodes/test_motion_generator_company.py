@@ -96,6 +96,74 @@ def test_a_tree_tells_where_it_is_and_parks_at_the_end(tester, zone):
     tester.wait(claims, lambda m: '"parked": true' in m.markers[0].text)
 
 
+def live_until(tester, trees, condition, seconds=60.0):
+    """Let ``trees`` live on until something holds."""
+    end = before = time.monotonic()
+    while not condition():
+        now = time.monotonic()
+        assert now < end + seconds, [tree.node.diagnose() for tree in trees]
+        for tree in trees:
+            tree.live(now - before)
+        before = now
+        tester.graph.spin_for(0.05)
+
+
+def stands(tree, word):
+    """Return whether a tree does not move, and says why with a ``word``."""
+    told = tree.node.diagnose()
+    return tree.twist == REST and word in told.values['nobody moves'] and word in told.message
+
+
+def test_two_of_one_name_stand_and_say_so_until_one_is_gone(tester, zone):
+    """Both namespaces differ, as by a copied configuration."""
+    given = {'tree_name': 'oak', 'traffic__silent_after': 1.0, 'traffic__expected': ['ash']}
+    one = Tree(tester, zone, 'one', (1.0, 2.0), (6.0, 2.0), **given)
+    other = Tree(tester, zone, 'other', (6.0, 2.0), (1.0, 2.0), **given)
+    both = [one, other]
+    live_until(tester, both, lambda: all(stands(tree, "calls itself 'oak'") for tree in both))
+    assert one.pose == Pose(1.0, 2.0, 0.0)
+    other.node.trigger_deactivate()
+    live_until(tester, [one], lambda: one.node.diagnose().values['nobody moves'] == 'no')
+
+
+def test_a_claim_that_is_refused_is_told_and_the_tree_stands_for_a_while(tester, zone):
+    oak = Tree(
+        tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), traffic__silent_after=1.0,
+        traffic__expected=['ash'],
+    )  # fmt: skip
+    words = tester.node.create_publisher(MarkerArray, '/ways', WAYS)
+    claims = tester.listen(MarkerArray, '/ways', WAYS)
+    live_until(tester, [oak], lambda: claims and words.get_subscription_count() >= 1)
+    words.publish(MarkerArray())
+    live_until(tester, [oak], lambda: stands(oak, '0 markers are no claim of a tree'))
+    live_until(tester, [oak], lambda: oak.node.diagnose().values['nobody moves'] == 'no')
+
+
+def test_who_was_heard_is_waited_for_after_a_restart(tester, zone, tmp_path):
+    """Oak expects nobody but ash; after it has heard pine it waits for both."""
+    file = tmp_path / 'peers'
+    given = {'peers_file': str(file), 'traffic__expected': ['ash']}
+    oak = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
+    pine = Tree(tester, zone, 'pine', (6.0, 2.0), (1.0, 2.0))
+    live_until(tester, [oak, pine], file.exists)
+    for tree in (oak, pine):
+        tree.node.trigger_shutdown()
+    given['traffic__expected'] = ['oak']  # nobody by itself
+    again = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
+    live_until(tester, [again], lambda: 'waits for the answer of pine' in again.node.diagnose()[1])
+    assert again.pose == Pose(1.0, 2.0, 0.0)
+
+
+def test_a_tree_that_knows_of_no_other_does_not_start(tester, zone, tmp_path):
+    """Where the network is slow it would walk into one that it does not hear yet."""
+    for file in ('', str(tmp_path / 'none')):
+        with pytest.raises(StartError):
+            tester.start(
+                MotionGenerator, share_zone=True, tree_name='oak', zone_file=zone,
+                traffic__expected=['oak'], peers_file=file,
+            )  # fmt: skip
+
+
 def test_a_tree_without_name_or_zone_does_not_start(tester, zone):
     with pytest.raises(StartError):
         tester.start(MotionGenerator, share_zone=True, zone_file=zone, traffic__expected=['ash'])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shapely
 
 from agv_motion.motion.traffic.detour import free_floor, taken
+from agv_motion.motion.traffic.separation import Floor
 from agv_motion.motion.zone import Zone
 
 BEND = shapely.LineString([
@@ -31,3 +32,13 @@ def test_what_others_need_is_joined_even_where_the_area_round_a_way_touches_itse
     floor = free_floor(zone, (1.0, 1.0), area)
     assert floor is not None
     assert min(floor.distance(ACROSS), floor.distance(BEND)) >= CLEARANCE
+
+
+def test_no_step_to_free_floor_leads_through_floor_that_another_holds():
+    """In a corridor the nearer free floor lies beyond the other, which stands 1.5 m away."""
+    corridor = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
+    ash, wished = shapely.Point(11.5, 1.25), shapely.LineString([(0, 1.25), (11.5, 1.25)])
+    blocked = taken([(wished, 2.0)])
+    held = [(Floor(ash, ash), 2.0)]
+    assert free_floor(corridor, (10.0, 1.25), blocked) is not None
+    assert free_floor(corridor, (10.0, 1.25), blocked, held) is None

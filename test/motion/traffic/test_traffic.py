@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, permutations
 from math import dist
 
 import pytest
@@ -11,7 +11,7 @@ from agv_motion.motion.paths import Paths
 from agv_motion.motion.traffic.claim import IDLE, Claim, Word
 from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.traffic.right_of_way import RightOfWay
-from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.motion.traffic.traffic import STUCK, Traffic
 from agv_motion.motion.zone import Zone
 
 PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
@@ -25,8 +25,9 @@ RUN = 7
 """of the tree under test"""
 
 
-def tree(name, x, y, zone=HALL):
-    return Traffic(RightOfWay(name, (x, y), PARAMETERS, RUN), zone, Paths(zone))
+def tree(name, x, y, zone=HALL, **changes):
+    given = TrafficParameters(**(PARAMETERS.__dict__ | changes))
+    return Traffic(RightOfWay(name, (x, y), given, RUN), zone, Paths(zone))
 
 
 def other(now, *held, **rest):
@@ -113,3 +114,84 @@ def test_who_goes_first_but_is_blocked_for_long_becomes_the_youngest():
     places = walk(oak, (2.0, 1.25), 600, ash, start=250)
     assert oak.right.journey > 2
     assert places[-1][0] == pytest.approx(14.0 + CLEARANCE, abs=0.11)
+
+
+def test_whatever_was_granted_no_step_leads_onto_floor_that_another_holds_now():
+    """Ash is carried onto the way that oak holds: oak stops clear of it, and says for whom."""
+    oak, goal = tree('oak', 2.0, 5.0), (12.0, 5.0)
+    x, y = place = walk(oak, goal, 20)[-1]
+    assert oak.right.held[-1][0] > x + 0.1
+    oak.hear(other(20, (x + 1.95, y)), 20)
+    target = oak.towards(goal, place, 20).target
+    assert target == pytest.approx((x + 0.05, y), abs=0.03), 'half the tolerance nearer than 2 m'
+    oak.hear(other(21, (x + 1.5, y)), 21)
+    passage = oak.towards(goal, place, 21)
+    assert passage.target is None
+    assert passage.reason == 'waits for ash, which is on its floor'
+    assert len(oak.right.held) == 1
+
+
+def test_a_tree_that_was_carried_tells_where_it_is_and_stands_until_others_have_heard():
+    oak = tree('oak', 2.0, 5.0)
+    walk(oak, (10.0, 5.0), 20)
+    passage = oak.towards((10.0, 5.0), (4.0, 8.0), 20.0)
+    assert passage.target is None
+    assert 'off its way, more than the tolerance of 0.2 m' in passage.reason
+    assert oak.claim(20.0).held[0] == (4.0, 8.0)
+    places = walk(oak, (10.0, 5.0), 31, start=20)
+    assert places[-1] == (4.0, 8.0)
+    places = walk(oak, (10.0, 5.0), 300, start=51)
+    assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
+
+
+def test_a_request_is_never_taken_back_because_the_answer_is_slow():
+    """An answer takes 10 minutes; the tree asks for the same all the time, and is not blocked."""
+    oak = tree('oak', 2.0, 5.0)
+    asked = set()
+    for now in range(600):
+        oak.hear(Claim('ash', Word(1, now), 0.9, ((20.0, 15.0),), margin=0.2), now)
+        oak.claim(now)
+        passage = oak.towards((10.0, 5.0), (2.0, 5.0), now)
+        asked.add(oak.right.asked)
+        assert passage.blocked < STUCK
+        assert passage.reason == 'waits for the answer of ash'
+    assert len(asked) == 1
+    oak.hear(other(600, (20.0, 15.0)), 600)
+    assert oak.towards((10.0, 5.0), (2.0, 5.0), 600).target is not None
+
+
+@pytest.mark.parametrize('tolerance', [0.02, 0.1, 0.3])
+def test_corners_are_cut_by_no_more_than_half_the_tolerance(tolerance):
+    """Round a tree that stands in the way there are corners everywhere."""
+    oak, ash = tree('oak', 2.0, 5.0, tolerance=tolerance), (6.0, 5.0)
+    places = walk(oak, (10.0, 5.0), 600, ash=lambda now: other(now, ash))
+    assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
+    assert oak.right.obstacle(600.0) == ''
+    clearance = 0.7 + tolerance + 0.9 + 0.2
+    assert min(dist(place, ash) for place in places) >= clearance - tolerance / 2.0
+
+
+T = Zone([[0, 6], [0, 9], [20, 9], [20, 6], [11.5, 6], [11.5, 0], [8.5, 0], [8.5, 6]], margin=1.0)
+
+
+@pytest.mark.parametrize('starts', list(permutations(((2.0, 7.5), (18.0, 7.5), (10.0, 1.5)), 2)))
+def test_two_with_fixed_goals_in_a_t_both_get_there(starts):
+    """Each goes where the other starts: one steps into the third arm."""
+    oak, ash = (tree(name, *at, T) for name, at in zip(('oak', 'ash'), starts, strict=True))
+    trees = {oak: starts[0], ash: starts[1]}
+    goals = {oak: starts[1], ash: starts[0]}
+    reached = set()
+    for now in range(3000):
+        words = {one: one.claim(now) for one in trees}
+        for one, place in trees.items():
+            one.hear(words[ash if one is oak else oak], now)
+            target = one.towards(goals[one], place, now).target
+            if target is not None and (away := dist(place, target)) > 0.0:
+                share = min(0.05 / away, 1.0)
+                trees[one] = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
+            if dist(trees[one], goals[one]) < 0.3:
+                reached.add(one)
+        assert dist(*trees.values()) >= 2 * 0.7 + 0.2
+        if len(reached) == 2:
+            return
+    pytest.fail(f'{[one.right.name for one in trees if one not in reached]} never got there')

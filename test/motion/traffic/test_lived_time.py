@@ -1,0 +1,11 @@
+"""The time a tree lives through, whatever its clock does."""
+
+from __future__ import annotations
+
+from agv_motion.motion.traffic.lived_time import LivedTime
+
+
+def test_it_goes_with_the_clock_never_back_and_takes_no_leap_for_time():
+    time = LivedTime(1.0)
+    shown = [1000.0, 1000.5, 1000.5, 900.0, 900.5, 1e9, 1e9 + 0.5]
+    assert [time.update(clock) for clock in shown] == [0.0, 0.5, 0.5, 0.5, 1.0, 2.0, 2.5]
