@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.bag_options import Bag
+from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 
@@ -41,7 +41,7 @@ def check(
 
     limits = Limits(_rates(rate or []), tolerance, gap)
     counts = {'error': 0, 'warning': 0}
-    with BagReader(bag) as reader, Console(stderr=True).status('Looking') as status:
+    with BagReader(bag) as reader, terminal(stderr=True).status('Looking') as status:
         for found in findings(reader, limits, lambda what: status.update(f'Looking at {what}')):
             counts[found.severity] += 1
             typer.echo(f'{found.severity}: {found.where}: {found.text}')

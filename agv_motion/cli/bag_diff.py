@@ -6,11 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from agv_motion.cli.terminal import terminal
+
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from agv_motion.bag.diff import Difference, TopicDiff
 
 
@@ -41,7 +44,7 @@ def diff(
     from agv_motion.bag import diff as comparison
     from agv_motion.bag.reader import BagReader
 
-    console = Console()
+    console = terminal()
     with BagReader(first) as one, BagReader(second) as other:
         chosen = topics or sorted(
             set(one.topics) & set(other.topics) if common else {*one.topics, *other.topics}
@@ -49,7 +52,7 @@ def diff(
         limits = comparison.Tolerance(tolerance, relative)
         found = [
             topic
-            for name in track(chosen, 'Comparing', console=Console(stderr=True), transient=True)
+            for name in track(chosen, 'Comparing', console=terminal(stderr=True), transient=True)
             for topic in comparison.diff(one, other, [name], limits)
         ]
         start = one.start

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
-from rich.console import Console
 from rich.progress import track
 
 from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def export(
     from agv_motion.bag.columns import read_topic
     from agv_motion.bag.reader import BagReader
 
-    console = Console(stderr=True)
+    console = terminal(stderr=True)
     writers = {'csv': _csv, 'parquet': _parquet}
     if table not in writers:
         msg = f"--format '{table}': choose csv or parquet"

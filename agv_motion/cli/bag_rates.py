@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from agv_motion.cli.bag_options import Bag, Topics
+from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,7 +40,7 @@ def hz(bag: Bag, topic_name: Topics = None, *, header: Header = False) -> None:
             topic, f'{rate:.3f}', *(f'{x:.3f}s' for x in numbers), f'{steps.std():.5f}s',
             str(len(stamps)),
         )  # fmt: skip
-    Console().print(table)
+    terminal().print(table)
 
 
 def gaps(
@@ -71,7 +71,7 @@ def gaps(
                 f'{silence.usual * 1e-9:.3f}s', str(silence.missing),
             )  # fmt: skip
     if table.row_count:
-        Console().print(table)
+        terminal().print(table)
     else:
         typer.echo('No gaps')
 

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import Progress
+
+from agv_motion.cli.terminal import terminal
 
 MOST_PROBLEMS = 20
 """that are told"""
@@ -37,7 +38,7 @@ def recover(
     find(damaged)
     with BagWriter(saved, compression=compression) as writer:
         recovery = Recovery(writer)
-        with Progress(console=Console(stderr=True), transient=True) as bar:
+        with Progress(console=terminal(stderr=True), transient=True) as bar:
             task = bar.add_task('Saving', total=1.0)
             recovery.save(damaged, lambda share: bar.update(task, completed=share))
     for problem in recovery.problems[:MOST_PROBLEMS]:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 import yaml
-from rich.console import Console
 from rich.table import Table
 
+from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -176,7 +176,7 @@ def _print(found: Calibration, topic: str) -> None:
             one.name, f'{one.nominal:.5f} {one.unit}', f'{one.value:.5f} {one.unit}',
             f'+- {spread:.5f} {one.unit}', '' if one.determined else 'not told by this motion',
         )  # fmt: skip
-    Console().print(table)
+    terminal().print(table)
     for names in found.undetermined:
         typer.echo(f'left open: {", ".join(names)}; drive so that they show apart from each other')
     if found.misfit > 2.0:

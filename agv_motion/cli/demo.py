@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.demo_differential import differential
 from agv_motion.cli.demo_domain import take_domain
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.demo_omni import omni
 from agv_motion.cli.demo_trees import trees
+from agv_motion.cli.terminal import terminal
 from agv_motion.ros.stop import end_at_once
 
 app = typer.Typer()
@@ -49,7 +49,7 @@ def demo(
     # what drives a simulated robot must never reach a real one on the network
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     end_at_once()  # until the graph is there
-    console = Console()
+    console = terminal()
     take_domain(console.print)
     if context.invoked_subcommand:
         return

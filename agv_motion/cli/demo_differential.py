@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.demo_folder import results
+from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from agv_motion.nodes.differential_simulator import DifferentialSimulator
     from agv_motion.nodes.sequence import SequenceNode
     from agv_motion.ros.node import ManagedNode
@@ -44,7 +46,7 @@ def differential(
     from agv_motion.cli.run_bag import read_run
     from agv_motion.cli.run_figure import draw
 
-    console = Console()
+    console = terminal()
     with results(output, 'run.png') as bag:
         told, success = _perform(sequence, time_factor, seed, bag, console)
         console.print(told)

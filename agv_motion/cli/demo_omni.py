@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.demo_folder import results
+from agv_motion.cli.terminal import terminal
 
 
 def omni(
@@ -36,7 +36,7 @@ def omni(
     from agv_motion.cli.demo_omni_graph import OmniGraph
     from agv_motion.cli.demo_omni_report import draw, read_run, summary
 
-    console = Console()
+    console = terminal()
     seconds = 60.0 * minutes
     carried = seconds / 1.5 if carry else 2 * seconds
     with results(output, 'path.png') as bag:

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.demo_folder import results
+from agv_motion.cli.terminal import terminal
 
 
 def trees(
@@ -38,7 +38,7 @@ def trees(
     from agv_motion.cli.demo_trees_graph import TreesGraph
     from agv_motion.cli.demo_trees_report import draw, nearest, read_walks, summary
 
-    console = Console()
+    console = terminal()
     with results(output, 'trees.png') as bag:
         graph = TreesGraph(count, zone, seed, time_factor, bag)
         graph.run(60.0 * minutes, console)

@@ -12,8 +12,10 @@ import time
 from typing import Annotated, NamedTuple
 
 import typer
-from rich.console import Console
 from rich.table import Table
+from rich.text import Text
+
+from agv_motion.cli.terminal import terminal
 
 
 class Finding(NamedTuple):
@@ -39,6 +41,9 @@ MODULES = (
     ('tf2_msgs', 'tf2_msgs', False, 'comes with a ROS installation (/tf)'),
     ('ros2cli', 'ros2cli', False, 'comes with a ROS installation; agv topic stands in for it'),
 )
+EXTRAS = {'pyarrow': 'parquet', 'distributed': 'cluster', 'dask': 'cluster'}
+"""Modules that a few options want, and the extra that brings each"""
+
 COMMANDS = (
     ('colcon', 'pip install colcon-common-extensions colcon-ros (building in a workspace)'),
     ('node', 'apt install nodejs (the independent bag reader in the tests)'),
@@ -78,6 +83,15 @@ def doctor(
         _print(findings)
     if any(finding.needed and _bad(finding) for finding in findings):
         sys.exit(1)
+
+
+def how_to_get(module: str) -> str:
+    """Return what to do where a module is missing; empty for one of which nothing is known."""
+    if module in EXTRAS:
+        return f'pip install "agv_motion[{EXTRAS[module]}]"'
+    known = {name: remedy for name, _, _, remedy in MODULES}
+    ros = module.endswith(('_msgs', '_interfaces')) or module.startswith(('ros', 'ament_'))
+    return known.get(module) or (known['rclpy'] if ros else '')
 
 
 def _bad(finding: Finding) -> bool:
@@ -139,5 +153,6 @@ def _print(findings: list[Finding]) -> None:
     for finding in findings:
         bad = _bad(finding)
         colour = ('red' if finding.needed else 'yellow') if bad else 'green'
-        table.add_row(finding.what, f'[{colour}]{finding.state}[/]', finding.remedy if bad else '')
-    Console().print(table)
+        state = Text(finding.state, style=colour)
+        table.add_row(finding.what, state, finding.remedy if bad else '')
+    terminal().print(table)

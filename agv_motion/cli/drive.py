@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.pose_text import parse_pose
+from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ def _act(
         raise ConfigurationError(msg)
     from agv_motion.cli.drive_graph import Drive
 
-    if not Drive(namespace).run(goal, speed, Console()):
+    if not Drive(namespace).run(goal, speed, terminal()):
         raise typer.Exit(1)
 
 

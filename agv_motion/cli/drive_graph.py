@@ -155,7 +155,7 @@ class Drive:
 
     def _watch(self, console: Console) -> None:
         """Show the drive until its end; Ctrl-C brakes the robot."""
-        columns = TextColumn('{task.description}'), BarColumn(), TimeElapsedColumn()
+        columns = TextColumn('{task.description}', markup=False), BarColumn(), TimeElapsedColumn()
         braking_since = None
         with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
             task = progress.add_task('', total=max(len(self._way) - 1, 1))

@@ -24,6 +24,7 @@ from agv_motion.cli import (
     sequence,
     topic,
 )  # fmt: skip
+from agv_motion.cli.terminal import escape_help
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.stop import interrupt
 
@@ -32,8 +33,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode='rich',
     context_settings={'help_option_names': ['-h', '--help']},
-    help='Motion of slow, sensor-driven robots on ROS 2. Start with [b]agv demo[/b]; when '
-    'something does not work, with [b]agv doctor[/b].',
+    help='Motion of slow, sensor-driven robots on ROS 2. Start with `agv demo`; when '
+    'something does not work, with `agv doctor`.',
 )
 app.add_typer(topic.app, name='topic')
 app.add_typer(nodes.app, name='nodes')
@@ -63,9 +64,22 @@ def main() -> None:
     """
     interrupt()
     try:
-        app(standalone_mode=True)
+        command = typer.main.get_command(app)
+        escape_help(command)
+        command(standalone_mode=True)
     except AgvMotionError as error:
         typer.echo(f'error: {error}', err=True)
+        sys.exit(1)
+    except ModuleNotFoundError as error:
+        name = (error.name or '').partition('.')[0]
+        remedy = doctor.how_to_get(name)
+        if not remedy:
+            raise
+        typer.echo(
+            f'error: this needs the module {name}, which is not installed: {remedy}; '
+            'agv doctor tells what else is missing',
+            err=True,
+        )
         sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)

@@ -6,10 +6,10 @@ import importlib
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from agv_motion.cli.nodes import require_node
+from agv_motion.cli.terminal import terminal
 from agv_motion.parameters import nested, rows
 
 if TYPE_CHECKING:
@@ -79,4 +79,4 @@ def parameters(
         table.add_column(column, overflow='fold')
     for row in descriptions:
         table.add_row(*row)
-    Console().print(table, markup=False)
+    terminal().print(table)

@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
+from agv_motion.cli.terminal import terminal
+
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from agv_motion.bag.recording import TopicReport
     from agv_motion.nodes.bag_recorder import BagRecorder
 
@@ -114,7 +117,7 @@ def _record(given: dict[str, Any], duration: float) -> None:
     try:
         node = BagRecorder(parameter_overrides=overrides(**given))
         start(node)
-        console = Console()
+        console = terminal()
         begun = time.monotonic()
         with console.status('Waiting for topics') as status:
 

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
 from agv_motion.cli.keys import keyboard
+from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
     from agv_motion.nodes.bag_player import BagPlayer
@@ -104,7 +104,7 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
 
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
-    console = Console()
+    console = terminal()
     arguments = [word for pair in remap for word in ('-r', pair)]
     try:
         node = BagPlayer(

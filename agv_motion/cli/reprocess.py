@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
+from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def reprocess(
         parameters(config, name)
     jobs = _jobs(sources, target)
     found: list[Outcome] = []
-    with Progress(console=Console(stderr=True), transient=True) as progress:
+    with Progress(console=terminal(stderr=True), transient=True) as progress:
         bar = progress.add_task('Reprocessing', total=len(jobs))
 
         def show(share: float) -> None:
@@ -130,7 +130,7 @@ def _tell(found: list[Outcome]) -> None:
             f'{one.took:.1f} s',
         )  # fmt: skip
     if table.row_count:
-        Console().print(table)
+        terminal().print(table)
     for missing in sorted({topic for one in found for topic in one.missing}):
         typer.echo(
             f'note: {missing} is not in the bag; if it has another name there, remap with -m'

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from agv_motion.cli.pose_text import parse_pose
+from agv_motion.cli.terminal import terminal
 from agv_motion.planar import Pose
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def route(
     if laps is not None:
         found = Route(found.waypoints, laps)
     run = predict(found, follow, _start(start, found), 1.0 / given.rate)
-    console = Console()
+    console = terminal()
     console.print(_summary(found, run))
     for warning in filter(None, (follow.orbit(), _unfinished(found, run))):
         console.print(f'Warning: {warning}', style='yellow', highlight=False)

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from agv_motion.cli.pose_text import parse_pose
+from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
     from agv_motion.nodes.sequence import SequenceParameters
@@ -86,7 +86,7 @@ def _predict(file: str, given: SequenceParameters, start: str, plot: Path | None
     found = load_sequence(find_config(file))
     begin = parse_pose('--start', start)
     predicted = predict(found, begin, given.tracking.ghost, given.follow)
-    console = Console()
+    console = terminal()
     console.print(_summary(predicted))
     last = predicted[-1]
     length = sum(each.length for each in predicted)
@@ -126,4 +126,4 @@ def _explain() -> None:
         table.add_column(column, overflow='fold')
     for row in keys():
         table.add_row(*row)
-    Console().print(table, markup=False)
+    terminal().print(table)

@@ -6,8 +6,9 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -43,8 +44,8 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
         stop = Stop()
         node = SequenceNode(parameter_overrides=overrides(file=file, autorun=True))
         start(node)
-        console = Console(stderr=True)
-        columns = (TextColumn('{task.description}'), BarColumn(), TimeElapsedColumn())
+        console = terminal(stderr=True)
+        columns = (TextColumn('{task.description}', markup=False), BarColumn(), TimeElapsedColumn())
         with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
             watch = Watch(node, stop, progress)
             spin([node], watch.over)

@@ -18,7 +18,7 @@ from agv_motion.cli.topic_options import Hidden, SimTime, SpinTime, Topic
 
 app = typer.Typer(
     no_args_is_help=True,
-    help='Look at topics, with the words and the output of [b]ros2 topic[/b].',
+    help='Look at topics, with the words and the output of `ros2 topic`.',
 )
 app.command(name='hz')(topic_rates.hz)
 app.command(name='bw')(topic_rates.bw)

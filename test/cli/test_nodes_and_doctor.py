@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -13,6 +14,8 @@ rclpy = pytest.importorskip('rclpy')
 
 from sensor_msgs.msg import JointState
 
+from agv_motion.cli.doctor import how_to_get
+from agv_motion.cli.terminal import terminal
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.run import start
 
@@ -76,6 +79,37 @@ def test_doctor_finds_what_is_there_and_tries_to_talk(alone):
     assert findings['rclpy']['state'] not in {'missing', ''}
     assert 'hear each other' in findings['two participants']['state']
     assert 'what to do' in alone('doctor', '--no-talk')[1]
+
+
+@pytest.mark.parametrize(
+    ('command', 'module', 'remedy'),
+    [
+        (('topic', 'list'), 'rclpy', 'pip install "agv_motion[ros]", or source a ROS 2 Jazzy'),
+        (('demo',), 'geometry_msgs', 'pip install "agv_motion[ros]"'),
+        (('run', 'wheel_kinematics'), 'sensor_msgs', 'pip install "agv_motion[ros]"'),
+    ],
+)
+def test_a_module_that_is_not_installed_is_told_in_one_line(
+    alone, tmp_path, command, module, remedy
+):
+    (tmp_path / 'sitecustomize.py').write_text(f'import sys; sys.modules[{module!r}] = None')
+    path = f'{tmp_path}{os.pathsep}{os.environ.get("PYTHONPATH", "")}'
+    process = alone.start(*command, env=os.environ | {'PYTHONPATH': path})
+    _, errors = process.communicate(timeout=60.0)
+    assert process.returncode == 1
+    assert errors.startswith(f'error: this needs the module {module}, which is not installed: ')
+    assert remedy in errors
+    assert errors.count('\n') == 1
+
+
+def test_square_brackets_are_shown_as_they_are(alone):
+    """Units, and the extras of a package: no terminal may take them for markup."""
+    assert '[degrees] above 0' in alone('drive', 'arc', '--help')[1]
+    assert 'agv_motion[plot]' in ' '.join(how_to_get('matplotlib').split())
+    told = terminal()
+    with told.capture() as captured:
+        told.print('pip install "agv_motion[ros]" [m/s] :sos:')
+    assert captured.get() == 'pip install "agv_motion[ros]" [m/s] :sos:\n'
 
 
 def test_help_waits_for_nothing_heavy(alone):
