@@ -1,0 +1,151 @@
+"""Whether a robot that is told to move does not: it is held, wedged, or its motors are off.
+
+What it was told is summed up as the path that the commands alone would have led it, so that a
+command that trembles about zero tells nothing. What it did is its pose, averaged over a while, so
+that noise is no motion and a slow robot is seen to move. There is no answer before commands have
+led so far that even a coarse or late pose would show it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, hypot
+from typing import Annotated
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.parameters import Spec, check
+from agv_motion.planar import REST, Pose, Twist, integrate, require_finite, wrap
+
+STOP, RETRY = 'stop', 'retry'
+
+AVERAGED = 0.2
+"""[-] Time constant of the averages, as a share of the time after which a robot is blocked."""
+
+NOISE = 2.0
+"""[-] Less than this many times the mean noise of the pose is no motion. A robot that moves evenly
+seems noisy too, as the average lags, but by a fifth of what it moves in that time."""
+
+LEAST = 0.001
+"""[m] Nor is less than this."""
+
+LONG_REST = 1.0
+"""[s] After a longer rest what was told before counts no more."""
+
+HERE = Pose(0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class BlockedParameters:
+    """When a robot that is told to move and does not is blocked, and what then."""
+
+    after: Annotated[
+        float,
+        Spec('time without motion, though told to move, until it stops; 0: never', 's',
+             (0.0, 3600.0), dynamic=True),
+    ] = 5.0  # fmt: skip
+    distance: Annotated[
+        float,
+        Spec('steps or drift of the pose of a robot that stands; it is to be told twice as much '
+             'first', 'm', (0.001, 100.0), dynamic=True),
+    ] = 0.05  # fmt: skip
+    then: Annotated[
+        str,
+        Spec('stop: until a person lets it go on; or try again by itself', choices=(STOP, RETRY),
+             dynamic=True),
+    ] = STOP  # fmt: skip
+    retry_after: Annotated[
+        float, Spec('time to stand before it tries again', 's', (0.1, 1e5), dynamic=True)
+    ] = 10.0
+
+    def __post_init__(self) -> None:
+        """Check every row, and that a short glitch is no block."""
+        check(self)
+        if 0.0 < self.after < 0.5:
+            msg = f'after = {self.after} s: give 0.5 s or more, or 0 to look for no block at all'
+            raise ConfigurationError(msg)
+
+
+class BlockedWatch:
+    """Compares what a robot is told with how its pose changes."""
+
+    def __init__(self, parameters: BlockedParameters, arm: float) -> None:
+        """Know nothing.
+
+        Args:
+            parameters: When it is blocked.
+            arm: Distance from the centre at which a turn is measured as a motion [m].
+
+        """
+        self.parameters = parameters
+        self._arm = arm
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget: another motion begins."""
+        self._mean: Pose | None = None
+        self._noise = 0.0
+        self._rested = 0.0
+        self._anchor_at(HERE)
+
+    def update(self, dt: float, pose: Pose, twist: Twist) -> bool:
+        """Return whether the robot is blocked.
+
+        Args:
+            dt: Since the last call [s].
+            pose: As it is measured now.
+            twist: Told for the time ``dt``.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        require_finite('dt, pose and twist', (dt, *pose, *twist))
+        given = self.parameters
+        self._average(dt, pose)
+        self._rested = self._rested + dt if twist == REST else 0.0
+        if self._rested > LONG_REST or self._has_moved():
+            self._anchor_at(self._mean or pose)
+        if twist == REST or given.after == 0.0:
+            return False
+        self._time += dt
+        self._path = integrate(self._path, twist, dt)
+        self.told = max(self.told, self._size(HERE, self._path))
+        return self._time >= given.after and self.told >= 2.0 * given.distance
+
+    def describe(self) -> str:
+        """Return what it was told and what it did, in words."""
+        return (
+            f'told to move by {self.told:.2f} m in {self._time:.1f} s, it moved by '
+            f'{self._moved():.3f} m'
+        )
+
+    def _anchor_at(self, pose: Pose) -> None:
+        """Compare from here on."""
+        self._anchor, self._path = pose, HERE
+        self._time = self.told = 0.0
+
+    def _average(self, dt: float, pose: Pose) -> None:
+        if self._mean is None:
+            self._mean = pose
+            self._anchor_at(pose)
+        tau = AVERAGED * self.parameters.after
+        share = 1.0 - exp(-dt / tau) if tau > 0.0 else 1.0
+        mean = self._mean
+        self._noise += share * (self._size(mean, pose) - self._noise)
+        self._mean = Pose(
+            mean.x + share * (pose.x - mean.x),
+            mean.y + share * (pose.y - mean.y),
+            wrap(mean.theta + share * wrap(pose.theta - mean.theta)),
+        )
+
+    def _has_moved(self) -> bool:
+        least = max(LEAST, NOISE * self._noise)
+        return self._moved() >= min(least, self.parameters.distance)
+
+    def _moved(self) -> float:
+        return self._size(self._anchor, self._mean or self._anchor)
+
+    def _size(self, first: Pose, second: Pose) -> float:
+        """Return how far two poses are apart [m], the turn measured at the arm."""
+        way = hypot(second.x - first.x, second.y - first.y)
+        return way + self._arm * abs(wrap(second.theta - first.theta))
