@@ -77,7 +77,11 @@ class BlockedWatch:
 
         """
         self.parameters = parameters
+        self.told = 0.0
+        """How far from the anchor the commands alone would have led it [m]"""
         self._arm = arm
+        self._anchor = self._path = HERE
+        self._time = 0.0
         self.restart()
 
     def restart(self) -> None:
@@ -149,3 +153,49 @@ class BlockedWatch:
         """Return how far two poses are apart [m], the turn measured at the arm."""
         way = hypot(second.x - first.x, second.y - first.y)
         return way + self._arm * abs(wrap(second.theta - first.theta))
+
+
+class BlockedGuard:
+    """Stops a robot that is blocked, until a person lets it go on or it tries again by itself."""
+
+    def __init__(self, parameters: BlockedParameters, arm: float, remedy: str) -> None:
+        """Let it move.
+
+        Args:
+            parameters: When it is blocked, and what then.
+            arm: Distance from the centre at which a turn is measured as a motion [m].
+            remedy: What a person can do, for the reason.
+
+        """
+        self.watch = BlockedWatch(parameters, arm)
+        self.reason = ''
+        """Why it must not move; empty if it may"""
+        self._remedy = remedy
+        self._stood = 0.0
+
+    def release(self) -> None:
+        """Let it move again."""
+        self.reason, self._stood = '', 0.0
+        self.watch.restart()
+
+    def update(self, dt: float, pose: Pose | None, twist: Twist) -> bool:
+        """Return whether it has been found blocked just now; `reason` tells how it is.
+
+        Args:
+            dt: Since the last call [s].
+            pose: As it is measured now; None while it is not.
+            twist: Told for the time ``dt``.
+
+        """
+        given = self.watch.parameters
+        if self.reason:
+            self._stood += dt
+            if given.then == RETRY and self._stood >= given.retry_after:
+                self.release()
+        elif pose is None:
+            self.watch.restart()
+        elif self.watch.update(dt, pose, twist):
+            next_ = f'trying again in {given.retry_after:g} s' if given.then == RETRY else ''
+            self.reason = f'blocked: {self.watch.describe()}; {next_ or self._remedy}'
+            return True
+        return False

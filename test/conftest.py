@@ -193,6 +193,7 @@ class DrivenRobot:
         self.twist = REST
         self.commands = []
         self.silent = True
+        self.stuck = False
         self._step = step
         self.node.create_subscription(TwistStamped, 'cmd_vel', self._on_command, 50)
 
@@ -246,7 +247,8 @@ class DrivenRobot:
     def _carry(self, seconds):
         from agv_motion.planar import integrate
 
-        self.pose = integrate(self.pose, self.twist, seconds)
+        if not self.stuck:
+            self.pose = integrate(self.pose, self.twist, seconds)
 
 
 class RealTimeRobot(DrivenRobot):
@@ -254,7 +256,6 @@ class RealTimeRobot(DrivenRobot):
 
     def __init__(self, graph):
         super().__init__(graph)
-        self.stuck = False
         self._last = time.monotonic()
 
     def find(self):
@@ -272,8 +273,7 @@ class RealTimeRobot(DrivenRobot):
 
     def _pass(self):
         now = time.monotonic()
-        if not self.stuck:
-            self._carry(now - self._last)
+        self._carry(now - self._last)
         self._last = now
 
 

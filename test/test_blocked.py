@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agv_motion.blocked import BlockedParameters, BlockedWatch
+from agv_motion.blocked import BlockedGuard, BlockedParameters, BlockedWatch
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.planar import REST, Pose, Twist, integrate
 
@@ -25,6 +25,8 @@ def blocked_at(told, *, moves=None, measured=lambda pose, _: pose, seconds=60.0,
         told: Twist at a time.
         moves: Twist that it makes of it; none: it is held.
         measured: Makes of the true pose and the time what is measured.
+        seconds: How long to look.
+        parameters: When it is blocked.
 
     """
     watch, pose = BlockedWatch(BlockedParameters(**parameters), 0.15), ORIGIN
@@ -158,3 +160,40 @@ def test_what_is_no_number_is_refused(bad):
         BlockedParameters(distance=bad)
     with pytest.raises(ConfigurationError, match=r'give 0\.5 s or more, or 0'):
         BlockedParameters(after=0.1)
+
+
+def guarded(seconds, pose=ORIGIN, twist=AHEAD, guard=None, **parameters):
+    guard = guard or BlockedGuard(BlockedParameters(**parameters), 0.15, 'ask a person')
+    news = sum(guard.update(DT, pose, twist) for _ in range(round(seconds / DT)))
+    return guard, news
+
+
+def test_blocked_it_stays_so_until_a_person_lets_it_go_on():
+    guard, news = guarded(1000.0)
+    assert news == 1
+    assert guard.reason.startswith('blocked: told to move by 1.5')
+    assert guard.reason.endswith('ask a person')
+    guard.release()
+    assert guard.reason == ''
+    guarded(4.9, guard=guard)
+    assert guard.reason == ''
+    guarded(0.2, guard=guard)
+    assert guard.reason
+
+
+def test_or_it_tries_again_by_itself():
+    guard, news = guarded(6.0, then='retry', retry_after=3.0)
+    assert guard.reason.endswith('trying again in 3 s')
+    guarded(2.1, guard=guard)
+    assert guard.reason == ''
+    guarded(100.0, guard=guard)
+    _, news = guarded(8.0, guard=guard)
+    assert news == 1
+
+
+def test_without_a_pose_nobody_is_blocked_but_who_was_stays_so():
+    guard, _ = guarded(60.0, pose=None)
+    assert guard.reason == ''
+    guarded(6.0, guard=guard)
+    guarded(6.0, guard=guard, pose=None)
+    assert guard.reason

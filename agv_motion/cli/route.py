@@ -66,7 +66,7 @@ def route(
     found = load_route(find_config(file), given.laps)
     if laps is not None:
         found = Route(found.waypoints, laps)
-    run = predict(found, follow, _start(start, found), 1.0 / given.rate)
+    run = predict(found, follow, _start(start, found), 1.0 / given.rate, limits=given.limits)
     console = terminal()
     console.print(_summary(found, run))
     for warning in filter(None, (follow.orbit(), _unfinished(found, run))):

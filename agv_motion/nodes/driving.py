@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any, TypeVar
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
+from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.watchdog import Silence
 from agv_motion.parameters import Spec, check
@@ -18,6 +19,9 @@ from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.twist_publisher import TwistPublisher
+
+if TYPE_CHECKING:
+    from agv_motion.twist_limits import TwistLimits
 
 FAREWELL = 1.0
 """[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
@@ -43,6 +47,7 @@ class DrivingParameters:
     report_after: Annotated[float, Spec('silence of the pose to report', 's', (0.01, 3600.0))] = 0.5
     stop_after: Annotated[float, Spec('silence of the pose to stop', 's', (0.01, 3600.0))] = 1.0
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
+    blocked: BlockedParameters = field(default_factory=BlockedParameters)
 
     def __post_init__(self) -> None:
         """Check every row."""
@@ -53,10 +58,17 @@ P = TypeVar('P', bound=DrivingParameters)
 
 
 class DrivingNode(ManagedNode[P]):
-    """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`."""
+    """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`.
+
+    Every command keeps the limits that it overrides `limits` with. A robot that does not move
+    though told to is blocked: `obstacle` tells so.
+    """
 
     state_topic = 'state'
     """Where it says what the robot does"""
+
+    release = ''
+    """What a person does to let a blocked robot go on"""
 
     def open(self) -> None:
         """Open the topics."""
@@ -71,6 +83,9 @@ class DrivingNode(ManagedNode[P]):
         self._pose_watch = InputWatch(self, given.position, given.report_after, given.stop_after)
         self._last_cycle: float | None = None
         self._farewell = 0.0
+        arm = 0.5 * self.limits().track
+        self.guard = BlockedGuard(given.blocked, arm, f'clear its way, then {self.release}')
+        """Watches that the robot moves when told to"""
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
         self._state = self.publisher(String, self.state_topic, LATCHED)
         if given.position == 'odom':
@@ -79,9 +94,20 @@ class DrivingNode(ManagedNode[P]):
             self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
         self.every(1.0 / given.rate, self._on_cycle)
 
+    def begin(self) -> None:
+        """Know nothing of before: where the robot is must be told anew."""
+        self.pose, self.lost = None, f'no {self.parameters.position} yet'
+        self._last_cycle = None
+        self._twist, self._farewell = REST, 0.0
+        self.guard.release()
+
     def halt(self) -> None:
         """Send the last word: no motion."""
         self._send(REST)
+
+    def limits(self) -> TwistLimits:
+        """Return what no command may pass."""
+        raise NotImplementedError
 
     def cycle(self, dt: float) -> None:
         """Command the robot, ``dt`` [s] after the last time."""
@@ -93,10 +119,15 @@ class DrivingNode(ManagedNode[P]):
             self.told = state
             self._state.publish(String(data=state))
 
+    @property
+    def obstacle(self) -> str:
+        """Why the robot must not move now, in words; empty if it may."""
+        return f'stopped: {self.lost}' if self.lost else self.guard.reason
+
     def drive(self, twist: Twist) -> None:
-        """Move."""
+        """Move, within the limits."""
         self._farewell = FAREWELL
-        self._send(twist)
+        self._send(self.limits().hold(twist))
 
     def stand(self) -> None:
         """Keep the robot where it is: zero, cycle after cycle."""
@@ -104,6 +135,7 @@ class DrivingNode(ManagedNode[P]):
 
     def leave(self, dt: float) -> None:
         """Be done with the robot: zeros for a while, then silence, so that others may drive it."""
+        self.guard.release()
         if self._farewell > 0.0:
             self._farewell -= dt
             self._send(REST)
@@ -155,7 +187,18 @@ class DrivingNode(ManagedNode[P]):
         dt = min(dt, LONGEST_STEP / self.parameters.rate)
         self._last_cycle = now
         self._watch(now)
+        self._look_for_block(dt)
         self.cycle(dt)
+
+    def _look_for_block(self, dt: float) -> None:
+        """Find out whether the robot has moved as it was told, by its pose as measured."""
+        guard = self.guard
+        guard.watch.parameters = self.parameters.blocked
+        before = guard.reason
+        if guard.update(dt, None if self.lost else self.pose, self._twist):
+            self.get_logger().error(guard.reason)
+        elif before and not guard.reason:
+            self.get_logger().info('blocked before: trying again')
 
     def _watch(self, now: float) -> None:
         silence, given = self._pose_watch.tell(now), self.parameters

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from agv_motion.planar import Pose
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
+    from agv_motion.twist_limits import TwistLimits
 
 DRAWN = 0.05
 """[s] between two poses of the path that is shown."""
@@ -75,6 +76,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
     """
 
     state_topic = 'ghost/state'
+    release = 'call ~/lock with data: false, or send a goal'
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -97,12 +99,18 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def begin(self) -> None:
         """Say that a goal may come."""
+        super().begin()
+        self._follower = Follower(self.parameters.follow)
         self.tell(WORDS[Following.IDLE])
 
     def halt(self) -> None:
         """Forget the goal and send the last word: no motion."""
         self._follower.stop()
         super().halt()
+
+    def limits(self) -> TwistLimits:
+        """Return those of the robot behind the Ghost."""
+        return self.parameters.follow.ghost
 
     def accept(self, parameters: GhostTrajectoryParameters) -> None:
         """Take over other gains at once; speeds and ramps count from the next goal on."""
@@ -119,7 +127,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
             'locked': str(follower.ghost.locked), 'rotating': str(follower.ghost.rotating),
             'backward': str(follower.ghost.backward), 'finished': str(follower.ghost.finished),
         }  # fmt: skip
-        if follower.failure:
+        if follower.failure or self.guard.reason:
             return Diagnosis(ERROR, self.told, values)
         blind = bool(self.lost) and not follower.at_rest
         waits = follower.state is Following.WAITING
@@ -130,11 +138,12 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         follower, pose = self._follower, self.pose_now()
         if follower.at_rest:
             self.leave(dt)
-        elif pose is None:
+        elif pose is None or self.obstacle:
             follower.halt()
             self.stand()
-            self.tell(f'stopped: {self.lost}')
-            return
+            if not follower.at_rest:
+                self.tell(self.obstacle)
+                return
         else:
             self.drive(follower.step(dt, pose))
             self._show_ghost()
@@ -179,6 +188,9 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _depart(self, plan: Callable[[Ghost], Trajectory]) -> None:
         follower, pose = self._follower, self.require_pose()
+        if self.guard.reason:
+            self.guard.release()
+            follower.stop()  # it leaves from where it is, not from where its Ghost waits
         if self.parameters.lock_goals:
             follower.hold(True)  # noqa: FBT003 - the name says what the flag is
         trajectory = follower.depart(pose, plan)
@@ -199,6 +211,8 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _on_lock(self, request: Any) -> str:
         self._follower.hold(request.data)
+        if not request.data:
+            self.guard.release()
         return 'the Ghost comes to a halt' if request.data else 'the Ghost is free to go'
 
     def _on_abort(self, _: Any) -> str:

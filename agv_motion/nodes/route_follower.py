@@ -17,13 +17,14 @@ from agv_motion.parameters import Spec
 from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.messages import fill_path, points_of
-from agv_motion.ros.node import OK, WARN, Diagnosis
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.route.follower import Limits, RouteFollower
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Point, Route
 from agv_motion.route.route_file import load_route
+from agv_motion.twist_limits import TwistLimits
 
 IDLE = 'waiting for a route'
 
@@ -40,6 +41,7 @@ class RouteFollowerParameters(DrivingParameters):
         int,
         Spec('rounds where the route does not say; 0: without end', '1', (0, 1e6), dynamic=True),
     ] = 1
+    limits: TwistLimits = field(default_factory=TwistLimits)
     follow: FollowParameters = field(default_factory=FollowParameters)
 
 
@@ -50,6 +52,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
     """
 
     state_topic = 'route/state'
+    release = 'call ~/pause with data: false, or send a route'
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -78,8 +81,20 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def begin(self) -> None:
         """Show the route, if there is one already."""
+        super().begin()
         if self._route is not None:
             self._show(self._route)
+
+    def halt(self) -> None:
+        """Leave the route, and send the last word: no motion."""
+        if self._follower is not None:
+            self._follower = None
+            self._ended = 'left the route: ~/restart follows it from its start'
+        super().halt()
+
+    def limits(self) -> TwistLimits:
+        """Return those of the robot."""
+        return self.parameters.limits
 
     def accept(self, parameters: RouteFollowerParameters) -> None:
         """Take over new tables, or the route of another file."""
@@ -91,6 +106,8 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell what the robot does, and what is missing."""
+        if self.guard.reason:
+            return Diagnosis(ERROR, self.guard.reason, {})
         waiting = self._follower is not None and bool(self.lost)
         return Diagnosis(WARN if waiting else OK, self.told or IDLE, {})
 
@@ -100,10 +117,10 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         if follower is None:
             self.leave(dt)
             self.tell(self._ended)
-        elif self._paused or pose is None:
+        elif self._paused or pose is None or self.obstacle:
             follower.rest()
             self.stand()
-            self.tell('paused' if self._paused else f'stopped: {self.lost}')
+            self.tell('paused' if self._paused else self.obstacle)
         else:
             self._step(follower, pose, dt)
 
@@ -144,6 +161,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def _follow(self, route: Route, parameters: FollowParameters) -> None:
         """Start on ``route``; in motion, without a jump of speed."""
+        self.guard.release()
         old = self._follower
         speed, turn_rate = (old.speed, old.turn_rate) if old else (0.0, 0.0)
         self._follower = RouteFollower(route, parameters, speed, turn_rate)
@@ -168,6 +186,8 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         self._paused = request.data
         if self._paused and self._follower is not None:
             self.stand()
+        if not self._paused:
+            self.guard.release()
         return 'paused' if self._paused else 'going on'
 
     def _on_abort(self, _: Any) -> str:

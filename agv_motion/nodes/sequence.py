@@ -10,6 +10,7 @@ from nav_msgs.msg import Path
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.blocked import STOP
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
@@ -26,6 +27,7 @@ from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 if TYPE_CHECKING:
     from agv_motion.sequence.prediction import Predicted
+    from agv_motion.twist_limits import TwistLimits
 
 TOLD_EVERY = 0.2
 """[s] between two words on progress."""
@@ -51,6 +53,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
     """
 
     state_topic = 'sequence/state'
+    release = 'start it again'
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -81,12 +84,17 @@ class SequenceNode(DrivingNode[SequenceParameters]):
 
     def begin(self) -> None:
         """Say that a start may come."""
+        super().begin()
         self.tell('waiting for ~/start')
 
     def halt(self) -> None:
         """Forget the sequence, and send the last word: no motion."""
         self.runner = None
         super().halt()
+
+    def limits(self) -> TwistLimits:
+        """Return those of the robot, behind a Ghost or on a route."""
+        return self.parameters.tracking.ghost
 
     def accept(self, parameters: SequenceParameters) -> None:
         """Look at another file; it counts from the next start on."""
@@ -97,6 +105,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         """Tell what it does, and why it failed."""
         failed = self.runner is not None and self.runner.status.state is Running.FAILED
         blind = bool(self.lost) and self.runner is not None and not self.runner.ended
+        failed = failed or bool(self.guard.reason)
         return Diagnosis(ERROR if failed else WARN if blind else OK, self.told, {})
 
     def cycle(self, dt: float) -> None:
@@ -110,7 +119,10 @@ class SequenceNode(DrivingNode[SequenceParameters]):
             return
         number = runner.status.number
         reason = runner.status.reason
-        self.drive(runner.update(self.pose_now(), dt))
+        if self.guard.reason and self.parameters.blocked.then == STOP:
+            runner.fail(self.guard.reason)
+            self.guard.release()
+        self.drive(runner.update(None if self.obstacle else self.pose_now(), dt))
         if runner.status.reason != reason:
             self.get_logger().error(runner.status.reason)
         self.tell(self._words(runner))
@@ -148,7 +160,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
             again = f', attempt {status.attempt}' if status.attempt > 1 else ''
             return f'{where}{again}'
         if status.state is Running.BLIND:
-            return f'stopped: {self.lost} ({where})'
+            return f'{self.obstacle} ({where})'
         if status.state is Running.FAILED:
             return f'failed: {status.reason}'
         return status.state.value if runner.ended else f'{status.state.value}, {where}'

@@ -11,10 +11,14 @@ import shapely
 
 from agv_motion.planar import REST, Pose, integrate
 from agv_motion.route.follower import RouteFollower, Step
+from agv_motion.twist_limits import TwistLimits
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
     from agv_motion.route.route import Route
+
+NO_LIMITS = TwistLimits(track=0.001, wheel_speed=100.0, turn_rate=100.0)
+"""Faster than any table can sensibly ask for."""
 
 NOTHING = 'nothing'
 """What holds the speed down where the robot goes as fast as the tables ever allow."""
@@ -61,12 +65,13 @@ class Prediction(NamedTuple):
         return float(np.sqrt(np.mean(off**2))), float(np.max(off))
 
 
-def predict(
+def predict(  # noqa: PLR0913 - all but three have a default
     route: Route,
     parameters: FollowParameters,
     start: Pose,
     dt: float = 0.05,
     longest: float = 3600.0,
+    limits: TwistLimits | None = None,
 ) -> Prediction:
     """Return the run of an ideal robot from ``start``.
 
@@ -76,15 +81,21 @@ def predict(
         start: Where it stands at first.
         dt: Time between two commands [s].
         longest: Time after which to give up [s].
+        limits: What its commands are held within, beside the tables.
 
     Raises:
         ConfigurationError: The distance of the virtual point is too large for the route.
 
     """
-    follower = RouteFollower(route, parameters)
-    poses, steps = [start], [follower.update(start, 0.0)]
+    follower, hold = RouteFollower(route, parameters), (limits or NO_LIMITS).hold
+
+    def step(pose: Pose, passed: float) -> Step:
+        found = follower.update(pose, passed)
+        return found._replace(twist=hold(found.twist))
+
+    poses, steps = [start], [step(start, 0.0)]
     while not steps[-1].arrived and (len(steps) - 1) * dt < longest:
         twist = steps[-1].twist
         poses.append(integrate(poses[-1], twist, dt) if twist != REST else poses[-1])
-        steps.append(follower.update(poses[-1], dt))
+        steps.append(step(poses[-1], dt))
     return Prediction(dt, poses, steps, parameters.profiles().top_speed())

@@ -32,8 +32,8 @@ class Running(Enum):
     """At rest, or easing to it"""
     STOPPING = 'stopping'
     """Braking, after a time-out or an abort"""
-    BLIND = 'no pose'
-    """Standing until the pose comes back; the time-out counts on"""
+    BLIND = 'stopped'
+    """Standing until the pose is back, or for a while as it is blocked; the time-out counts on"""
     DONE = 'done'
     FAILED = 'failed'
     ABORTED = 'aborted'
@@ -130,11 +130,23 @@ class SequenceRunner:
         if not self.ended:
             self._stop('aborted')
 
+    def fail(self, reason: str) -> None:
+        """Stand at once, and take the present action for failed: again, skip or end, as it says."""
+        if self.ended:
+            return
+        self._performance.hold(False)  # noqa: FBT003 - the name says what the flag is
+        self._performance.abort()
+        self._performance.halt()
+        if self._state is Running.STOPPING:
+            self._after(self._after_stop)
+        else:
+            self._fail(reason)
+
     def update(self, pose: Pose | None, dt: float) -> Twist:
         """Return what to drive until the next cycle.
 
         Args:
-            pose: Where the robot is; None while nobody knows: it stands.
+            pose: Where the robot is; None while nobody knows, or it must not move: it stands.
             dt: Since the last cycle [s].
 
         Raises:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from math import hypot, nan, radians
 
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import REST, Pose, integrate, wrap
+from agv_motion.planar import REST, Pose, Twist, integrate, wrap
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Route
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
@@ -31,7 +32,7 @@ class Drive:
         self.runner = SequenceRunner(
             Sequence('test', steps), FollowerParameters(), FollowParameters()
         )
-        self.pose = Pose(0.0, 0.0, 0.0)
+        self.pose, self.share = Pose(0.0, 0.0, 0.0), 1.0
         self.time = 0.0
         self.twist = REST
         self.ends = []
@@ -42,7 +43,8 @@ class Drive:
         if self.runner.status.number != number or self.runner.ended:
             self.ends.append(self.pose)
         if not stuck:
-            self.pose = integrate(self.pose, self.twist, dt)
+            done = Twist(*(self.share * part for part in self.twist))
+            self.pose = integrate(self.pose, done, dt)
         self.time += dt
 
     def run(self, seconds=1000.0, dt=0.05, **options):
@@ -235,3 +237,51 @@ def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
     with pytest.raises(SignalError):
         drive.runner.update(pose, dt)
     assert drive.runner.status == before
+
+
+@pytest.mark.parametrize('action', [GoTo(2.0, 0.0, 0.0), FollowRoute(ROUTE), Rotate(by=170.0)])
+def test_failed_from_outside_it_stands_at_once_and_a_retry_leaves_from_where_the_robot_is(action):
+    """Held while the Ghost ran ahead; the second attempt begins without a jump of speed."""
+    drive = Drive(action, on_failure=OnFailure(1))
+    drive.run(1.0)
+    drive.run(3.0, stuck=True)
+    drive.runner.fail('blocked: held')
+    assert drive.runner.status.attempt == 2
+    assert drive.runner.status.reason == f'm.yaml:0:1: {type(action).__name__}: blocked: held'
+    drive.tick()
+    assert hypot(drive.twist.vx, drive.twist.vy) < 0.1
+    assert abs(drive.twist.wz) < 0.3
+    assert drive.run() is Running.DONE
+    drive.runner.fail('too late')
+    assert drive.runner.status.state is Running.DONE
+
+
+def test_failed_from_outside_without_a_retry_it_ends():
+    drive = Drive(GoTo(2.0, 0.0, 0.0), Wait(1.0))
+    drive.run(2.0)
+    drive.runner.fail('blocked: held')
+    assert drive.runner.status.state is Running.FAILED
+    assert drive.runner.update(drive.pose, 0.05) == REST
+
+
+@pytest.mark.parametrize(
+    ('action', 'share'), [(GoTo(2.0, 1.0, 0.0), 0.5), (Rotate(by=90.0), 0.5),
+                          (DriveArc(90.0, 1.0), 0.5), (GoTo(2.0, 1.0, 0.0), 1.2)]
+)  # fmt: skip
+def test_with_wheels_that_slip_each_action_ends_within_the_tolerances(action, share):
+    drive = Drive(action)
+    drive.share = share
+    assert drive.run() is Running.DONE
+    end = {GoTo: (2.0, 1.0, 0.0), Rotate: (0.0, 0.0, 90.0), DriveArc: (0.65, 0.65, 90.0)}
+    x, y, heading = end[type(action)]
+    assert hypot(drive.pose.x - x, drive.pose.y - y) <= 0.03
+    assert abs(wrap(drive.pose.theta - radians(heading))) <= 0.06
+
+
+def test_an_action_that_does_not_come_to_its_end_has_failed_by_so_much():
+    drive = Drive(GoTo(1.0, 0.0, 0.0))
+    while drive.pose.x < 0.9:
+        drive.tick()
+    drive.pose = Pose(0.94, 0.0, 0.0)
+    assert drive.run(stuck=True) is Running.FAILED
+    assert re.search(r'GoTo: 6\.\d cm short, .* tolerance 3 cm', drive.runner.status.reason)
