@@ -71,6 +71,7 @@ def predict(  # noqa: PLR0913 - all but three have a default
     start: Pose,
     dt: float = 0.05,
     longest: float = 3600.0,
+    *,
     limits: TwistLimits | None = None,
 ) -> Prediction:
     """Return the run of an ideal robot from ``start``.

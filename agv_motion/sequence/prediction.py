@@ -93,7 +93,7 @@ def _perform(
     if isinstance(action, Wait):
         return action.seconds, [pose]
     if isinstance(action, FollowRoute):
-        run = predict_route(action.route, follow, pose, dt, step.timeout + dt, ghost)
+        run = predict_route(action.route, follow, pose, dt, step.timeout + dt, limits=ghost)
         return run.duration, run.poses
     trajectory = action.plan(Ghost(pose, ghost))
     return trajectory.duration, trajectory.polyline(dt)

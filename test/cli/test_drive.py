@@ -80,7 +80,7 @@ def test_interrupted_it_brakes_and_fails(agv, robot):
     out, _ = process.communicate()
     assert process.returncode == 1
     assert out.splitlines()[-1] == 'aborted'
-    robot.stands()
+    agv.graph.spin_until(lambda: not any(robot.commands[-1]))
 
 
 def test_a_refusal_of_the_node_is_told(agv, robot):
