@@ -85,22 +85,40 @@ class SharpProfile:
         self.top_speed = max(speeds)
 
     @classmethod
-    def over_way(cls, way: Column, square: Column) -> SharpProfile:
-        """Return the profile whose squared speed is linear over the way between nodes.
+    def of_pieces(  # noqa: PLR0913 - the columns of one table
+        cls,
+        way: Column,
+        length: Column,
+        first: Column,
+        last: Column,
+        acceleration: Column,
+        *,
+        start_speed: float,
+        end: float,
+    ) -> SharpProfile:
+        """Return the profile whose squared speed is linear over the way within each piece.
 
-        Then :math:`a_i = (v_{i+1}^2 - v_i^2) / 2 (s_{i+1} - s_i)`, and a piece lasts
-        :math:`2 (s_{i+1} - s_i) / (v_i + v_{i+1})`.
+        A piece lasts :math:`2 l / (v_0 + v_1)`. Where one starts faster or slower than the last
+        ended the speed jumps: a ramp so hard that nothing is left of it.
 
         Args:
-            way: (n,) nodes, increasing [m].
-            square: (n,) squared speed there [m2/s2], the last 0; no two neighbours are both 0.
+            way: (n,) start of each piece [m].
+            length: (n,) of each, positive [m].
+            first: (n,) squared speed at its start [m2/s2].
+            last: (n,) squared speed at its end, not zero at both [m2/s2].
+            acceleration: (n,) [m/s2].
+            start_speed: With which it comes [m/s].
+            end: Where it rests [m].
 
         """
-        speed = np.sqrt(square)
-        length = way[1:] - way[:-1]
-        times = np.cumsum(2.0 * length / (speed[1:] + speed[:-1])).tolist()
-        accelerations = (0.5 * (square[1:] - square[:-1]) / length).tolist()
-        return cls([0.0, *times], way.tolist(), speed.tolist(), [*accelerations, 0.0])
+        speed = np.sqrt(first)
+        times = [0.0, *np.cumsum(2.0 * length / (speed + np.sqrt(last))).tolist()]
+        ways, speeds = [*way.tolist(), end], [*speed.tolist(), 0.0]
+        accelerations = [*acceleration.tolist(), 0.0]
+        if speeds[0] != start_speed:  # a piece of no time: before the start this is the speed
+            times, ways = [0.0, *times], [ways[0], *ways]
+            speeds, accelerations = [start_speed, *speeds], [0.0, *accelerations]
+        return cls(times, ways, speeds, accelerations)
 
     def at(self, time: float) -> Progress:
         """Return the progress at ``time`` [s]; before the start it came on at constant speed."""

@@ -18,6 +18,7 @@ acceleration limits", J. Optimization Theory and Applications 138, 2008.
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +30,13 @@ if TYPE_CHECKING:
     from agv_motion.trajectory.bezier import Column
 
 SHORTEST = 1e-12
+"""Share of the way below which a cell is none: two curves meet there."""
+
+ROUNDING = 1e-15
 """Share of the way below which a piece is rounding and left out."""
+
+AT_ONCE = 1e300
+"""[m/s2] The acceleration of whom nothing holds back: what its ramps take is below all rounding."""
 
 
 def plan_speed(
@@ -44,7 +51,7 @@ def plan_speed(
     Args:
         way: (n,) nodes from 0, not decreasing [m].
         ceiling: (n,) highest speed at each, positive [m/s].
-        acceleration: Highest speeding up and braking [m/s2].
+        acceleration: Highest speeding up and braking, positive [m/s2]; `AT_ONCE`: without ramps.
         start_speed: Present speed [m/s].
         rounding: Time over which acceleration builds up [s]; 0 for a trapezoid.
 
@@ -52,61 +59,92 @@ def plan_speed(
         GeometryError: The way is too short, or bends too soon, to brake from ``start_speed``.
 
     """
+    acceleration = min(acceleration, AT_ONCE)
     square = ceiling * ceiling
     lowest = _lowest(way, square, acceleration, start_speed)
     if rounding > 0.0:
         # the mean of a sharp profile over T seconds stands at most this far from its moments
-        reach = (0.5 * np.sqrt(lowest) + 0.5 * acceleration * rounding) * rounding
+        fastest = np.minimum(np.sqrt(lowest) + acceleration * rounding, np.sqrt(square.max()))
+        reach = 0.5 * fastest * rounding
         square = _lowest_within(way, square, reach)
         start = 0.5 * start_speed * rounding
         after = way > start
         square = np.append(np.interp(start, way, square), square[after])
         way = np.append(start, way[after])
         lowest = _lowest(way, square, acceleration, start_speed)
-    sharp = _with_corners(way, square, lowest, 2.0 * acceleration)
+    sharp = _with_corners(way, square, lowest, acceleration)
     return RoundedProfile(sharp, rounding) if rounding > 0.0 else sharp
 
 
 def _lowest(way: Column, square: Column, acceleration: float, start_speed: float) -> Column:
-    """Return w of equation (1) at the nodes."""
-    slope = 2.0 * acceleration
-    bound = square.copy()
-    bound[0] = start = start_speed * start_speed
-    bound[-1] = 0.0
-    rise = slope * way
-    forward = np.minimum.accumulate(bound - rise) + rise
-    lowest: Column = np.maximum(np.minimum.accumulate((forward + rise)[::-1])[::-1] - rise, 0.0)
+    """Return w of equation (1) at the nodes.
+
+    Node by node: the ramps of the whole way at once would lose in their height the digits of a
+    speed that is small beside them.
+    """
+    start = start_speed * start_speed
+    if len(way) < 2:
+        raise GeometryError(_too_fast(start_speed, 0.0, 0.0, acceleration))
+    bound = [start, *square[1:-1].tolist(), 0.0]
+    rises = (2.0 * acceleration * (way[1:] - way[:-1])).tolist()
+    forward = list(accumulate(zip(bound[1:], rises, strict=True), _climb, initial=start))
+    back = zip(forward[-2::-1], reversed(rises), strict=True)
+    lowest: Column = np.array(list(accumulate(back, _climb, initial=0.0))[::-1])
     allowed = min(float(lowest[0]), float(square[0]) * (1.0 + 1e-9))
-    if len(way) < 2 or allowed < start * (1.0 - 1e-9) - 1e-12:
-        msg = (
-            f'{start_speed:.4g} m/s is too fast here: the way ahead, {way[-1] - way[0]:.4g} m, '
-            f'allows {allowed**0.5:.4g} m/s at its start with a braking of {acceleration:.4g} m/s2 '
-            '(rad for a rotation): stop first, or go further or straighter'
-        )
-        raise GeometryError(msg)
+    if allowed < start * (1.0 - 1e-9) - 1e-12:
+        ahead = float(way[-1] - way[0])
+        raise GeometryError(_too_fast(start_speed, ahead, allowed, acceleration))
     lowest[0], lowest[-1] = start, 0.0
     return lowest
 
 
-def _with_corners(way: Column, ceiling: Column, lowest: Column, slope: float) -> SharpProfile:
-    """Place the corners in each cell: at x1 it leaves the ramp up, at x2 it meets the ramp down."""
-    start = way[:-1]
-    length = way[1:] - start
-    w0, w1, c0 = lowest[:-1], lowest[1:], ceiling[:-1]
-    peak = 0.5 * (length + (w1 - w0) / slope)
-    with np.errstate(divide='ignore', invalid='ignore'):
-        tilt = (ceiling[1:] - c0) / length
+def _too_fast(speed: float, ahead: float, allowed: float, acceleration: float) -> str:
+    return (
+        f'{speed:.4g} m/s is too fast here: the way ahead, {ahead:.4g} m, allows '
+        f'{allowed**0.5:.4g} m/s at its start with a braking of {acceleration:.4g} m/s2 '
+        '(rad for a rotation): stop first, or go further or straighter'
+    )
+
+
+def _climb(before: float, cell: tuple[float, float]) -> float:
+    """Return the squared speed at the end of a cell: its bound, or what the ramp reaches."""
+    bound, rise = cell
+    reached = before + rise
+    return bound if bound < reached else reached
+
+
+def _with_corners(way: Column, ceiling: Column, lowest: Column, acceleration: float) -> SharpProfile:
+    """Cut each cell at its corners: a ramp up, the ceiling, a ramp down, each as long as it is.
+
+    Every piece keeps its own length, however short beside the way: told by the places of its ends
+    a hard ramp would be lost, and with it the speed that it reaches.
+    """
+    slope = 2.0 * acceleration
+    start, length = way[:-1], way[1:] - way[:-1]
+    w0, w1, c0, c1 = lowest[:-1], lowest[1:], ceiling[:-1], ceiling[1:]
+    peak = np.clip(0.5 * (length + (w1 - w0) / slope), 0.0, length)
+    with np.errstate(all='ignore'):
+        tilt = (c1 - c0) / length
         flat = c0 + tilt * peak < w0 + slope * peak  # the ceiling cuts the peak off
-        x1 = np.where(flat, (c0 - w0) / (slope - tilt), peak)
-        x2 = np.where(flat, (w1 + slope * length - c0) / (slope + tilt), peak)
-    x1, x2 = (np.minimum(np.maximum(x, 0.0), length) for x in (x1, x2))
-    nodes, squares = np.empty(3 * len(start) + 1), np.empty(3 * len(start) + 1)
-    nodes[:-1:3], nodes[1::3], nodes[2::3], nodes[-1] = start, start + x1, start + x2, way[-1]
-    squares[:-1:3], squares[1::3], squares[2::3] = w0, w0 + slope * x1, w1 + slope * (length - x2)
-    squares[-1] = lowest[-1]
-    keep = np.ones(len(nodes), dtype=bool)
-    np.greater(nodes[1:] - nodes[:-1], SHORTEST * (way[-1] - way[0]), out=keep[:-1])
-    return SharpProfile.over_way(nodes[keep], squares[keep])
+        up = np.where(flat, np.clip((c0 - w0) / (slope - tilt), 0.0, length), peak)
+        down = np.where(flat, (c1 - w1) / (slope + tilt), length - peak)
+    down = np.clip(down, 0.0, length - up)
+    level = np.where(flat, np.maximum(length - up - down, 0.0), 0.0)
+    top, end = w0 + slope * up, w1 + slope * down
+    none = np.zeros(len(length))
+    columns = (
+        (start, start + up, way[1:] - down),
+        (up, level, down),
+        (w0, top, end),
+        (top, end, w1),
+        (none + acceleration, 0.5 * tilt, none - acceleration),
+    )
+    pieces = [np.stack(column, axis=1).ravel() for column in columns]
+    keep = pieces[1] > ROUNDING * (way[-1] - way[0])
+    start_speed, end = float(np.sqrt(lowest[0])), float(way[-1])
+    return SharpProfile.of_pieces(
+        *(column[keep] for column in pieces), start_speed=start_speed, end=end
+    )
 
 
 def _lowest_within(way: Column, values: Column, reach: Column) -> Column:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.trajectory.speed_plan import plan_speed
+from agv_motion.trajectory.speed_plan import AT_ONCE, plan_speed
 
 POSITIVE = st.floats(0.05, 5.0)
 
@@ -143,3 +143,44 @@ def test_stopped_it_goes_on_without_a_jump_and_rests(way_and_ceiling, ramp, shar
     assert stopped.at(stopped.duration).speed == 0.0
     assert stopped.at(stopped.duration).way <= way_and_ceiling[0][-1] + 1e-9
     assert stopped.duration <= profile.duration + 1e-9
+
+
+@given(ways(), st.floats(-3.0, 300.0), st.floats(0.0, 50.0))
+def test_a_harder_ramp_never_takes_longer(way_and_ceiling, exponent, more):
+    way, ceiling = way_and_ceiling
+    gentle = plan_speed(way, ceiling, 10.0**exponent).duration
+    hard = plan_speed(way, ceiling, 10.0 ** min(exponent + more, 300.0)).duration
+    assert hard <= gentle * (1.0 + 1e-12)
+
+
+@given(ways(), st.floats(6.0, 300.0), st.sampled_from([0.0, 0.3]))
+def test_hard_ramps_take_what_the_ceiling_alone_does(way_and_ceiling, exponent, rounding):
+    """The time under a flat ceiling is length / speed, however hard the ramps."""
+    way, _ = way_and_ceiling
+    for ceiling in (0.1, 2.0):
+        profile = plan_speed(way, np.full(len(way), ceiling), 10.0**exponent, 0.0, rounding)
+        assert profile.duration == pytest.approx(way[-1] / ceiling + rounding, rel=1e-4, abs=4e-6)
+        half = profile.at(profile.duration / 2)
+        assert half.way == pytest.approx(way[-1] / 2, rel=1e-4)
+        assert profile.at(profile.duration).way == pytest.approx(way[-1], rel=1e-12)
+
+
+@pytest.mark.parametrize('ramp', [1e3, 1e7, 1e9, 1e11, 1e13, 1e15, 1e17, 1e200, 1.7e308, AT_ONCE])
+def test_a_metre_at_half_a_metre_a_second_takes_two_seconds(ramp):
+    profile = plain(1.0, 0.5, ramp)
+    assert profile.duration == pytest.approx(2.0 + 0.5 / ramp, rel=1e-13)
+    assert profile.top_speed == pytest.approx(0.5)
+    assert profile.at(profile.duration / 2) == pytest.approx((0.5, 0.5, 0.0))
+    assert profile.at(profile.duration).speed == 0.0
+
+
+@pytest.mark.parametrize('ramp', [1e-300, 1e-100, 1e-9])
+def test_a_ramp_so_gentle_makes_a_triangle(ramp):
+    assert plain(1.0, 0.5, ramp).duration == pytest.approx(2.0 * sqrt(1.0 / ramp), rel=1e-12)
+
+
+@given(st.floats(-3.0, 300.0), st.floats(0.0, 50.0))
+def test_a_harder_ramp_of_an_s_curve_never_takes_longer(exponent, more):
+    gentle = plain(3.0, 1.0, 10.0**exponent, rounding=0.3).duration
+    hard = plain(3.0, 1.0, 10.0 ** min(exponent + more, 300.0), rounding=0.3).duration
+    assert hard <= gentle * (1.0 + 1e-12)
