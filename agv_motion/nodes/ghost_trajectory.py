@@ -20,6 +20,7 @@ from agv_motion.ros.run import run
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.path_headings import are_places, with_headings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
 
 DRAWN = 0.05
 """[s] between two poses of the path that is shown."""
+
+MOST_DRAWN = 500
+"""Poses of that path: a longer trajectory is shown in longer steps."""
 
 WORDS = {
     Following.IDLE: 'waiting for a goal',
@@ -52,7 +56,10 @@ class GhostTrajectoryParameters(DrivingParameters):
         0.4
     )
     speed_ramps: Annotated[
-        float, Spec('acceleration and braking of the Ghost', 'm/s2', (0.001, 100.0), dynamic=True)
+        float,
+        Spec(
+            'acceleration and braking of the Ghost; 0: no ramp', 'm/s2', (0.0, 100.0), dynamic=True
+        ),
     ] = 0.4
     delta_curve: Annotated[
         float,
@@ -170,10 +177,15 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         self._go([pose_of(message.pose)])
 
     def _on_path(self, message: Path) -> None:
+        """Drive through the poses of a path; along it where they are but places."""
+        self._follower.ghost.require_count(len(message.poses))
         self.require_frame(message.header.frame_id)
         for stamped in message.poses:
             self.require_frame(stamped.header.frame_id)
-        self._go([pose_of(stamped.pose) for stamped in message.poses])
+        poses = [pose_of(stamped.pose) for stamped in message.poses]
+        if are_places(poses):
+            poses = with_headings(self.require_pose(), poses, backward=self.parameters.backward)
+        self._go(poses)
 
     def _go(self, goals: list[Pose]) -> None:
         given = self.parameters
@@ -204,7 +216,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         message = Path()
         self.stamp(message)
         message.header.frame_id = self.parameters.frame
-        fill_path(message, trajectory.polyline(DRAWN))
+        fill_path(message, trajectory.polyline(DRAWN, MOST_DRAWN))
         self._path.publish(message)
 
     # Services

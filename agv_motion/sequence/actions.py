@@ -48,7 +48,9 @@ class GoTo:
              '1', (0.0, 5.0)),
     ] = 0.4  # fmt: skip
     speed: Annotated[float, Spec('cruising speed', 'm/s', (0.001, 10.0))] = 0.4
-    acceleration: Annotated[float, Spec('speeding up and braking', 'm/s2', (0.001, 10.0))] = 0.3
+    acceleration: Annotated[
+        float, Spec('speeding up and braking; 0: no ramp', 'm/s2', (0.0, 10.0))
+    ] = 0.3
     backward: Annotated[bool, Spec('drive backwards')] = False
 
     def __post_init__(self) -> None:
@@ -89,7 +91,9 @@ class Rotate:
         float | None, Spec('heading to turn to, the shorter way round', 'deg', (-360.0, 360.0))
     ] = None
     speed: Annotated[float, Spec('fastest turn', 'deg/s', (0.1, 720.0))] = 45.0
-    acceleration: Annotated[float, Spec('ramps of the turn', 'deg/s2', (0.1, 3600.0))] = 60.0
+    acceleration: Annotated[
+        float, Spec('ramps of the turn; 0: no ramp', 'deg/s2', (0.0, 3600.0))
+    ] = 60.0
 
     def __post_init__(self) -> None:
         """Check every row, and that there is one goal."""
@@ -124,7 +128,9 @@ class DriveArc:
         float, Spec("of the inner wheel's circle; 0: pivot on that wheel", 'm', (0.0, 1e4))
     ]
     speed: Annotated[float, Spec('of the outer wheel', 'm/s', (0.001, 10.0))] = 0.4
-    acceleration: Annotated[float, Spec('of the outer wheel', 'm/s2', (0.001, 10.0))] = 0.3
+    acceleration: Annotated[float, Spec('of the outer wheel; 0: no ramp', 'm/s2', (0.0, 10.0))] = (
+        0.3
+    )
     backward: Annotated[bool, Spec('drive backwards')] = False
 
     def __post_init__(self) -> None:

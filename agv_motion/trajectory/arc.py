@@ -16,12 +16,18 @@ an arc to the left driven backwards turns the heading to the right, like a car i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, isfinite
+from math import copysign
 
-from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.differential import WheelSpeeds
 from agv_motion.planar import Pose, Twist, integrate, require_finite
-from agv_motion.trajectory.limits import require_positive
+from agv_motion.trajectory.limits import require_between
+from agv_motion.trajectory.request import SPEEDS, require_ramp
+
+MOST_ANGLE = 1e9
+"""[rad]"""
+
+DIAMETERS, TRACKS = (0.0, 1e9), (1e-6, 1e9)
+"""[m]"""
 
 
 @dataclass(frozen=True)
@@ -42,19 +48,22 @@ class Arc:
     speed: float
     """[m/s] of the outer wheel; negative: backwards"""
     ramp: float
-    """[m/s2] of the outer wheel, speeding up and braking"""
+    """[m/s2] of the outer wheel, speeding up and braking; `NO_RAMP`: at once"""
 
     def __post_init__(self) -> None:
         """Check every number."""
-        if not isfinite(self.angle):
-            msg = f'angle = {self.angle} rad: must be finite'
-            raise ConfigurationError(msg)
-        if not 0.0 <= self.diameter < float('inf'):
-            msg = f'diameter = {self.diameter} m: must be finite and not negative; 0 is a pivot'
-            raise ConfigurationError(msg)
-        require_positive('track', self.track, 'm')
-        require_positive('speed (without its sign)', abs(self.speed), 'm/s')
-        require_positive('ramp', self.ramp, 'm/s2')
+        require_between('angle', self.angle, (-MOST_ANGLE, MOST_ANGLE), 'rad')
+        require_between(
+            'diameter', self.diameter, DIAMETERS, 'm', '0 is a pivot on the inner wheel'
+        )
+        require_between('track', self.track, TRACKS, 'm')
+        require_between('speed (without its sign)', abs(self.speed), SPEEDS, 'm/s')
+        require_ramp('ramp', self.ramp)
+
+    @property
+    def acceleration(self) -> float:
+        """Of the ramps of the outer wheel [m/s2]; as good as without end where there are none."""
+        return require_ramp('ramp', self.ramp)
 
     @property
     def backward(self) -> bool:

@@ -26,11 +26,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.errors import GeometryError
+from agv_motion.trajectory.bezier import CubicBezier
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.trajectory.bezier import Column, ComplexColumn, CubicBezier
+    from agv_motion.trajectory.bezier import Column, ComplexColumn, Numbers
 
 CHANGE_IN_A_CELL = 0.05
 """q of equation (1)."""
@@ -38,10 +39,20 @@ CHANGE_IN_A_CELL = 0.05
 FIRST_CELLS = 64
 """Cells that a curve is cut into before equation (1) asks for more."""
 
-FIRST_NODES = np.linspace(0.0, 1.0, FIRST_CELLS + 1)
+FIRST_CELLS_IN_ALL, FEWEST_FIRST = 512, 8
+"""Of many curves each is cut into fewer at first."""
 
 MOST_CELLS = 4000
 """A curve that needs more comes to rest within itself: it has a cusp."""
+
+MOST_CELLS_IN_ALL = 20000
+"""A chain that needs more takes too long to plan."""
+
+LEAST = 1e-15
+"""[-] Change of the way with the parameter, over the whole way, below which a curve stands."""
+
+MOST_PARTS = 8
+"""Into which a cell is cut at once."""
 
 MOST_TURN = 1e6
 """Curvature times length above which a bend is as good as a cusp."""
@@ -55,11 +66,6 @@ INTEGRAL = np.linalg.inv(np.vander(GAUSS_NODES, increasing=True)).T / np.arange(
 """Values at the nodes -> coefficients of x ... x**6 of the integral of their interpolant."""
 
 HALF_POWERS = 0.5 ** np.arange(1.0, 7.0)
-
-
-Cell = tuple[float, list[float], float, float, list[float]]
-"""Way at its start [m]; four coefficients of u over the way since then; u at its start; its width
-in u; c_1 ... c_6 of equation (2) [m]."""
 
 
 class ArcLength:
@@ -81,82 +87,109 @@ class ArcLength:
             GeometryError: A curve has a cusp, where a robot would have to turn about at once.
 
         """
-        ways, curvatures, middle_ways, middles = [], [], [], []
-        self._curves: list[CubicBezier] = []  # of each cell
-        self._cells: list[Cell] = []
-        self.length = 0.0
-        for number, curve in enumerate(curves, 1):
-            u, speed = _nodes(curve, number)
-            first, widths = u[:-1], u[1:] - u[:-1]
-            inside = first[:, None] + widths[:, None] * GAUSS_NODES
-            speeds = widths[:, None] * _length(curve.velocity(inside))
-            lengths, integral = speeds @ GAUSS_WEIGHTS, speeds @ INTEGRAL
-            way = np.empty(len(u))
-            way[0] = self.length
-            np.cumsum(lengths, out=way[1:])
-            way[1:] += self.length
-            self._curves += [curve] * len(widths)
-            self._cells += zip(
-                way[:-1].tolist(), _guess(first, widths, lengths, speed).tolist(),
-                first.tolist(), widths.tolist(), integral.tolist(), strict=True,
-            )  # fmt: skip
-            self.length = float(way[-1])
-            ways.append(way)
-            curvature = curve.curvature(np.concatenate((u, first + 0.5 * widths)))
-            curvature, middle = curvature[: len(u)], curvature[len(u) :]
-            curvatures.append(curvature)
-            sharpest = int(np.abs(curvature).argmax())
-            if abs(curvature[sharpest]) * (way[-1] - way[0]) > MOST_TURN:
-                raise GeometryError(_cusp(number, float(u[sharpest])))
-            middle_ways += [way[:-1] + integral @ HALF_POWERS, way[-1:]]
-            middles += [middle, curvature[-1:]]
-        self.way: Column = np.concatenate(ways)
-        self.curvature: Column = np.concatenate(curvatures)
-        self.middle_way: Column = np.concatenate(middle_ways[:-1])
-        self.middle_curvature: Column = np.concatenate(middles[:-1])
-        self._starts = [cell[0] for cell in self._cells]
+        which, u, widths = _cells(curves)
+        numbers = np.arange(len(curves))
+        ends = np.searchsorted(which, numbers, side='right')  # cells up to the end of each curve
+        here, inner = CubicBezier.column(curves, which), np.arange(len(which)) + which
+        speeds = widths[:, None] * _length(
+            CubicBezier.column(curves, which[:, None]).velocity(
+                u[:, None] + widths[:, None] * GAUSS_NODES
+            )
+        )
+        lengths, integral = speeds @ GAUSS_WEIGHTS, speeds @ INTEGRAL
+        reached = np.cumsum(lengths)
+        start = np.concatenate(([0.0], reached[:-1]))
+        at_start, at_end = _length(here.velocity(u)), _length(here.velocity(u + widths))
+        slowest = int(at_start.argmin())
+        if not at_start[slowest] > LEAST * reached[-1]:
+            raise GeometryError(_cusp(int(which[slowest]), float(u[slowest])))
+        guess = _guess(u, widths, lengths, (1.0 / at_start, 1.0 / at_end))
+        self._curves, self._which = curves, which
+        self._starts: list[float] = start.tolist()
+        # a row a cell: way and u at its start, width in u, four coefficients of u over the way
+        # since then, c_1 ... c_6 of equation (2)
+        self._cells = np.column_stack((start, u, widths, guess, integral))
+        self.length = float(reached[-1])
+        # every curve has one node more than cells, and that one stands at ``last``
+        last, nodes = ends + numbers, len(which) + len(curves)
+        at_ends = CubicBezier.column(curves, numbers).curvature(np.ones(len(curves)))
+        self.way: Column = _merged(nodes, inner, start, last, reached[ends - 1])
+        self.curvature: Column = _merged(nodes, inner, here.curvature(u), last, at_ends)
+        middle, bend = start + integral @ HALF_POWERS, here.curvature(u + 0.5 * widths)
+        self.middle_way: Column = _merged(nodes, inner, middle, last, reached[ends - 1])[:-1]
+        self.middle_curvature: Column = _merged(nodes, inner, bend, last, at_ends)[:-1]
+        total = np.diff(reached[ends - 1], prepend=0.0)
+        turns = np.abs(self.curvature[inner]) * total[which]
+        worst = int(turns.argmax())
+        if turns[worst] > MOST_TURN:
+            raise GeometryError(_cusp(int(which[worst]), float(u[worst])))
 
     def locate(self, way: float) -> tuple[CubicBezier, float]:
         """Return the curve and its parameter at ``way`` [m] from the start of the chain."""
         number = bisect_right(self._starts, way) - 1
-        curve = self._curves[number]
-        start, (g0, g1, g2, g3), first, width, (c1, c2, c3, c4, c5, c6) = self._cells[number]
+        curve = self._curves[self._which[number]]
+        start, first, width, g0, g1, g2, g3, c1, c2, c3, c4, c5, c6 = self._cells[number].tolist()
         rest = way - start
         u = g0 + rest * (g1 + rest * (g2 + rest * g3))
         x = (u - first) / width
         error = x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * (c5 + x * c6))))) - rest
-        return curve, u - error / abs(curve.velocity(u))
+        return curve, float(u - error / abs(curve.velocity(u)))
 
 
-def _nodes(curve: CubicBezier, number: int) -> tuple[Column, Column]:
-    """Return the parameters at the ends of the cells, after equation (1), and |P'| there."""
-    u = FIRST_NODES
+def _cells(curves: Sequence[CubicBezier]) -> tuple[Numbers, Column, Column]:
+    """Return for each cell the number of its curve, where it begins, how wide it is.
+
+    Raises:
+        GeometryError: Equation (1) cannot be kept, or by too many cells only.
+
+    """
+    first = min(max(FIRST_CELLS_IN_ALL // len(curves), FEWEST_FIRST), FIRST_CELLS)
+    which = np.repeat(np.arange(len(curves)), first)
+    u = np.tile(np.arange(first) / first, len(curves))
+    widths = np.full(len(u), 1.0 / first)
     while True:
-        velocity = curve.velocity(u)
+        here = CubicBezier.column(curves, which)
         with np.errstate(all='ignore'):
-            change = _length(velocity[1:] / velocity[:-1] - 1.0)
+            change = _length(here.velocity(u + widths) / here.velocity(u) - 1.0)
         if change.max() <= CHANGE_IN_A_CELL:  # not so where one is NaN
-            return u, _length(velocity)
-        change /= CHANGE_IN_A_CELL
-        parts = np.ceil(np.clip(np.nan_to_num(change, nan=8.0), 1.0, 8.0)).astype(int)
-        if parts.sum() > MOST_CELLS:
-            raise GeometryError(_cusp(number, float(u[int(np.argmax(parts))])))
-        widths = np.repeat((u[1:] - u[:-1]) / parts, parts)
-        rank = np.arange(len(widths)) - np.repeat(np.cumsum(parts) - parts, parts)
-        u = np.append(np.repeat(u[:-1], parts) + rank * widths, 1.0)
+            return which, u, widths
+        change = np.nan_to_num(change / CHANGE_IN_A_CELL, nan=MOST_PARTS)
+        parts = np.ceil(np.clip(change, 1.0, MOST_PARTS)).astype(int)
+        counts = np.bincount(which, weights=parts)
+        if counts.max() > MOST_CELLS:
+            worst = int(np.where(which == counts.argmax(), parts, 0).argmax())
+            raise GeometryError(_cusp(int(which[worst]), float(u[worst])))
+        if counts.sum() > MOST_CELLS_IN_ALL:
+            raise GeometryError(_too_winding(len(curves)))
+        rank = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+        widths = np.repeat(widths / parts, parts)
+        which, u = np.repeat(which, parts), np.repeat(u, parts) + rank * widths
+
+
+def _merged(count: int, inner: Numbers, values: Column, last: Numbers, ends: Column) -> Column:
+    """Return ``values`` at the places ``inner``, and ``ends`` at the places ``last``."""
+    merged: Column = np.empty(count)
+    merged[inner], merged[last] = values, ends
+    return merged
+
+
+def _too_winding(curves: int) -> str:
+    return (
+        f'the {curves} curves wind too much to be planned at once: give fewer poses, further apart '
+        'and with headings along the way'
+    )
 
 
 def _cusp(number: int, u: float) -> str:
     return (
-        f'curve {number} has a cusp near {100.0 * u:.0f} % of its parameter, where a robot would '
-        'have to turn about at once: give a larger delta_curve, or 0 to turn on the spot'
+        f'curve {number + 1} has a cusp near {100.0 * u:.0f} % of its parameter, where a robot '
+        'would have to turn about at once: give a larger delta_curve, or 0 to turn on the spot'
     )
 
 
-def _guess(u: Column, widths: Column, lengths: Column, speed: Column) -> Column:
+def _guess(u: Column, widths: Column, lengths: Column, slopes: tuple[Column, Column]) -> Column:
     """Return (n, 4) coefficients of the cubics u over the way, with slopes 1 / |P'|."""
-    slope, mean = 1.0 / speed, widths / lengths
-    first, last = slope[:-1], slope[1:]
+    (first, last), mean = slopes, widths / lengths
     guess: Column = np.empty((len(u), 4))
     guess[:, 0] = u
     guess[:, 1] = first

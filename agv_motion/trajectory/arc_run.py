@@ -40,7 +40,7 @@ class ArcRun:
         """[s]"""
         if self._distance > 0.0:
             nodes, cruise = np.array([0.0, self._distance]), np.full(2, abs(arc.speed))
-            self._profile = plan_speed(nodes, cruise, arc.ramp, rounding=rounding)
+            self._profile = plan_speed(nodes, cruise, arc.acceleration, rounding=rounding)
             self.duration = self._profile.duration
 
     @property

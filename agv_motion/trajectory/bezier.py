@@ -23,9 +23,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from agv_motion.planar import Pose
 
 Column = NDArray[np.float64]
+Numbers = NDArray[np.intp]
 ComplexColumn = NDArray[np.complexfloating[Any, Any]]
 
 
@@ -47,9 +50,23 @@ class CubicBezier:
         chord = end - start
         self.start = start
         self.end = end
-        self._linear = 3.0 * leaving
-        self._square = 3.0 * (chord - arriving - 2.0 * leaving)
-        self._cube = 3.0 * (leaving + arriving) - 2.0 * chord
+        self.powers: tuple[Any, Any, Any] = (
+            3.0 * leaving,
+            3.0 * (chord - arriving - 2.0 * leaving),
+            3.0 * (leaving + arriving) - 2.0 * chord,
+        )
+        """Coefficients of u, its square and its cube [m]"""
+
+    @classmethod
+    def column(cls, curves: Sequence[CubicBezier], which: Numbers) -> CubicBezier:
+        """Return ``curves[which]`` as one, to be asked with a column of parameters of that shape.
+
+        Only its derivatives can be asked for.
+        """
+        column = cls(0j, 0j, 0j, 0j)
+        powers = np.array([curve.powers for curve in curves])
+        column.powers = powers[which, 0], powers[which, 1], powers[which, 2]
+        return column
 
     @overload
     def point(self, u: float) -> complex: ...
@@ -57,7 +74,9 @@ class CubicBezier:
     def point(self, u: Column) -> ComplexColumn: ...
     def point(self, u: float | Column) -> complex | ComplexColumn:
         """Return P(u) [m]."""
-        return self.start + u * (self._linear + u * (self._square + u * self._cube))
+        linear, square, cube = self.powers
+        point: complex | ComplexColumn = self.start + u * (linear + u * (square + u * cube))
+        return point
 
     @overload
     def velocity(self, u: float) -> complex: ...
@@ -65,7 +84,9 @@ class CubicBezier:
     def velocity(self, u: Column) -> ComplexColumn: ...
     def velocity(self, u: float | Column) -> complex | ComplexColumn:
         """Return dP/du [m]: the hodograph."""
-        return self._linear + u * (2.0 * self._square + u * (3.0 * self._cube))
+        linear, square, cube = self.powers
+        velocity: complex | ComplexColumn = linear + u * (2.0 * square + u * (3.0 * cube))
+        return velocity
 
     @overload
     def acceleration(self, u: float) -> complex: ...
@@ -73,7 +94,9 @@ class CubicBezier:
     def acceleration(self, u: Column) -> ComplexColumn: ...
     def acceleration(self, u: float | Column) -> complex | ComplexColumn:
         """Return d2P/du2 [m]."""
-        return 2.0 * self._square + u * (6.0 * self._cube)
+        _, square, cube = self.powers
+        acceleration: complex | ComplexColumn = 2.0 * square + u * (6.0 * cube)
+        return acceleration
 
     def curvature(self, u: Column) -> Column:
         r"""Return the curvature :math:`P' \times P'' / |P'|^3` [1/m], left positive."""

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 STRAIGHT = 1e-3
 """[1/m] A bend of less is not worth a word."""
 
+MOST_LINES = 10
+"""Of a report; of many slow stretches it tells the slowest."""
+
 
 class Slow(NamedTuple):
     """A stretch on which the curve does not allow the cruising speed."""
@@ -48,16 +51,23 @@ class Feasibility(NamedTuple):
     """where and why the cruising speed is not allowed, in the order of the way"""
 
     def lines(self) -> list[str]:
-        """Return it in words, one thing a line."""
+        """Return it in words, one thing a line; `MOST_LINES` at most."""
         lines = [f'{self.length:.2f} m in {self.duration:.1f} s, at most {self.top_speed:.2f} m/s']
         if self.turn > 0.0:
             lines.append(f'turns on the spot: {degrees(self.turn):.0f} degrees in all')
         if self.top_curvature > STRAIGHT:
             lines.append(f'sharpest bend: radius {1.0 / self.top_curvature:.2f} m')
+        room = MOST_LINES - len(lines)
+        told = self.slow
+        if len(told) > room:
+            slowest = sorted(told, key=lambda stretch: stretch.speed)[: room - 1]
+            told = tuple(stretch for stretch in told if stretch in slowest)[: room - 1]
         lines += (
-            f'from {start:.2f} m to {end:.2f} m no faster than {speed:.2f} m/s: {reason}'
-            for start, end, speed, reason in self.slow
+            f'from {start:.2f} m to {end:.2f} m no faster than {speed:.2g} m/s: {reason}'
+            for start, end, speed, reason in told
         )
+        if len(told) < len(self.slow):
+            lines.append(f'and {len(self.slow) - len(told)} more stretches, less slow')
         return lines
 
 

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 DEPARTURES = (0.0, 0.25, 0.5, 0.75, 0.9)
 """Shares of the way to a stop, in time, at which a new trajectory may leave the old one."""
 
+MANY = 100
+"""A path of more poses leaves the old trajectory at once, or from rest: each try takes its time."""
+
 
 class Kinetics(NamedTuple):
     """What a position servo needs: where to be now, and how fast to go by then."""
@@ -157,10 +160,21 @@ class Ghost:
 
         Arguments and errors as in :meth:`compute_trajectory`.
         """
+        self.require_count(len(poses))
         request = Request(speed_ramps, cruising_speed, delta_curve, backward)
         return self._depart(
-            lambda start, present: self._planner.drive(start, poses, request, present)
+            lambda start, present: self._planner.drive(start, poses, request, present),
+            DEPARTURES if len(poses) <= MANY else DEPARTURES[:1],
         )
+
+    def require_count(self, poses: int) -> None:
+        """Raise if so many ``poses`` are too many for one path: to ask before they are made.
+
+        Raises:
+            ConfigurationError: They are.
+
+        """
+        self._planner.require_count(poses)
 
     def compute_arc(
         self, angle: float, diameter: float, speed_ramps: float, cruising_speed: float
@@ -262,13 +276,17 @@ class Ghost:
         speeds = self._trajectory.speeds(self._time + rate * delay)
         return speeds if rate == 1.0 else Speeds(rate * speeds.linear, rate * speeds.angular)
 
-    def _depart(self, plan: Callable[[Pose, Speeds], Trajectory]) -> Trajectory:
+    def _depart(
+        self,
+        plan: Callable[[Pose, Speeds], Trajectory],
+        departures: Sequence[float] = DEPARTURES,
+    ) -> Trajectory:
         """Follow ``plan`` from now, or after as little braking as it needs, by quarters."""
         if self.speeds == STILL:
             return self._follow(plan(self.pose, STILL))
         stopped = self._trajectory.stopped(self._time)
         left = (stopped.duration - self._time) / self._rate
-        for share in DEPARTURES:
+        for share in departures:
             braking = Braking(stopped, self._time, self._rate, share * left)
             try:
                 return self._follow(plan(braking.end, braking.end_speeds).after(braking))

@@ -25,7 +25,8 @@ class GhostParameters(TwistLimits):
         float, Spec('highest acceleration across the way, in bends', 'm/s2', (0.001, 100.0))
     ] = 0.5
     turn_acceleration: Annotated[
-        float, Spec('ramps of the turns at the corners of a way', 'rad/s2', (0.001, 1000.0))
+        float,
+        Spec('ramps of the turns at the corners of a way; 0: no ramp', 'rad/s2', (0.0, 1000.0)),
     ] = 2.0
     turn_step: Annotated[
         float, Spec('largest jump of the turn rate, where curves meet', 'rad/s', (0.001, 100.0))
@@ -33,6 +34,13 @@ class GhostParameters(TwistLimits):
     s_curve: Annotated[
         float, Spec('time over which acceleration builds up; 0 for a trapezoid', 's', (0.0, 10.0))
     ] = 0.0
+    longest_way: Annotated[float, Spec('a longer trajectory is refused', 'm', (0.01, 1e6))] = 1000.0
+    longest_time: Annotated[
+        float, Spec('a trajectory that takes longer is refused', 's', (0.1, 1e7))
+    ] = 7200.0
+    most_poses: Annotated[
+        int, Spec('a path of more poses is refused: it takes too long to plan', '1', (1, 5000))
+    ] = 1000
 
     def limits(self) -> tuple[Limit, ...]:
         """Return what holds in the bends of a way."""

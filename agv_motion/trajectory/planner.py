@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import phase
 from itertools import pairwise
-from math import copysign
+from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,7 @@ from agv_motion.trajectory.bezier import connect
 from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.limits import joint_ceiling, lowest_ceiling
+from agv_motion.trajectory.line import Line
 from agv_motion.trajectory.motions import STILL, Course, Drive, Motion, Speeds, Turn
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 
 NOTHING = 1e-9
 """[m], [rad], [m/s], [rad/s] What is shorter or slower than this is none."""
+
+MOST_MOTIONS = 400
+"""Drives and turns, each from rest, of one path; each takes its time to plan."""
 
 
 class Planner:
@@ -47,6 +51,7 @@ class Planner:
 
         Raises:
             SignalError: A number is not finite.
+            ConfigurationError: It takes longer than the limits allow.
             GeometryError: The present motion cannot go over into this turn.
 
         """
@@ -62,10 +67,12 @@ class Planner:
 
         Raises:
             SignalError: A number is not finite.
+            ConfigurationError: It takes longer than the limits allow.
             GeometryError: The present motion cannot go over into this turn.
 
         """
         require_finite('turn (start, angle)', (*start, angle))
+        self._require_time(abs(angle) / self._spot_rate(request))
         end = start._replace(theta=wrap(start.theta + angle))
         turns = self._spin(start, end, angle, request, present)
         return self._trajectory(start, end, turns, request, present)
@@ -75,11 +82,14 @@ class Planner:
 
         Raises:
             SignalError: ``start`` is not finite.
+            ConfigurationError: It is longer, or takes longer, than the limits allow.
             GeometryError: The present motion cannot go over into this arc.
 
         """
+        speed, ramp = arc.share * abs(arc.speed), arc.share * arc.acceleration
+        self._require_way(arc.length)
+        self._require_time(arc.length / speed)
         end = arc.end(start)
-        speed, ramp = arc.share * abs(arc.speed), arc.share * arc.ramp
         request = Request(ramp, speed, backward=arc.backward)
         motions: list[Motion] = []
         if arc.length > NOTHING:
@@ -102,30 +112,74 @@ class Planner:
 
         Raises:
             SignalError: A number is not finite.
-            ConfigurationError: No goal.
+            ConfigurationError: No goal, too many, or further than the limits allow.
             GeometryError: A curve has a cusp, or the present motion cannot go over into this way.
 
         """
         if not goals:
             msg = 'no goal given: a way needs at least one pose'
             raise ConfigurationError(msg)
-        require_finite('poses', tuple(number for pose in (start, *goals) for number in pose))
+        self.require_count(len(goals))
+        for pose in (start, *goals):
+            require_finite('poses', pose)
+        chords = sum(
+            hypot(b.x - a.x, b.y - a.y) for a, b in zip((start, *goals), goals, strict=False)
+        )
+        self._require_way(chords)
+        self._require_time(chords / request.cruising_speed)
         motions: list[Motion] = []
         joined = [start]  # by curves, without a stop
         for goal in goals:
-            there = goal._replace(theta=wrap(goal.theta))
+            there = Pose(goal.x, goal.y, wrap(goal.theta))
             if request.delta_curve > 0.0 and abs(_point(there) - _point(joined[-1])) > NOTHING:
                 joined.append(there)
                 continue
             motions += self._curves(joined, request, _first(motions, present))
             motions += self._corners(joined[-1], there, request, _first(motions, present))
             joined = [there]
+            if len(motions) > MOST_MOTIONS:
+                raise ConfigurationError(_too_many_stops(request))
         motions += self._curves(joined, request, _first(motions, present))
         return self._trajectory(start, joined[-1], motions, request, present)
+
+    def require_count(self, poses: int) -> None:
+        """Raise if so many ``poses`` are too many for one path.
+
+        Raises:
+            ConfigurationError: They are more than the limit.
+
+        """
+        most = self.parameters.most_poses
+        if poses > most:
+            msg = (
+                f'a path of {poses} poses: at most {most} (most_poses); send every '
+                f'{-(-poses // most)}th pose, or raise the limit'
+            )
+            raise ConfigurationError(msg)
+
+    def _require_way(self, way: float) -> None:
+        most = self.parameters.longest_way
+        if not way <= most:
+            msg = f'a way of {way:.5g} m: at most {most:g} m (longest_way); send it in parts'
+            raise ConfigurationError(msg)
+
+    def _require_time(self, time: float) -> None:
+        most = self.parameters.longest_time
+        if not time <= most:
+            msg = (
+                f'a trajectory of {time:.5g} s or more: at most {most:g} s (longest_time); go '
+                'faster, or send it in parts'
+            )
+            raise ConfigurationError(msg)
+
+    def _spot_rate(self, request: Request) -> float:
+        return min(request.cruising_speed, self.parameters.spot_rate())
 
     def _trajectory(
         self, start: Pose, end: Pose, motions: list[Motion], request: Request, present: Speeds
     ) -> Trajectory:
+        self._require_way(sum(motion.length for motion in motions))
+        self._require_time(sum(motion.duration for motion in motions))
         if not motions and max(abs(present.linear), abs(present.angular)) > NOTHING:
             raise GeometryError(_other_motion(present))
         return Trajectory((start, end), motions, request, self._limits)
@@ -147,7 +201,7 @@ class Planner:
         heading = wrap(phase(-line if request.backward else line))
         ends = here._replace(theta=heading), there._replace(theta=heading)
         motions = self._turn(here, ends[0], corner, present)
-        course = ArcLength([connect(*ends, 1.0 / 3.0, backward=request.backward)])
+        course = Line(_point(here), _point(there))
         motions.append(self._along(course, ends, request, _first(motions, present)))
         return motions + self._turn(ends[1], there, corner, STILL)
 
@@ -161,6 +215,7 @@ class Planner:
                 its turn rate would jump.
 
         """
+        ramp = request.acceleration
         speed = -present.linear if request.backward else present.linear
         if speed < -NOTHING or (abs(speed) <= NOTHING and abs(present.angular) > NOTHING):
             raise GeometryError(_other_motion(present))
@@ -170,11 +225,11 @@ class Planner:
         profile = plan_speed(
             course.way,
             _ceiling(course, self._limits, request.cruising_speed),
-            request.speed_ramps,
+            ramp,
             max(speed, 0.0),
             self.parameters.s_curve,
         )
-        return Drive(course, ends, profile, request.speed_ramps, backward=request.backward)
+        return Drive(course, ends, profile, ramp, backward=request.backward)
 
     def _turn(self, start: Pose, end: Pose, request: Request, present: Speeds) -> list[Motion]:
         """Return the turn on the spot, the shorter way round, as :meth:`_spin`."""
@@ -194,15 +249,15 @@ class Planner:
         sign = copysign(1.0, angle)
         if abs(present.linear) > NOTHING or sign * present.angular < -NOTHING:
             raise GeometryError(_other_motion(present))
-        rate = min(request.cruising_speed, self.parameters.spot_rate())
+        rate, ramp = self._spot_rate(request), request.acceleration
         profile = plan_speed(
             np.array([0.0, abs(angle)]),
             np.array([rate, rate]),
-            request.speed_ramps,
+            ramp,
             max(sign * present.angular, 0.0),
             self.parameters.s_curve,
         )
-        return [Turn(start, end, sign, profile, request.speed_ramps)]
+        return [Turn(start, end, sign, profile, ramp)]
 
 
 def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> Column:
@@ -235,6 +290,14 @@ def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> 
     np.minimum(last, last_most, out=last)
     ceiling: Column = np.sqrt(square)
     return ceiling
+
+
+def _too_many_stops(request: Request) -> str:
+    return (
+        f'a path with more than {MOST_MOTIONS} drives and turns from rest to rest (delta_curve = '
+        f'{request.delta_curve:g}): send it in parts, or with a delta_curve that leads through '
+        'the poses without a stop'
+    )
 
 
 def _point(pose: Pose) -> complex:

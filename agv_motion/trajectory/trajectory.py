@@ -82,8 +82,16 @@ class Trajectory:
         ends = motion.pose(0.0), self.end
         return Trajectory(ends, (motion, *self.motions), self.request, self.limits)
 
-    def polyline(self, step: float) -> list[Pose]:
-        """Return the poses at every ``step`` [s] and at the end, to draw it."""
+    def polyline(self, step: float, most: int | None = None) -> list[Pose]:
+        """Return the poses at every ``step`` [s] and at the end, to draw it.
+
+        Args:
+            step: Between two poses [s].
+            most: Number of poses, about, above which the steps are longer instead.
+
+        """
+        if most is not None:
+            step = max(step, self.duration / most)
         count = int(self.duration / step)
         return [*(self.pose(k * step) for k in range(count + 1)), self.end]
 

@@ -92,6 +92,56 @@ def test_a_path_is_driven_through(course):
     course.is_at(1.0, 0.2, -0.5)
 
 
+def test_a_path_of_places_alone_is_followed(course):
+    """A grid planner leaves every orientation at the identity: the robot looks along its path."""
+    places = [(0.1 * k, 0.0) for k in range(6)] + [(0.5, 0.1 * k) for k in range(1, 6)]
+    message = Path()
+    message.header.frame_id = 'odom'
+    message.poses = [stamped(x, y, 0.0) for x, y in places]
+    course.tester.publisher(Path, 'path').publish(message)
+    course.says('arrived')
+    course.is_at(0.5, 0.5, pi / 2)
+    for pose in map(pose_of, (stamped.pose for stamped in course.paths[-1].poses)):
+        assert min(abs(pose.y), abs(pose.x - 0.5)) < 0.02
+
+
+@pytest.mark.parametrize(
+    ('topic', 'message', 'word'),
+    [
+        ('arc', (125.0, 10.0, 0.02), 'at most 7200 s'),
+        ('arc', (0.01, 9e15, 5e-324), 'must lie in'),
+        ('goal_pose', stamped(1e4, 0.0, 0.0), 'a way of 10000 m: at most 1000 m'),
+        ('goal_pose', stamped(1e308, -1e308, 0.0), 'at most 1000 m'),
+        ('path', 3000, '3000 poses: at most 1000'),
+    ],
+)
+def test_what_would_take_too_long_is_refused_at_once_and_the_next_goal_is_driven(
+    course, topic, message, word
+):
+    if topic == 'path':
+        kind, message = Path, Path(poses=[PoseStamped()] * message)
+    elif topic == 'arc':
+        kind, vector = Vector3Stamped, message
+        message = Vector3Stamped()
+        message.vector.x, message.vector.y, message.vector.z = vector
+    else:
+        kind = PoseStamped
+    course.tester.publisher(kind, topic).publish(message)
+    course.tester.graph.spin_until(lambda: word in course.node.complaint)
+    assert not any(map(any, course.robot.commands))
+    course.goal.publish(stamped(0.2, 0.0, 0.0))
+    course.says('driving')
+
+
+def test_an_arc_of_half_an_hour_is_planned_and_drawn_in_few_poses(course):
+    message = Vector3Stamped()
+    message.vector.x, message.vector.y, message.vector.z = 4.0, 10.0, 0.02
+    course.tester.publisher(Vector3Stamped, 'arc').publish(message)
+    course.says('driving')
+    drawn = course.tester.wait(course.paths, lambda m: len(m.poses) > 10)
+    assert len(drawn.poses) <= 502
+
+
 def test_an_arc_ends_where_it_was_predicted(course):
     """A quarter turn to the right round an inner circle of 0.6 m."""
     publisher = course.tester.publisher(Vector3Stamped, 'arc')

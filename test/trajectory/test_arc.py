@@ -116,7 +116,9 @@ def test_speed_and_ramp_are_those_of_the_outer_wheel():
 
 @given(ARCS, POSES, st.floats(0.0, 1.0))
 def test_the_ghost_keeps_to_the_circle_and_ends_where_predicted(arc, start, share):
-    limits = GhostParameters(track=arc.track, lateral_acceleration=1.0, wheel_speed=1.0)
+    limits = GhostParameters(
+        track=arc.track, lateral_acceleration=1.0, longest_way=1e6, longest_time=1e7
+    )
     ghost = Ghost(start, limits)
     ghost.compute_arc(arc.angle, arc.diameter, arc.ramp, arc.speed)
     expected = arc.end(start)

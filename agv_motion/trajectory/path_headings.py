@@ -1,0 +1,59 @@
+"""The headings of a path that consists of places only: those of its own direction.
+
+Planners on grids leave the orientations of a path at the identity, all of them or all but that of
+the goal. Taken for headings they would have the robot look along the x axis at every pose.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from math import pi
+from typing import TYPE_CHECKING
+
+from agv_motion.planar import Pose, wrap
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+APART = 1e-6
+"""[m] Places nearer to each other are one."""
+
+
+def are_places(poses: Sequence[Pose]) -> bool:
+    """Return whether ``poses`` bear no headings: two or more are identities, all but the goal's."""
+    *inner, goal = poses or [Pose(0.0, 0.0, 1.0)]
+    bare = all(pose.theta == 0.0 for pose in inner)
+    return bare and len(inner) + (goal.theta == 0.0) >= 2
+
+
+def with_headings(start: Pose, places: Sequence[Pose], *, backward: bool) -> list[Pose]:
+    """Return ``places`` with the headings of the path through them.
+
+    At a place inside the path that is the direction from the one before to the next; at the end
+    the direction of arrival, unless the goal has a heading of its own. Places that coincide are
+    one, and the first is left out where the robot stands on it already.
+
+    Args:
+        start: Where the robot is.
+        places: Two or more, see :func:`are_places`.
+        backward: Whether the robot drives backwards, and so looks against the path.
+
+    """
+    points = [complex(places[0].x, places[0].y)]
+    for place in places[1:]:
+        point = complex(place.x, place.y)
+        if abs(point - points[-1]) > APART:
+            points.append(point)
+    here = complex(start.x, start.y)
+    if len(points) > 1 and abs(here - points[0]) < 0.5 * abs(points[1] - points[0]):
+        del points[0]
+    befores, afters = [here, *points[:-1]], [*points[1:], points[-1]]
+    poses = []
+    for before, point, after in zip(befores, points, afters, strict=True):
+        along = after - before
+        if abs(along) <= APART:  # straight there and back
+            along = point - before
+        poses.append(Pose(point.real, point.imag, wrap(phase(along) + pi * backward)))
+    if places[-1].theta != 0.0:
+        poses[-1] = places[-1]
+    return poses
