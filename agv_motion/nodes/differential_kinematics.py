@@ -17,7 +17,7 @@ from agv_motion.ros.run import run
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.odometry.encoders import Step
+    from agv_motion.odometry.continuity import Step
     from agv_motion.planar import Twist
 
 

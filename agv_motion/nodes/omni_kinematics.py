@@ -11,7 +11,7 @@ from std_msgs.msg import Float64
 from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
 from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
-from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.wheel_monitor import SOUND, WheelMonitor
 from agv_motion.parameters import Spec

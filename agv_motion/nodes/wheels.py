@@ -21,7 +21,7 @@ from std_srvs.srv import SetBool
 from agv_motion.errors import SignalError
 from agv_motion.motion.watchdog import Silence
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
-from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.odometry.rate_encoder import RateEncoder
 from agv_motion.parameters import Spec

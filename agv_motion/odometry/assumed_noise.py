@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Annotated
 
-from agv_motion.odometry.covariance import Covariance
+from agv_motion.odometry.covariance import Covariance, shift
 from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, compose, inverse, logarithm, require_finite
@@ -57,5 +57,20 @@ class AssumedNoise:
             along = given.position**2 * way
             turned = given.heading**2 * way + given.turning**2 * abs(step.wz)
             self._reckoning.carry(step, Covariance(along, 0.0, 0.0, along, 0.0, turned))
+        self._last = pose
+        return self._reckoning.origin_covariance
+
+    def restart(self, pose: Pose) -> Covariance:
+        """Go on from ``pose``, to which no way led; return the covariance, which is as it was.
+
+        Raises:
+            SignalError: A number is not finite.
+
+        """
+        require_finite('pose', pose)
+        if self._last is None:
+            return self.follow(pose)
+        about_origin = self._reckoning.origin_covariance
+        self._reckoning.set(pose, shift(about_origin, pose.x, pose.y))
         self._last = pose
         return self._reckoning.origin_covariance

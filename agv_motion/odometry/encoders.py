@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from math import inf
 from operator import mul, sub
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.gates import MAX_ANGLE, require_within
 from agv_motion.planar import require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from agv_motion.odometry.parameters import OdometryParameters
-
-CLOCK_SET_BACK = 10.0
-"""[s] A stamp that much before the last is no late message: time itself began again."""
-
-
-class Step(Enum):
-    """What a reading of the encoders was good for."""
-
-    MOVED = 'moved'
-    GAP = 'after a gap: the path between is a guess'
-    FIRST = 'first reading'
-    RESET = 'encoders or clock jumped: the motion between is lost'
-    DUPLICATE = 'stamp seen before: ignored'
-    LATE = 'older than the last: ignored, the encoders count on'
-
 
 MOVED = Step.MOVED
 """An attribute of an enumeration costs ten times a global: this one is read at every step."""
@@ -53,28 +39,33 @@ class Encoders:
             msg = f'wheel_radii = {self._radii}: give finite numbers above 0 [m]'
             raise ConfigurationError(msg)
         self._max_gap = parameters.max_gap
+        self._gap_noise = parameters.gap_noise
         self._range = parameters.encoder_range
         self._max_rolled = parameters.max_wheel_speed * len(self._radii)
+        self._order = Continuity[list[float]](parameters.max_gap, self._possible)
         self._stamp = -inf
         self._angles: list[float] = []
         self.duration = 0.0
         """[s] between the last two readings"""
         self.travel: Sequence[float] = ()
-        """(n,) [m] distance that each wheel rolled meanwhile; empty where that is lost"""
+        """(n,) [m] distance that each wheel is known to have rolled meanwhile; empty at first"""
         self.rolled = 0.0
-        """[m] sum of the travels, all counted positive; where lost, what it was likely to be"""
+        """[m] sum of the travels, all counted positive"""
+        self.doubt = 0.0
+        """[m] standard deviation of what a wheel may have rolled unseen, or is a guess"""
 
     @property
     def stamp(self) -> float | None:
         """Time of the last reading [s]; None before the first."""
         return self._stamp if self._stamp > -inf else None
 
-    def read(self, stamp: float, angles: Sequence[float]) -> Step:
+    def read(self, stamp: float, angles: Sequence[float], *, by_rate: bool = False) -> Step:
         """Take a reading and work out the travel since the one before.
 
         Args:
             stamp: Time of the reading [s].
             angles: (n,) angle of each wheel [rad].
+            by_rate: Whether angles are added-up rates, which tell nothing of what was not seen.
 
         Raises:
             SignalError: A wrong number of values, or one that is not finite; nothing has changed.
@@ -87,46 +78,79 @@ class Encoders:
             turned = [(angle + half) % self._range - half for angle in turned]
         travel = list(map(mul, turned, self._radii))
         rolled = sum(map(abs, travel))
-        step = MOVED
-        if not (0.0 < duration <= self._max_gap and rolled <= self._max_rolled * duration):
-            step = self._judge(stamp, duration, angles, rolled)
-            if step is Step.DUPLICATE or step is Step.LATE:
-                return step
-            if step is not Step.GAP:
-                travel, rolled = [], self._missed(duration)
         if len(angles) != len(self._radii):
             self._require(angles)
-        self.duration, self.travel, self.rolled = duration, travel, rolled
+        if not (
+            0.0 < duration <= self._max_gap and rolled <= self._max_rolled * duration
+        ) or (by_rate and self._order.doubts):
+            return self._judge(stamp, list(angles), by_rate=by_rate)
         self._stamp, self._angles = stamp, list(angles)
-        return step
+        self._order.follow(stamp, self._angles)
+        self.duration, self.travel, self.rolled, self.doubt = duration, travel, rolled, 0.0
+        return MOVED
 
     def set_angles(self, angles: dict[int, float]) -> None:
         """Take some wheels, by number, to have stood at ``angles`` [rad] in the last reading."""
         for wheel, angle in angles.items():
             if self._angles:
                 self._angles[wheel] = angle
+        self._order.replace(self._angles)
 
-    def _judge(self, stamp: float, duration: float, angles: Sequence[float], rolled: float) -> Step:
-        """Return what a reading means that does not plausibly follow the last."""
-        require_finite('stamp', (stamp,))
-        if self._stamp > -inf:
-            if duration == 0.0:
-                return Step.DUPLICATE
-            if -CLOCK_SET_BACK < duration < 0.0:
-                return Step.LATE
+    def _judge(self, stamp: float, angles: list[float], *, by_rate: bool) -> Step:
+        """Take a reading that does not plainly follow the last."""
         self._require(angles)
-        if self._stamp == -inf:
-            return Step.FIRST
-        if duration < 0.0 or rolled > self._max_rolled * duration:
-            return Step.RESET
-        # over so long a gap the encoders may have gone round any number of times
-        half_way_round = 0.5 * self._range * sum(self._radii)
-        return Step.RESET if 0.0 < half_way_round < self._max_rolled * duration else Step.GAP
+        order, before = self._order, self._angles
+        step = order.judge(stamp, angles)
+        if not step.used:
+            return step
+        since, speed = self._stamp, self._speed()
+        self._stamp, self._angles = stamp, angles
+        if step is Step.FIRST:
+            return step
+        if order.begun is not None and step in {Step.LEAP, Step.RESET}:
+            since = order.begun.stamp
+            if step is Step.RESET:
+                before = order.begun.value
+        elif step is Step.GAP and self._may_have_gone_round(stamp - since):
+            step, before = Step.RESET, angles
+        self.duration, self.travel = stamp - since, self._travel(before, angles)
+        self.rolled = sum(map(abs, self.travel))
+        self.doubt = self._doubt(step, max(speed, self._speed()), by_rate=by_rate)
+        return step
 
-    def _missed(self, duration: float) -> float:
-        """Return what the wheels would have rolled at their last speeds [m]."""
-        speed = self.rolled / self.duration if self.duration else 0.0
-        return speed * max(duration, 0.0) if speed else 0.0  # the duration may be infinite
+    def _doubt(self, step: Step, speed: float, *, by_rate: bool) -> float:
+        """Return how far a wheel may have rolled beyond what is known [m].
+
+        Args:
+            step: What the reading was good for.
+            speed: Mean of the wheels [m/s] before or after what was not seen, whichever is more.
+            by_rate: Whether nothing counted meanwhile.
+
+        """
+        if step is Step.RESET or by_rate:
+            return speed * self._order.unseen
+        share = {Step.GAP: self._gap_noise, Step.LEAP: 1.0}.get(step, 0.0)
+        return share * self.rolled / len(self._radii)
+
+    def _speed(self) -> float:
+        """Return the mean speed of the wheels over the last step [m/s]."""
+        return self.rolled / (self.duration * len(self._radii)) if self.duration else 0.0
+
+    def _travel(self, before: Sequence[float], after: Sequence[float]) -> list[float]:
+        turned: Iterable[float] = map(sub, after, before)
+        if self._range:
+            half = 0.5 * self._range
+            turned = [(angle + half) % self._range - half for angle in turned]
+        return list(map(mul, turned, self._radii))
+
+    def _possible(self, before: list[float], after: list[float], duration: float) -> bool:
+        """Return whether the wheels can have turned like that in that time."""
+        return sum(map(abs, self._travel(before, after))) <= self._max_rolled * duration
+
+    def _may_have_gone_round(self, duration: float) -> bool:
+        """Return whether encoders that wrap may have done so any number of times meanwhile."""
+        half_way_round = 0.5 * self._range * sum(self._radii)
+        return 0.0 < half_way_round < self._max_rolled * duration
 
     def _require(self, angles: Sequence[float]) -> None:
         """Raise unless there is one finite angle for each wheel."""
@@ -134,3 +158,4 @@ class Encoders:
             msg = f'{len(angles)} wheel angles for {len(self._radii)} wheels: give one each'
             raise SignalError(msg)
         require_finite('wheel angles', tuple(angles))
+        require_within('wheel angles', angles, MAX_ANGLE, 'rad', 'look at the encoders')

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agv_motion.errors import SignalError
-from agv_motion.odometry.covariance import Covariance, is_positive_definite
+from agv_motion.odometry.covariance import Covariance
+from agv_motion.odometry.gates import (
+    MAX_COORDINATE,
+    MAX_HEADING,
+    require_measurement,
+    require_within,
+)
 from agv_motion.planar import require_finite
 
 
@@ -28,22 +33,16 @@ class Fix:
         """Refuse what is no measurement.
 
         Raises:
-            SignalError: A number is not finite, or the covariance is not positive definite.
+            SignalError: A number is not finite or beyond its gate, or the covariance is none.
 
         """
         require_finite('fix (stamp, x, y)', (self.stamp, self.x, self.y))
-        xx, xy, _, yy, _, _ = used = self.covariance
-        if self.heading is None:
-            used = Covariance(xx, xy, 0.0, yy, 0.0, 1.0)
-        else:
+        name = f'fix at {self.stamp} s'
+        require_within(name, (self.x, self.y), MAX_COORDINATE, 'm', 'give it in the map')
+        if self.heading is not None:
             require_finite('heading of a fix', (self.heading,))
-        require_finite('covariance of a fix', used)
-        if not is_positive_definite(used):
-            msg = (
-                f'fix at {self.stamp} s: covariance {tuple(self.covariance)} (xx, xy, xt, yy, yt, '
-                'tt) is not positive definite: give variances above 0, and correlations below 1'
-            )
-            raise SignalError(msg)
+            require_within('heading of a fix', (self.heading,), MAX_HEADING, 'rad', 'mend it')
+        require_measurement(name, self.covariance, heading=self.heading is not None)
 
 
 def position_fix(stamp: float, x: float, y: float, deviation: float) -> Fix:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from operator import sub
 from typing import TYPE_CHECKING
 
 from agv_motion.odometry.belief import Belief, Drift, take
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 VOTERS = range(3, 8)
 """How many fixes in a row are rejected when it is asked whether the one before was the outlier."""
 LONGEST_STREAK = 24
-"""Rejected fixes in a row that are kept; of more, the oldest is dropped."""
+"""Rejected fixes in a row that are kept, spread over the time that they must span."""
 
 
 @dataclass
@@ -39,18 +40,23 @@ class _Entry:
 class FixBuffer:
     """The belief, and the fixes that led to it since a horizon."""
 
-    def __init__(self, belief: Belief, drift: Drift, gate: float) -> None:
+    def __init__(
+        self, belief: Belief, drift: Drift, gate: float, fewest: int = 5, span: float = 10.0
+    ) -> None:
         """Start from a belief.
 
         Args:
             belief: Before the first fix.
             drift: What makes odometry and fixes part even at rest.
             gate: Probability with which a sound fix passes.
+            fewest: Rejected fixes in a row that are kept however old they are.
+            span: Time over which rejected fixes in a row are kept, however many come [s].
 
         """
         self._before = belief
         self._drift = drift
         self._gates = chi_square_quantile(gate, 2), chi_square_quantile(gate, 3)
+        self._fewest, self._span = max(fewest, VOTERS.stop), span
         self._entries: list[_Entry] = []
 
     @property
@@ -114,8 +120,23 @@ class FixBuffer:
             done += 1
         del self._entries[:done]
         streak -= done
-        while len(self._entries) - streak > LONGEST_STREAK:  # a rejected fix changed nothing
-            del self._entries[streak]
+        self._thin(streak)
+
+    def _thin(self, streak: int) -> None:
+        """Keep of the rejected fixes, which changed nothing, a few that span the last seconds.
+
+        However often they come: the one whose neighbours are nearest in time is left out.
+        """
+        entries = self._entries
+        newest = entries[-1].sighting.fix.stamp if entries else 0.0
+        while len(entries) - streak > self._fewest and (
+            newest - entries[streak + 1].sighting.fix.stamp >= self._span
+        ):
+            del entries[streak]
+        while len(entries) - streak > LONGEST_STREAK:
+            stamps = [entry.sighting.fix.stamp for entry in entries[streak:]]
+            gaps = list(map(sub, stamps[2:], stamps))
+            del entries[streak + 1 + gaps.index(min(gaps))]
 
     def _streak(self) -> int:
         """Return the place after the last accepted fix."""

@@ -12,13 +12,22 @@ from math import ceil, hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.alignment import Sighting, align, thin
+from agv_motion.odometry.alignment import UNKNOWN, Sighting, align, thin
 from agv_motion.odometry.belief import Belief, Drift, believe, covariance_at
-from agv_motion.odometry.covariance import Covariance, is_positive_definite, rotate, shift
+from agv_motion.odometry.continuity import LEAP, Step
+from agv_motion.odometry.covariance import Covariance, add, rotate, shift
 from agv_motion.odometry.fix_buffer import FixBuffer
 from agv_motion.odometry.fusion_parameters import FusionParameters
 from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
-from agv_motion.odometry.history import OdometryHistory, Waypoint
+from agv_motion.odometry.gates import (
+    MAX_COORDINATE,
+    MAX_DEVIATION,
+    MAX_TURN_DEVIATION,
+    require_measurement,
+    require_within,
+)
+from agv_motion.odometry.history import OdometryHistory, Waypoint, speed_between
+from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
 from agv_motion.planar import Pose, compose, inverse, require_finite
 
 if TYPE_CHECKING:
@@ -26,14 +35,13 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.fix import Fix
 
+ORIGIN = Pose(0.0, 0.0, 0.0)
 AGREEING = 0.6
 """[-] Share of the fixes that must agree on where the robot is."""
 MOST_SIGHTINGS = 24
 """Fixes kept while searching, spread over the way; more would only take time."""
 MOST_WAITING = 50
 """Fixes that may wait for odometry to come up to them."""
-CLOCK_SET_BACK = 10.0
-"""[s] Odometry that much before the last is not late: time itself began again."""
 DOUBT = 3
 """Fixes rejected in a row that make the estimate doubtful."""
 
@@ -45,6 +53,8 @@ class PoseFusion:
         """Start knowing nothing."""
         self._given = parameters or FusionParameters()
         self._drift = Drift(self._given.position_drift**2, self._given.heading_drift**2)
+        self._tag = Pose(self._given.tag_x, self._given.tag_y, 0.0)
+        self._intake = OdometryIntake(self._given)
         self._history = OdometryHistory(self._given.horizon)
         self._waiting: list[Fix] = []
         self._verdicts = dict.fromkeys(Verdict, 0)
@@ -70,18 +80,16 @@ class PoseFusion:
 
         """
         require_finite('pose', pose)
-        require_finite('covariance of the pose', covariance)
-        if not is_positive_definite(covariance):
-            msg = f'covariance {tuple(covariance)} of the pose is not positive definite: mend it'
-            raise SignalError(msg)
+        require_within('pose', pose, MAX_COORDINATE, 'm (rad)', 'give it in the map')
+        require_measurement('pose', covariance, heading=True)
         if not self._history:
             msg = 'the pose can be set once there is odometry: start that first'
             raise SignalError(msg)
         self.restart()
         self._track(believe(pose, covariance, self._history.newest))
 
-    def add_odometry(self, stamp: float, pose: Pose, origin_covariance: Covariance) -> None:
-        """Take in where odometry sees the robot; a stamp that is not newer is ignored.
+    def add_odometry(self, stamp: float, pose: Pose, origin_covariance: Covariance) -> Step:
+        """Take in where odometry sees the robot; what does not follow is ignored: `continuity`.
 
         Args:
             stamp: Time [s].
@@ -90,25 +98,23 @@ class PoseFusion:
                 `dead_reckoning`.
 
         Raises:
-            SignalError: A number is not finite.
+            SignalError: A number is not finite, or beyond its gate.
 
         """
-        require_finite('odometry', (stamp, *pose, *origin_covariance))
-        now = Waypoint(stamp, pose, origin_covariance)
-        if self._history:
-            last = self._history.newest
-            elapsed = stamp - last.stamp
-            if -CLOCK_SET_BACK < elapsed <= 0.0:
-                return
-            way = hypot(pose.x - last.pose.x, pose.y - last.pose.y)
-            if elapsed < 0.0:
-                self._history.clear()
-                self.restart()
-            elif way > self._given.max_speed * elapsed or origin_covariance.tt < last.noise.tt:
-                self._begin_anew(last, now)
+        passage = self._intake.take(stamp, pose, origin_covariance)
+        self.follow(passage)
+        return passage.step
+
+    def follow(self, passage: Passage) -> None:
+        """Take in a message of odometry that an `OdometryIntake` made ready."""
+        step, now, *_ = passage
+        if not step.used:
+            return
+        if step in {Step.LEAP, Step.RESET} and self._history:
+            self._leap(passage)
         self._history.append(now)
-        if self._waiting and self._waiting[0].stamp <= stamp:
-            ready = [fix for fix in self._waiting if fix.stamp <= stamp]
+        if self._waiting and self._waiting[0].stamp <= now.stamp:
+            ready = [fix for fix in self._waiting if fix.stamp <= now.stamp]
             del self._waiting[: len(ready)]
             for fix in ready:
                 self._judge(fix)
@@ -164,7 +170,9 @@ class PoseFusion:
         horizon = max(self._history.newest.stamp - self._given.horizon, self._history.oldest.stamp)
         if fix.stamp < horizon or (self._buffer is not None and fix.stamp < self._buffer.start):
             return self._count(Verdict.LATE)
-        sighting = Sighting(fix, self._history.at(fix.stamp))
+        sighting = Sighting(fix, self._tag_at(self._history.at(fix.stamp)))
+        if self._is_lost(sighting.waypoint):
+            self.restart()
         if self._buffer is None:
             return self._count(self._search(sighting))
         if sighting in self._buffer:
@@ -178,6 +186,23 @@ class PoseFusion:
         if self._buffer is not None:
             self._buffer.forget(horizon)
         return self._count(verdict)
+
+    def _tag_at(self, waypoint: Waypoint) -> Waypoint:
+        """Return where the tag was: errors about the origin of `odom` are the same for it.
+
+        So the way from the robot's centre to the tag enters by moving the origin there, as `belief`
+        does for any place: exact, with the turn that the fix thereby tells of.
+        """
+        if self._tag == ORIGIN:
+            return waypoint
+        return waypoint._replace(pose=compose(waypoint.pose, self._tag))
+
+    def _is_lost(self, waypoint: Waypoint) -> bool:
+        """Return whether the robot may be anywhere: only a search can find it again."""
+        if self._buffer is None:
+            return False
+        xx, _, _, yy, _, tt = covariance_at(self._buffer.belief, waypoint, self._drift)
+        return max(xx, yy) > MAX_DEVIATION**2 or tt > MAX_TURN_DEVIATION**2
 
     def _search(self, sighting: Sighting) -> Verdict:
         """Keep the fix, and see whether enough of them agree on position and heading."""
@@ -222,24 +247,47 @@ class PoseFusion:
             self._track(belief)
 
     def _track(self, belief: Belief) -> None:
-        self._buffer = FixBuffer(belief, self._drift, self._given.gate)
+        given = self._given
+        self._buffer = FixBuffer(
+            belief, self._drift, given.gate, given.kidnap_fixes, given.kidnap_time
+        )
         self._guess, self._sightings = None, []
 
-    def _begin_anew(self, last: Waypoint, now: Waypoint) -> None:
-        """Keep the robot where it is in `map` when odometry jumps to another origin."""
-        belief = self._belief()
+    def _leap(self, passage: Passage) -> None:
+        """Keep the robot where it is in `map`, less sure, when the clock or odometry leaps."""
+        step, now, begun, _ = passage
+        belief, last = self._belief(), self._history.newest
+        lost = self._lost(passage)
         self._history.clear()
         self._sightings = []
+        first = begun or now
+        if not 0.0 < first.stamp - last.stamp <= LEAP:  # fixes of another time would never come
+            self._waiting.clear()
+            if step is Step.RESET:  # a clock and a pose that both leap: all began anew
+                self.restart()
+                return
         if belief is None:
             return
-        jump = compose(last.pose, inverse(now.pose))
-        moved = shift(covariance_at(belief, last, self._drift), -last.pose.x, -last.pose.y)
-        covariance = rotate(shift(moved, jump.x, jump.y), -jump.theta)
-        kept = Belief(compose(belief.map_to_odom, jump), covariance, now)
+        about_robot = add(covariance_at(belief, last, self._drift), lost)
+        covariance = shift(about_robot, -last.pose.x, -last.pose.y)
+        kept = Belief(belief.map_to_odom, covariance, last._replace(stamp=first.stamp))
+        if step is Step.RESET:
+            jump = compose(last.pose, inverse(first.pose))
+            moved = rotate(shift(covariance, jump.x, jump.y), -jump.theta)
+            kept = Belief(compose(belief.map_to_odom, jump), moved, first)
+        self._accepted_at = None if self._accepted_at is None else first.stamp
         if self._buffer is not None:
             self._track(kept)
         else:
             self._guess = kept
+
+    def _lost(self, passage: Passage) -> Covariance:
+        """Return the covariance of what the robot may have done with nothing seen of it."""
+        speeds = [self._history.speed()]
+        if passage.begun is not None:
+            speeds.append(speed_between(passage.begun, passage.waypoint))
+        way, turn = (max(pair) * passage.unseen for pair in zip(*speeds, strict=True))
+        return Covariance(way * way, 0.0, 0.0, way * way, 0.0, min(turn * turn, UNKNOWN))
 
     def _count(self, verdict: Verdict) -> Verdict:
         self._verdicts[verdict] += 1

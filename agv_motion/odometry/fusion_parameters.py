@@ -34,8 +34,8 @@ class FusionParameters:
         float, Spec('fixes older than this no longer help to find the robot', 's', (1.0, 1e5))
     ] = 300.0
     kidnap_fixes: Annotated[
-        int, Spec('fixes in a row that agree with one another but not with us', '1', (3, 20))
-    ] = 10
+        int, Spec('fixes in a row, at least, that agree but not with us: carried', '1', (3, 20))
+    ] = 5
     kidnap_time: Annotated[float, Spec('and the time they span', 's', (0.0, 600.0))] = 10.0
     fix_timeout: Annotated[
         float, Spec('time without a fix after which odometry is alone', 's', (0.1, 3600.0))
@@ -43,6 +43,13 @@ class FusionParameters:
     max_speed: Annotated[
         float, Spec('of the robot; beyond, odometry began anew', 'm/s', (0.01, 100.0))
     ] = 10.0
+    max_turn_rate: Annotated[
+        float, Spec('of the robot; beyond, odometry began anew', 'rad/s', (0.01, 100.0))
+    ] = 10.0
+    tag_x: Annotated[
+        float, Spec('where on the robot the fixes are taken, forward of base_link', 'm', (-100, 100))
+    ] = 0.0
+    tag_y: Annotated[float, Spec('... and left of it', 'm', (-100, 100))] = 0.0
 
     def __post_init__(self) -> None:
         """Check every row."""

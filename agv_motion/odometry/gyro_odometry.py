@@ -22,9 +22,8 @@ class GyroOdometry:
 
     def __init__(self, first: Waypoint) -> None:
         """Start at ``first``, with its uncertainty."""
-        self._last = first
         self._reckoning = DeadReckoning()
-        self._restart(first)
+        self.restart(first)
 
     @property
     def pose(self) -> Pose:
@@ -36,15 +35,18 @@ class GyroOdometry:
         """Covariance of the error about the origin of `odom`."""
         return self._reckoning.origin_covariance
 
-    def follow(self, waypoint: Waypoint, gyro: YawRate, max_speed: float) -> None:
-        """Take the step from the last waypoint to a newer one.
+    def restart(self, waypoint: Waypoint) -> None:
+        """Begin anew at ``waypoint``, with its uncertainty, where odometry does."""
+        self._last = waypoint
+        x, y = waypoint.pose.x, waypoint.pose.y
+        self._reckoning.set(waypoint.pose, shift(waypoint.noise, x, y))
 
-        Odometry that jumps, in place or in noise, began anew: so does this.
+    def follow(self, waypoint: Waypoint, gyro: YawRate) -> None:
+        """Take the step from the last waypoint to one that goes on from it, see `continuity`.
 
         Args:
-            waypoint: Where odometry sees the base now.
+            waypoint: Where odometry sees the base now; its stamp may have leapt.
             gyro: The gyroscope, which is asked for the turn since, and learns from the wheels.
-            max_speed: Of the base [m/s]; beyond, odometry has jumped.
 
         """
         last, self._last = self._last, waypoint
@@ -52,19 +54,11 @@ class GyroOdometry:
         duration = waypoint.stamp - last.stamp
         step = logarithm(compose(inverse(last.pose), waypoint.pose))
         added = Covariance(*[b - a for a, b in zip(last.noise, waypoint.noise, strict=True)])
-        far = step.vx * step.vx + step.vy * step.vy > (max_speed * duration) ** 2
-        if duration <= 0.0 or far or added.tt < 0.0:
-            self._restart(waypoint)
-            return
         x, y = 0.5 * (last.pose.x + waypoint.pose.x), 0.5 * (last.pose.y + waypoint.pose.y)
         covariance = rotate(shift(added, x, y), -(last.pose.theta + 0.5 * step.wz))
         displacement: tuple[float, float, float] = step
-        if turn is not None and covariance.tt > 0.0:
+        if turn is not None and covariance.tt > 0.0 and turn.fits(duration):
             share = turn.duration / duration
             gyro.compare(turn, share * step.wz, share * covariance.tt)
             displacement, covariance = turn.correct(displacement, covariance, duration)
         self._reckoning.carry(displacement, covariance)
-
-    def _restart(self, waypoint: Waypoint) -> None:
-        x, y = waypoint.pose.x, waypoint.pose.y
-        self._reckoning.set(waypoint.pose, shift(waypoint.noise, x, y))

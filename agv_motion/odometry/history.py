@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from math import hypot
 from typing import NamedTuple
 
 from agv_motion.odometry.covariance import Covariance
-from agv_motion.planar import Pose, compose, integrate, inverse, logarithm
+from agv_motion.planar import Pose, compose, integrate, inverse, logarithm, wrap
 
 
 class Waypoint(NamedTuple):
@@ -48,6 +49,10 @@ class OdometryHistory:
         """The first waypoint that is kept."""
         return self._waypoints[0]
 
+    def speed(self) -> tuple[float, float]:
+        """Return how fast the robot went last [m/s], and turned [rad/s]; 0 where nothing tells."""
+        return speed_between(*self._waypoints[-2:]) if len(self._waypoints) > 1 else (0.0, 0.0)
+
     def append(self, waypoint: Waypoint) -> None:
         """Keep a waypoint newer than all before; forget the old ones, many at a time."""
         self._stamps.append(waypoint.stamp)
@@ -73,3 +78,13 @@ class OdometryHistory:
         twist = logarithm(compose(inverse(earlier.pose), later.pose))
         noise = [a + share * (b - a) for a, b in zip(earlier.noise, later.noise, strict=True)]
         return Waypoint(stamp, integrate(earlier.pose, twist, share), Covariance(*noise))
+
+
+def speed_between(before: Waypoint, after: Waypoint) -> tuple[float, float]:
+    """Return how fast the robot went [m/s] and turned [rad/s]; 0 where no time passed."""
+    duration = after.stamp - before.stamp
+    if duration <= 0.0:
+        return 0.0, 0.0
+    old, new = before.pose, after.pose
+    way = hypot(new.x - old.x, new.y - old.y)
+    return way / duration, abs(wrap(new.theta - old.theta)) / duration

@@ -13,9 +13,14 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from agv_motion.odometry.covariance import Covariance
 
 Vector = tuple[float, float, float]
+
+STEEP = 1e6
+"""[-] Ratio of variances, before and measured, above which rounding would show."""
 
 
 class Update(NamedTuple):
@@ -41,16 +46,36 @@ def correct(prior: Covariance, missed: Vector, noise: Covariance, count: int) ->
     """
     xx, xy, xt, yy, yt, tt = prior
     x = y = turn = distance = 0.0
-    for a, b, c, value in _whitened(missed, noise, count):
+    rows, steep = _whitened(missed, noise, count), False
+    for a, b, c, value in rows:
         gx, gy, gt = a * xx + b * xy + c * xt, a * xy + b * yy + c * yt, a * xt + b * yt + c * tt
         variance = a * gx + b * gy + c * gt + 1.0
+        steep = steep or not variance < STEEP
         left = value - a * x - b * y - c * turn
         distance += left * left / variance
         kx, ky, kt = gx / variance, gy / variance, gt / variance
         x, y, turn = x + kx * left, y + ky * left, turn + kt * left
         xx, xy, xt = xx - kx * gx, xy - kx * gy, xt - kx * gt
         yy, yt, tt = yy - ky * gy, yt - ky * gt, tt - kt * gt
+    if steep:
+        return Update((x, y, turn), _sound(prior, rows), distance)
     return Update((x, y, turn), Covariance(xx, xy, xt, yy, yt, tt), distance)
+
+
+def _sound(prior: Covariance, rows: list[tuple[float, float, float, float]]) -> Covariance:
+    """Return the covariance afterwards in Joseph's form, which no rounding makes negative.
+
+    Needed where a measurement is so much surer than what was known that little is left of it.
+    """
+    xx, xy, xt, yy, yt, tt = prior
+    spread = np.array([[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]])
+    for a, b, c, _ in rows:
+        row = np.array([a, b, c])
+        gain = spread @ row / (row @ spread @ row + 1.0)
+        kept = np.eye(3) - np.outer(gain, row)
+        spread = kept @ spread @ kept.T + np.outer(gain, gain)
+    (xx, xy, xt), (_, yy, yt), (_, _, tt) = spread.tolist()
+    return Covariance(xx, xy, xt, yy, yt, tt)
 
 
 def _whitened(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.odometry.base import OmniBase
-from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.planar import require_finite
 
@@ -53,12 +53,15 @@ class OmniOdometry:
         """Wheels that the last reading did without."""
         return self._silent | self.faulty
 
-    def update(self, stamp: float, angles: Sequence[float | None]) -> Step:
+    def update(
+        self, stamp: float, angles: Sequence[float | None], *, by_rate: bool = False
+    ) -> Step:
         """Take a reading; None stands for a wheel of which nothing is known.
 
         Args:
             stamp: Time of the reading [s].
             angles: (n,) angle of each wheel [rad].
+            by_rate: Whether some are added-up rates, which tell nothing of what was not seen.
 
         Returns:
             What the reading was good for.
@@ -78,8 +81,8 @@ class OmniOdometry:
         self.reckoning.use(self._base(silent | returned | self.faulty))
         if returned and stamp > (self.reckoning.stamp or stamp):
             self.reckoning.set_angles({i: known[i] for i in returned})
-        step = self.reckoning.update(stamp, known)
-        if step is not Step.DUPLICATE and step is not Step.LATE:
+        step = self.reckoning.update(stamp, known, by_rate=by_rate)
+        if step.used:
             self._last, self._silent = known, silent
         return step
 

@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from agv_motion.errors import ConfigurationError
 from agv_motion.odometry.base import TurretBase
+from agv_motion.odometry.continuity import Continuity, Step
 from agv_motion.odometry.dead_reckoning import DeadReckoning
+from agv_motion.odometry.gates import require_within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,6 +23,10 @@ if TYPE_CHECKING:
 
     Column = NDArray[np.float64]
 
+MAX_GAP = 0.5
+"""[s] Silence beyond which nobody knows whether the wheels rolled on."""
+MAX_WHEEL_SPEED = 10.0
+"""[m/s] No wheel of a platform on turrets rolls faster."""
 
 class Reckoned(NamedTuple):
     """What is known after one state of the turrets."""
@@ -31,6 +38,8 @@ class Reckoned(NamedTuple):
     """where the wheels carried the platform"""
     covariance: Covariance
     """of the pose"""
+    step: Step
+    """what the state was good for; one that is ignored leaves pose and covariance"""
 
 
 class ReckonedColumns(NamedTuple):
@@ -45,21 +54,30 @@ class ReckonedColumns(NamedTuple):
 class TurretReckoning:
     """Takes states of the turrets, one by one or many together: to the bit the same."""
 
-    def __init__(self, turrets: Turrets, noise: float) -> None:
+    def __init__(
+        self,
+        turrets: Turrets,
+        noise: float,
+        max_wheel_speed: float = MAX_WHEEL_SPEED,
+        max_gap: float = MAX_GAP,
+    ) -> None:
         """Start at the origin, with certainty.
 
         Args:
             turrets: The platform.
             noise: Standard deviation of the travel of a wheel after 1 m [m].
+            max_wheel_speed: Beyond, a measured speed cannot be [m/s].
+            max_gap: Silence beyond which nobody knows whether the wheels rolled on [s].
 
         """
         self._turrets, self._noise = turrets, noise
+        self._max_speed, self._max_gap = max_wheel_speed, max_gap
         self._unit_covariance = TurretBase(turrets).unit_covariance
         self._reckoning = DeadReckoning()
-        self._time: float | None = None
+        self._order = Continuity[float](max_gap, lambda *_: True)
 
     def take(self, time: float, angles: Sequence[float], speeds: Sequence[float]) -> Reckoned:
-        """Take one state; where its time is not after the last one, the pose stays.
+        """Take one state; where it does not follow the last one, the pose stays.
 
         Args:
             time: Of the state [s].
@@ -67,19 +85,46 @@ class TurretReckoning:
             speeds: (k,) rolling speeds along them [m/s].
 
         Raises:
-            SignalError: A wrong number of values, or one that is not finite.
+            SignalError: A wrong number of values, one that is not finite, or a speed that cannot
+                be; nothing has changed.
 
         """
         fit = self._turrets.twist(angles, speeds)
-        vx, vy, wz = fit.twist
-        if self._time is not None and time > self._time:
-            passed = time - self._time
-            rolled = passed * sum(map(abs, speeds)) / len(speeds)
-            displacement = (vx * passed, vy * passed, wz * passed)
-            variance = self._noise * self._noise * rolled
-            self._reckoning.carry(displacement, self._unit_covariance, variance)
-        self._time = time
-        return Reckoned(fit.twist, fit.residual, self._reckoning.pose, self._reckoning.covariance())
+        require_within('wheel speeds', speeds, self._max_speed, 'm/s', 'look at the encoders')
+        before, order = self._order.last, self._order
+        speed = sum(map(abs, speeds)) / len(speeds)
+        step = order.judge(time, speed)
+        if step.used and before is not None:
+            begun = order.begun if step is Step.LEAP and order.begun is not None else before
+            # over a gap they either rolled on or the clock leapt: as uncertain as it is long
+            lost = max(before.value, speed) * order.unseen
+            self._carry(fit.twist, speed, time - begun.stamp, lost)
+        reckoning = self._reckoning
+        return Reckoned(fit.twist, fit.residual, reckoning.pose, reckoning.covariance(), step)
+
+    def _carry(self, twist: Twist, speed: float, passed: float, lost: float) -> None:
+        """Follow a twist for a time; all wheels may have rolled ``lost`` [m] beside it."""
+        vx, vy, wz = twist
+        variance = self._noise * self._noise * (passed * speed)
+        if lost:
+            variance += len(self._turrets) * lost * lost
+        displacement = (vx * passed, vy * passed, wz * passed)
+        self._reckoning.carry(displacement, self._unit_covariance, variance)
+
+    def are_plain(self, times: Column, speeds: Column) -> bool:
+        """Return whether each state plainly follows the one before: only such go by columns.
+
+        Args:
+            times: (n,) [s].
+            speeds: (k, n) [m/s].
+
+        """
+        steps = np.diff(times, prepend=max(self._order.stamp, times[0] - self._max_gap))
+        return bool(
+            not self._order.doubts
+            and np.all((steps > 0.0) & (steps <= self._max_gap))
+            and np.all(np.abs(speeds) <= self._max_speed)
+        )
 
     def take_columns(self, times: Column, angles: Column, speeds: Column) -> ReckonedColumns:
         """Take many states.
@@ -89,13 +134,20 @@ class TurretReckoning:
             angles: (k, n) [rad], finite.
             speeds: (k, n) [m/s], finite.
 
+        Raises:
+            ConfigurationError: They are not :meth:`are_plain`: take them one by one.
+
         """
+        if not self.are_plain(times, speeds):
+            msg = 'states that are late, doubled or beyond their limits: take them one by one'
+            raise ConfigurationError(msg)
         vx, vy, wz, residual = self._turrets.solve_columns(angles, speeds)
-        first = times[0] if self._time is None else self._time
-        passed = np.maximum(times - np.concatenate([[first], times[:-1]]), 0.0)
-        self._time = float(times[-1])
-        rolled = passed * sum(map(abs, speeds)) / len(speeds)
+        last = self._order.last
+        first = times[0] if last is None else last.stamp
+        passed = times - np.concatenate([[first], times[:-1]])
+        speed = sum(map(abs, speeds)) / len(speeds)
+        self._order.follow(float(times[-1]), float(speed[-1]))
         displacement = (vx * passed, vy * passed, wz * passed)
-        variance = self._noise * self._noise * rolled
+        variance = self._noise * self._noise * (passed * speed)
         carried = self._reckoning.carry_columns(displacement, self._unit_covariance, variance)
         return ReckonedColumns((vx, vy, wz), residual, *carried)

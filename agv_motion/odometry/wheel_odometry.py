@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.dead_reckoning import DeadReckoning
-from agv_motion.odometry.encoders import MOVED, Encoders, Step
+from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.encoders import MOVED, Encoders
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.planar import Pose, Twist, require_finite, wrap
 
@@ -102,7 +103,6 @@ class WheelOdometry:
         self._base = base
         wheels = base.measuring
         self._walk = self._given.wheel_noise**2 / wheels
-        self._gap_noise = self._given.gap_noise / wheels
 
     def set_angles(self, angles: dict[int, float]) -> None:
         """Take some wheels to have stood at ``angles`` [rad] in the last reading."""
@@ -123,6 +123,8 @@ class WheelOdometry:
         angles: Sequence[float],
         steering: Sequence[float] = (),
         turn: Turn | None = None,
+        *,
+        by_rate: bool = False,
     ) -> Step:
         """Take a reading of the encoders and carry pose, covariance and twist on.
 
@@ -131,6 +133,7 @@ class WheelOdometry:
             angles: (n,) angle of each wheel [rad].
             steering: (n,) steering angles [rad] of a base on turrets.
             turn: What a gyroscope says of the turn since the last reading.
+            by_rate: Whether angles are added-up rates, which tell nothing of what was not seen.
 
         Returns:
             What the reading was good for.
@@ -141,21 +144,20 @@ class WheelOdometry:
         """
         base, encoders = self._base, self._encoders
         halfway = self._halfway(steering) if base.steers or steering else steering
-        step = encoders.read(stamp, angles)
-        if step is not MOVED and (step is Step.DUPLICATE or step is Step.LATE):
+        step = encoders.read(stamp, angles, by_rate=by_rate)
+        if step is not MOVED and not step.used:
             return step
         if steering:
             self._steering = list(steering)
-        variance, covariance = self._walk * encoders.rolled, base.unit_covariance
-        if not encoders.travel:
-            self._lose()
+        if step is Step.FIRST:
             return step
+        variance, covariance = self._walk * encoders.rolled, base.unit_covariance
         dx, dy, angle, residual = base.displacement(encoders.travel, halfway)
         displacement, duration = (dx, dy, angle), encoders.duration
         if residual:
             variance = self._with_slip(variance, residual)
-        if step is not MOVED:  # a gap
-            variance += (self._gap_noise * encoders.rolled) ** 2
+        if encoders.doubt:
+            variance += self._together(step, by_rate=by_rate) * encoders.doubt**2
         if turn is not None:
             covariance, variance = scale(covariance, variance), 1.0
             displacement, covariance = turn.correct(displacement, covariance, duration)
@@ -181,9 +183,9 @@ class WheelOdometry:
             return steering
         return [a + 0.5 * wrap(b - a) for a, b in zip(self._steering, steering, strict=True)]
 
-    def _lose(self) -> None:
-        """Stay where the base was last seen, as uncertain as the way it may have gone on."""
-        way = self._encoders.rolled / len(self._base)
-        self._reckoning.carry((0.0, 0.0, 0.0), self._base.unit_covariance, way * way)
-        self._noise = self._base.unit_covariance, way * way
-        self._displacement, self._unexplained = (0.0, 0.0, 0.0), 0.0
+    def _together(self, step: Step, *, by_rate: bool) -> int:
+        """Return how many wheels go wrong together: all, where nobody knows whether they moved.
+
+        Each wheel has its own part in a path that is guessed between two positions.
+        """
+        return 1 if step is Step.GAP and not by_rate else len(self._base)

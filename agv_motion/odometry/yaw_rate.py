@@ -11,7 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
+from agv_motion.odometry.continuity import Continuity, Step
 from agv_motion.odometry.covariance import Covariance
+from agv_motion.odometry.gates import require_within
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import require_finite
 
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from agv_motion.odometry.dead_reckoning import Displacement
 
 
+STRETCH = 2.0
+"""[-] A turn is not taken to have gone on for more than this times as long as it was measured."""
 PERSISTENCE = 30.0
 """[s] For half of the longest time that the gyroscope has to do without a fix."""
 
@@ -37,6 +41,9 @@ class YawRateParameters:
         float, Spec('standard deviation of its change within 1 s', 'rad/s', (0.0, 1.0))
     ] = 2e-5
     max_gap: Annotated[float, Spec('silence over which nothing is told', 's', (1e-3, 10.0))] = 0.2
+    max_rate: Annotated[
+        float, Spec('rate beyond which a measurement is refused', 'rad/s', (0.1, 1000.0))
+    ] = 35.0
 
     def __post_init__(self) -> None:
         """Check every row."""
@@ -53,6 +60,10 @@ class Turn(NamedTuple):
     duration: float
     """[s]"""
 
+    def fits(self, duration: float) -> bool:
+        """Return whether it was measured over most of ``duration`` [s], with no gap and no leap."""
+        return 0.0 < duration <= STRETCH * self.duration
+
     def correct(
         self, displacement: Displacement, covariance: Covariance, duration: float
     ) -> tuple[Displacement, Covariance]:
@@ -67,7 +78,7 @@ class Turn(NamedTuple):
             duration: Over which the wheels say so [s]; the turn is stretched to it.
 
         """
-        if self.duration <= 0.0:
+        if not self.fits(duration):
             return displacement, covariance
         stretch = duration / self.duration
         xx, xy, xt, yy, yt, tt = covariance
@@ -94,7 +105,7 @@ class YawRate:
         self.bias = 0.0
         """[rad/s] what the gyroscope tells at rest"""
         self.bias_variance = self._given.bias**2
-        self._stamp: float | None = None
+        self._order = Continuity[float](self._given.max_gap, lambda *_: True)
         self._rate = 0.0
         self._angle = self._duration = 0.0
 
@@ -107,25 +118,28 @@ class YawRate:
         """Take a measurement.
 
         Args:
-            stamp: Time [s]; one that is not after the last is ignored.
+            stamp: Time [s]; one that does not follow the last is ignored, see `continuity`.
             rate: Measured yaw rate [rad/s].
             at_rest: Whether the wheels stand still, so that the rate is nothing but bias.
 
         Raises:
-            SignalError: A number is not finite.
+            SignalError: A number is not finite, or the rate cannot be.
 
         """
         require_finite('yaw rate and its stamp', (stamp, rate))
-        duration = 0.0 if self._stamp is None else stamp - self._stamp
-        if self._stamp is not None and -self._given.max_gap < duration <= 0.0:
+        require_within('yaw rate', (rate,), self._given.max_rate, 'rad/s', 'look at the gyroscope')
+        before = self._order.stamp
+        step = self._order.judge(stamp, rate)
+        if not step.used:
             return
-        if 0.0 < duration <= self._given.max_gap:
+        if step is Step.MOVED:
+            duration = stamp - before
             self._angle += duration * (0.5 * (rate + self._rate) - self.bias)
             self._duration += duration
             self._learn(rate, duration, at_rest=at_rest)
         else:
             self._angle = self._duration = 0.0
-        self._stamp, self._rate = stamp, rate
+        self._rate = rate
 
     def _learn(self, rate: float, duration: float, *, at_rest: bool) -> None:
         """Let the bias walk on, and at rest move it towards the rate (a scalar Kalman filter)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import atan2, cos, isfinite, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped
@@ -93,6 +93,31 @@ def fill_path(path: Any, poses: Sequence[Pose]) -> None:
         fill_pose(stamped.pose, pose)
 
 
+class TurretState(NamedTuple):
+    """What the turrets tell of themselves."""
+
+    angles: list[float]
+    """(n,) steering angles [rad]"""
+    rates: list[float]
+    """(n,) rates of the wheels [rad/s]; empty where they are of no use"""
+    turned: list[float]
+    """(n,) angles of the wheels [rad], where the rates are of no use; else empty"""
+    wrong: str
+    """Why rates are of no use; empty when they are"""
+
+
+def _finite(
+    field: str, values: Sequence[float], names: Sequence[str], places: Sequence[int]
+) -> list[float]:
+    """Return the values of some joints, or raise why not."""
+    if len(values) != len(names):
+        msg = f'{len(values)} {field} for {len(names)} joints: give one each'
+        raise SignalError(msg)
+    picked = [values[place] for place in places]
+    require_finite(f'{field} of {[names[place] for place in places]}', tuple(picked))
+    return picked
+
+
 class TurretJoints:
     """Turrets as joints: ``turret_i_steering`` by position, ``turret_i_wheel`` by velocity."""
 
@@ -121,24 +146,39 @@ class TurretJoints:
         message.position = [*angles, *self._zeros]
         message.velocity = [*self._zeros, *rates]
 
+    def read_state(self, message: JointState) -> TurretState:
+        """Return what the turrets tell, whatever the order of the joints.
+
+        Only what is needed is looked at: the positions of the steering joints, and the velocities
+        of the wheels or, where these are of no use, their positions.
+
+        Raises:
+            SignalError: A joint is missing, an array does not fit the names, or a value that is
+                needed is not finite.
+
+        """
+        steering, wheel = self.places(message.name)
+        angles = _finite('positions', message.position, message.name, steering)
+        try:
+            rates = _finite('velocities', message.velocity, message.name, wheel)
+        except SignalError as error:
+            turned = _finite('positions', message.position, message.name, wheel)
+            if not any(turned):  # 0 is what one tells who counts no turns
+                raise
+            return TurretState(angles, [], turned, str(error))
+        return TurretState(angles, rates, [], '')
+
     def read(self, message: JointState) -> tuple[list[float], list[float]]:
         """Return steering angles [rad] and wheel rates [rad/s], whatever the order of the joints.
 
         Raises:
-            SignalError: A joint is missing, the arrays do not fit the names, or a value is not
-                finite.
+            SignalError: A joint is missing, an array does not fit the names, or a value that is
+                needed is not finite.
 
         """
         steering, wheel = self.places(message.name)
-        for field, values in (('positions', message.position), ('velocities', message.velocity)):
-            if len(values) != len(message.name):
-                msg = f'{len(values)} {field} for {len(message.name)} joints: give one each'
-                raise SignalError(msg)
-        angles = [message.position[i] for i in steering]
-        rates = [message.velocity[i] for i in wheel]
-        require_finite('turret angles', tuple(angles))
-        require_finite('wheel rates', tuple(rates))
-        return angles, rates
+        angles = _finite('positions', message.position, message.name, steering)
+        return angles, _finite('velocities', message.velocity, message.name, wheel)
 
     def places(self, names: list[str]) -> tuple[list[int], list[int]]:
         """Return where among ``names`` the steering angles are, and where the wheels.

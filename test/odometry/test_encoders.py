@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.odometry.encoders import Encoders, Step
+from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.encoders import Encoders
 from agv_motion.odometry.parameters import OdometryParameters
 
 RADII = [0.1, 0.2]

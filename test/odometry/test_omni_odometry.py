@@ -10,10 +10,9 @@ import pytest
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.omniwheel_placement import mecanum_wheels, wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
-from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.parameters import OdometryParameters
-from agv_motion.odometry.rate_encoder import RateEncoder
 from agv_motion.odometry.wheel_monitor import ENOUGH, WheelMonitor
 from agv_motion.planar import Pose, Twist, integrate
 
@@ -79,16 +78,6 @@ def test_what_it_cannot_use_changes_nothing():
     assert not odometry.left_out
     assert odometry.update(0.1, [1.0] * 4) is Step.MOVED
     assert odometry.reckoning.pose.x == pytest.approx(RADIUS)
-
-
-def test_rates_are_added_up_by_the_trapezoidal_rule():
-    """Hand calculation: from 1 to 3 rad/s within 0.5 s is 1 rad; a silent wheel stands still."""
-    encoder = RateEncoder(2)
-    assert encoder.add(1.0, [1.0, 1.0]) == [0.0, 0.0]
-    assert encoder.add(1.5, [3.0, None]) == [1.0, None]
-    assert encoder.add(1.4, [9.0, 9.0]) == [1.0, 0.0]  # late: adds nothing
-    assert encoder.add(2.0, [3.0, 1.0])[1] == 0.0
-    assert encoder.add(3.0, [3.0, 1.0])[1] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize('wheels', [FOUR, FIVE], ids=['four', 'five'])

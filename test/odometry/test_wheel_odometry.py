@@ -14,7 +14,7 @@ from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.base import DifferentialBase, OmniBase, TurretBase
 from agv_motion.odometry.covariance import Covariance
-from agv_motion.odometry.encoders import Step
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.odometry.yaw_rate import Turn
