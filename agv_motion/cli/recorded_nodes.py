@@ -142,6 +142,8 @@ class RecordedWheels(WheelKinematics):
         if not (np.isfinite(angles).all() and np.isfinite(speeds).all()):
             return []
         times = table['header.stamp.sec'] + table['header.stamp.nanosec'] * 1e-9
+        if not self._reckoning.are_plain(times, speeds):
+            return []
         reckoned = self._reckoning.take_columns(times, angles, speeds)
         fights = self._fights.table(len(messages))
         fights['data'] = reckoned.residual

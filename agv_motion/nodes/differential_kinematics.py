@@ -39,7 +39,7 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         self._wheels = given.drive()
         base = DifferentialBase(self._wheels.track)
         self._odometry = WheelOdometry(base, given.wheel_radii, given.odometry)
-        self.open_wheels(given.joint_names, self._odometry)
+        self.open_wheels(given.joint_names, given.wheel_radii, self._odometry)
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop and of silence."""
@@ -58,14 +58,14 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         speeds = self._wheels.command(twist, self.parameters.max_wheel_speed).speed
         return self._wheels.rates(speeds)
 
-    def carry(self, stamp: float, angles: Sequence[float | None]) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
         """Carry the odometry on; it needs both wheels."""
         known = [angle for angle in angles if angle is not None]
         if len(known) < len(angles):
             lost = self.joints.names[list(angles).index(None)]
             msg = f'{lost} is missing: the odometry of two wheels needs both'
             raise SignalError(msg)
-        return self._odometry.update(stamp, known)
+        return self._odometry.update(stamp, known, by_rate=by_rate)
 
 
 def main() -> None:

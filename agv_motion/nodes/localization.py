@@ -15,12 +15,13 @@ from agv_motion.errors import SignalError
 from agv_motion.motion.watchdog import Silence, Watchdog
 from agv_motion.nodes.localization_parameters import LocalizationParameters
 from agv_motion.odometry.assumed_noise import AssumedNoise
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
 from agv_motion.odometry.fix import Fix
-from agv_motion.odometry.fusion import CLOCK_SET_BACK, PoseFusion
+from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
-from agv_motion.odometry.gyro_odometry import GyroOdometry
-from agv_motion.odometry.history import Waypoint
+from agv_motion.odometry.gates import require_within
+from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
 from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.ros.covariances import covariance_of, fill_covariance
 from agv_motion.ros.messages import fill_pose, pose_of, seconds_of, twist_of
@@ -30,6 +31,7 @@ from agv_motion.ros.run import run
 from agv_motion.ros.transforms import Transforms
 
 if TYPE_CHECKING:
+    from agv_motion.odometry.history import Waypoint
     from agv_motion.planar import Pose
 
 ON_TIME = 0.99
@@ -64,11 +66,12 @@ class Localization(ManagedNode[LocalizationParameters]):
         """Know nothing, and open the topics."""
         given = self.parameters
         self._fusion = PoseFusion(given.fusion)
-        self._noise = AssumedNoise(given.odom_noise)
+        assumed = given.odom_covariance == 'assumed'
+        noise = AssumedNoise(given.odom_noise) if assumed else None
+        self._intake = OdometryIntake(given.fusion, noise)
         self._gyro: YawRate | None = None
-        self._gyro_odometry: GyroOdometry | None = None
         self._at_rest = False
-        self._last_stamp = self._told_at = -inf
+        self._told_at = -inf
         self._last_pose: Pose | None = None
         self._state = State.WAITING
         self._watchdog = Watchdog(given.odom_timeout, given.odom_timeout)
@@ -106,46 +109,51 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._require_frame(message.header.frame_id, given.odom_frame)
         self._require_frame(message.child_frame_id, given.base_frame)
         pose, twist = pose_of(message.pose.pose), twist_of(message.twist.twist)
+        limits = given.fusion
+        require_within('twist', twist[:2], limits.max_speed, 'm/s', 'mend it, or set max_speed')
+        require_within('twist', twist[2:], limits.max_turn_rate, 'rad/s', 'or set max_turn_rate')
         stamp = seconds_of(message.header.stamp)
-        if -CLOCK_SET_BACK < stamp - self._last_stamp <= 0.0:
+        noise = self._noise_of(pose, message.pose.covariance)
+        passage = self._intake.take(stamp, pose, noise, self._gyro)
+        if not passage.step.used:
+            self._tell_ignored(passage)
             return
-        waypoint = Waypoint(stamp, pose, self._noise_of(pose, message.pose.covariance))
         self._watchdog.feed()
         self._at_rest = all(abs(component) < AT_REST for component in twist)
-        waypoint = self._turned(waypoint)
-        self._fusion.add_odometry(*waypoint)
+        self._fusion.follow(passage)
+        if passage.step in {Step.LEAP, Step.RESET}:
+            self.get_logger().warning(f'odom: {passage.step.value}; less sure of the pose')
+        waypoint = passage.waypoint
         if self._filtered.get_subscription_count():
             self._publish_filtered(message, waypoint)
         if abs(stamp - self._told_at) * (given.rate or inf) >= ON_TIME:
             self._told_at = stamp
             self._tell(message.header.stamp, waypoint.pose)
-        self._last_stamp, self._last_pose = stamp, pose
+
+    def _tell_ignored(self, passage: Passage) -> None:
+        """Tell of odometry that cannot be; one that comes late or twice is no news."""
+        if passage.step is Step.DOUBTED:
+            stamp, (x, y, theta), _ = passage.waypoint
+            given = self.parameters.fusion
+            self.refuse(
+                f'odom of {stamp:.3f} s at ({x:g} m, {y:g} m, {theta:g} rad) {Step.DOUBTED.value}; '
+                f'limits: {given.max_speed:g} m/s, {given.max_turn_rate:g} rad/s, and a covariance '
+                "that grows with the way (else set odom_covariance to 'assumed')"
+            )
 
     def _noise_of(self, pose: Pose, numbers: Any) -> Covariance:
-        """Return the covariance of the error about the origin of `odom` up to now."""
+        """Return the covariance of the error about the origin of `odom` as it is told."""
         if self.parameters.odom_covariance == 'assumed':
-            return self._noise.follow(pose)
+            return CERTAIN
         covariance = covariance_of(numbers)
-        if min(covariance.xx, covariance.yy, covariance.tt) < 0.0 or (
-            covariance == CERTAIN and self._last_pose is not None and pose != self._last_pose
-        ):
+        before, self._last_pose = self._last_pose, pose
+        if covariance == CERTAIN and before not in {None, pose}:
             msg = (
-                f'covariance {tuple(covariance)} (xx, xy, xt, yy, yt, tt) of odometry is none: '
+                'odom moves and tells a covariance of 0: '
                 "mend it, or set odom_covariance to 'assumed'"
             )
             raise SignalError(msg)
         return shift(covariance, -pose.x, -pose.y)
-
-    def _turned(self, waypoint: Waypoint) -> Waypoint:
-        """Return ``waypoint`` with its turns as the gyroscope measured them, if there is one."""
-        if self._gyro is None:
-            return waypoint
-        if self._gyro_odometry is None:
-            self._gyro_odometry = GyroOdometry(waypoint)
-        else:
-            self._gyro_odometry.follow(waypoint, self._gyro, self.parameters.fusion.max_speed)
-        own = self._gyro_odometry
-        return Waypoint(waypoint.stamp, own.pose, own.origin_covariance)
 
     def _on_fix(self, message: PoseWithCovarianceStamped) -> None:
         """Take a fix; one whose yaw has no variance, or one of any heading, has no heading."""
@@ -156,10 +164,12 @@ class Localization(ManagedNode[LocalizationParameters]):
         heading = None if unknown or covariance.tt > ANY_HEADING else pose.theta
         fix = Fix(seconds_of(message.header.stamp), pose.x, pose.y, covariance, heading)
         verdict = self._fusion.add_fix(fix)
-        if verdict in {Verdict.KIDNAPPED, Verdict.EARLY}:
-            self.get_logger().warning(
-                f'fix ({fix.x:.2f} m, {fix.y:.2f} m) {verdict.value}', throttle_duration_sec=1.0
-            )
+        text = f'fix ({fix.x:.2f} m, {fix.y:.2f} m) of {fix.stamp:.3f} s {verdict.value}'
+        if verdict is Verdict.KIDNAPPED:
+            self.get_logger().warning(text, throttle_duration_sec=1.0)
+        elif verdict in {Verdict.EARLY, Verdict.LATE}:
+            newest, horizon = self._fusion.newest_stamp, self.parameters.fusion.horizon
+            self.refuse(f'{text}; odom is at {newest:.3f} s, fusion.horizon = {horizon:g} s')
 
     def _on_imu(self, message: Imu) -> None:
         given = self.parameters

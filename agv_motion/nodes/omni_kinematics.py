@@ -11,7 +11,6 @@ from std_msgs.msg import Float64
 from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
 from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
-from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.wheel_monitor import SOUND, WheelMonitor
 from agv_motion.parameters import Spec
@@ -22,6 +21,7 @@ from agv_motion.ros.run import run
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from agv_motion.odometry.continuity import Step
     from agv_motion.odometry.wheel_fault import WheelDiagnosis
     from agv_motion.planar import Twist
 
@@ -54,7 +54,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         self._diagnosis: WheelDiagnosis = SOUND
         self._free = self.publisher(JointState, 'wheels/free_speed', SENSOR)
         self._slip = self.publisher(Float64, 'wheels/residual', SENSOR)
-        self.open_wheels(given.joint_names, self._odometry.reckoning)
+        self.open_wheels(given.joint_names, given.wheel_radii, self._odometry.reckoning)
         self.every(1.0, self._look_for_faults)
 
     def diagnose(self) -> Diagnosis:
@@ -81,10 +81,10 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         speeds = self._wheels.command(twist, given.max_wheel_speed).speed
         return [speed / r for speed, r in zip(speeds, given.wheel_radii, strict=True)]
 
-    def carry(self, stamp: float, angles: Sequence[float | None]) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
         """Carry the odometry on, and watch the wheels."""
-        step = self._odometry.update(stamp, angles)
-        if step is not Step.DUPLICATE and step is not Step.LATE:
+        step = self._odometry.update(stamp, angles, by_rate=by_rate)
+        if step.used:
             self._monitor.add(stamp, angles)
         return step
 

@@ -28,6 +28,15 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
     wheel_noise: Annotated[
         float, Spec('standard deviation of the travel of a wheel after 1 m', 'm', (1e-6, 1.0))
     ] = 0.02
+    max_measured_speed: Annotated[
+        float, Spec('measured speed of a wheel beyond which a state is refused', 'm/s', (1e-3, 100))
+    ] = 10.0
+    max_gap: Annotated[
+        float,
+        Spec(
+            'silence of turrets/state over which nobody knows what they rolled', 's', (1e-3, 10.0)
+        ),
+    ] = 0.5
     unwind_after: Annotated[
         float,
         Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),

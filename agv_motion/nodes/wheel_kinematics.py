@@ -63,7 +63,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
         self._residual = 0.0
-        self._reckoning = TurretReckoning(turrets, given.wheel_noise)
+        self._reckoning = TurretReckoning(
+            turrets, given.wheel_noise, given.max_measured_speed, given.max_gap
+        )
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
         self._message = self._joints.message()
@@ -213,13 +215,21 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         return self._driving.unwind()
 
     def _on_state(self, message: JointState) -> None:
-        """Fit the twist that the turrets really make, and carry the odometry on."""
-        told, rates = self._joints.read(message)
-        angles = [angle + zero for angle, zero in zip(told, self._zero, strict=True)]
-        speeds = [rate * self.parameters.wheel_radius for rate in rates]
-        self._note_angles(angles)
+        """Fit the twist that the turrets really make, and carry the odometry on.
+
+        A state that does not follow the last, see `continuity`, is no news of anything.
+        """
+        state, radius = self._joints.read_state(message), self.parameters.wheel_radius
+        angles = [angle + zero for angle, zero in zip(state.angles, self._zero, strict=True)]
+        speeds = [rate * radius for rate in state.rates]
+        rolled = [angle * radius for angle in state.turned]
         stamp, odometry = message.header.stamp, self._odometry_message
-        reckoned = self._reckoning.take(seconds_of(stamp), angles, speeds)
+        reckoned = self._reckoning.take(seconds_of(stamp), angles, speeds, rolled)
+        if state.wrong:
+            self.refuse(f'turrets/state: {state.wrong}; going by the angles of the wheels')
+        if not reckoned.step.used:
+            return
+        self._note_angles(angles)
         self._fight.publish(Float64(data=reckoned.residual))
         self._judge_residual(reckoned.residual)
         odometry.header.stamp = stamp

@@ -20,10 +20,10 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.watchdog import Silence
-from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.odometry.parameters import OdometryParameters
-from agv_motion.odometry.rate_encoder import RateEncoder
+from agv_motion.odometry.wheel_angles import WheelAngles
 from agv_motion.parameters import Spec
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import covariance_of, fill_covariance
@@ -71,8 +71,15 @@ class WheelsNode(ManagedNode[P]):
         """Return the rate of each wheel [rad/s] for ``twist``, within the limit of the wheels."""
         raise NotImplementedError
 
-    def carry(self, stamp: float, angles: Sequence[float | None]) -> Step:
-        """Carry the odometry on to ``angles`` [rad], None where a wheel tells nothing."""
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
+        """Carry the odometry on to ``angles`` [rad], None where a wheel tells nothing.
+
+        Args:
+            stamp: Time of the reading [s].
+            angles: (n,) angle of each wheel [rad].
+            by_rate: Whether some are added-up rates.
+
+        """
         raise NotImplementedError
 
     def tell_more(self, stamp: Any) -> None:
@@ -80,14 +87,18 @@ class WheelsNode(ManagedNode[P]):
 
     # What a node uses
 
-    def open_wheels(self, joint_names: Sequence[str], reckoning: WheelOdometry) -> None:
+    def open_wheels(
+        self, joint_names: Sequence[str], wheel_radii: Sequence[float], reckoning: WheelOdometry
+    ) -> None:
         """Open the topics and services of wheels with these names, whose odometry this is."""
         given = self.parameters
         self.joints = WheelJoints(joint_names)
         self.stopped = self.blind = False
         self.last_step = Step.FIRST
         self._reckoning = reckoning
-        self._rate_encoder = RateEncoder(len(joint_names))
+        odometry = given.odometry
+        fastest = odometry.max_wheel_speed / min(wheel_radii)
+        self._angles = WheelAngles(len(joint_names), odometry.max_gap, fastest)
         limits = given.report_after, given.stop_after
         self._command_watch = InputWatch(self, 'cmd_vel', *limits)
         self._state_watch = InputWatch(self, 'wheels/state', *limits, 'look at the encoders')
@@ -165,18 +176,33 @@ class WheelsNode(ManagedNode[P]):
     def _on_state(self, message: JointState) -> None:
         """Carry the odometry on with angles, or rates where there are none, and tell of it."""
         state, stamp = self.joints.read(message), seconds_of(message.header.stamp)
-        angles = state.angles or self._rate_encoder.add(stamp, state.rates)
-        self.last_step = self.carry(stamp, angles)
-        if self.last_step is Step.DUPLICATE or self.last_step is Step.LATE:
+        angles = self._angles.add(stamp, state.angles, state.rates)
+        try:
+            self.last_step = self.carry(stamp, angles, by_rate=self._angles.by_rate)
+        except SignalError as error:
+            raise SignalError(f'{state.wrong}; {error}' if state.wrong else str(error)) from error
+        if state.wrong:
+            self.refuse(f'wheels/state: {state.wrong}; going by the rest')
+        if not self.last_step.used:
+            self._tell_ignored(stamp)
             return
         self._state_watch.feed()
-        if self.last_step is Step.RESET:
+        if self.last_step in {Step.RESET, Step.LEAP}:
             self.get_logger().warning(
-                f'{Step.RESET.value}; odometry goes on from where it was, less sure',
+                f'{self.last_step.value}; odometry goes on from where it was, less sure',
                 throttle_duration_sec=1.0,
             )
         self._publish_odometry(message.header.stamp)
         self.tell_more(message.header.stamp)
+
+    def _tell_ignored(self, stamp: float) -> None:
+        """Tell of readings that cannot be; one that comes late or twice is no news."""
+        if self.last_step is Step.DOUBTED:
+            limit = self.parameters.odometry.max_wheel_speed
+            self.refuse(
+                f'wheels/state of {stamp:.3f} s {Step.DOUBTED.value}; wheels run {limit:g} m/s at '
+                'most (odometry.max_wheel_speed): look at the encoders and their clock'
+            )
 
     def _publish_odometry(self, stamp: Any) -> None:
         given, reckoning = self.parameters, self._reckoning

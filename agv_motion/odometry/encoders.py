@@ -80,9 +80,9 @@ class Encoders:
         rolled = sum(map(abs, travel))
         if len(angles) != len(self._radii):
             self._require(angles)
-        if not (
-            0.0 < duration <= self._max_gap and rolled <= self._max_rolled * duration
-        ) or (by_rate and self._order.doubts):
+        if not (0.0 < duration <= self._max_gap and rolled <= self._max_rolled * duration) or (
+            by_rate and self._order.doubts
+        ):
             return self._judge(stamp, list(angles), by_rate=by_rate)
         self._stamp, self._angles = stamp, list(angles)
         self._order.follow(stamp, self._angles)

@@ -8,14 +8,14 @@ another but no more with the belief.
 
 from __future__ import annotations
 
-from math import ceil, hypot, inf, sqrt
+from math import ceil, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.alignment import UNKNOWN, Sighting, align, thin
+from agv_motion.odometry.alignment import Sighting, align, thin
 from agv_motion.odometry.belief import Belief, Drift, believe, covariance_at
-from agv_motion.odometry.continuity import LEAP, Step
-from agv_motion.odometry.covariance import Covariance, add, rotate, shift
+from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.covariance import Covariance, rotate
 from agv_motion.odometry.fix_buffer import FixBuffer
 from agv_motion.odometry.fusion_parameters import FusionParameters
 from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
@@ -26,9 +26,10 @@ from agv_motion.odometry.gates import (
     require_measurement,
     require_within,
 )
-from agv_motion.odometry.history import OdometryHistory, Waypoint, speed_between
+from agv_motion.odometry.history import OdometryHistory, Waypoint
+from agv_motion.odometry.leap import Leap
 from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
-from agv_motion.planar import Pose, compose, inverse, require_finite
+from agv_motion.planar import Pose, compose, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -128,6 +129,11 @@ class PoseFusion:
             del self._waiting[:-MOST_WAITING]
             return self._count(Verdict.WAITING)
         return self._judge(fix)
+
+    @property
+    def newest_stamp(self) -> float:
+        """Time of the newest odometry [s]; minus infinity before the first."""
+        return self._history.newest.stamp if self._history else -inf
 
     def estimate(self) -> Estimate | None:
         """Return where the robot is as of the newest odometry; None while nothing is known."""
@@ -255,39 +261,21 @@ class PoseFusion:
 
     def _leap(self, passage: Passage) -> None:
         """Keep the robot where it is in `map`, less sure, when the clock or odometry leaps."""
-        step, now, begun, _ = passage
-        belief, last = self._belief(), self._history.newest
-        lost = self._lost(passage)
+        leap = Leap(self._history.last_two(), passage)
+        belief = self._belief()
         self._history.clear()
         self._sightings = []
-        first = begun or now
-        if not 0.0 < first.stamp - last.stamp <= LEAP:  # fixes of another time would never come
+        if leap.of_clock:  # fixes of another time would never come
             self._waiting.clear()
-            if step is Step.RESET:  # a clock and a pose that both leap: all began anew
-                self.restart()
-                return
-        if belief is None:
-            return
-        about_robot = add(covariance_at(belief, last, self._drift), lost)
-        covariance = shift(about_robot, -last.pose.x, -last.pose.y)
-        kept = Belief(belief.map_to_odom, covariance, last._replace(stamp=first.stamp))
-        if step is Step.RESET:
-            jump = compose(last.pose, inverse(first.pose))
-            moved = rotate(shift(covariance, jump.x, jump.y), -jump.theta)
-            kept = Belief(compose(belief.map_to_odom, jump), moved, first)
-        self._accepted_at = None if self._accepted_at is None else first.stamp
-        if self._buffer is not None:
-            self._track(kept)
-        else:
-            self._guess = kept
-
-    def _lost(self, passage: Passage) -> Covariance:
-        """Return the covariance of what the robot may have done with nothing seen of it."""
-        speeds = [self._history.speed()]
-        if passage.begun is not None:
-            speeds.append(speed_between(passage.begun, passage.waypoint))
-        way, turn = (max(pair) * passage.unseen for pair in zip(*speeds, strict=True))
-        return Covariance(way * way, 0.0, 0.0, way * way, 0.0, min(turn * turn, UNKNOWN))
+        if leap.of_all:
+            self.restart()
+        elif belief is not None:
+            kept = leap.keep(belief, self._drift)
+            self._accepted_at = None if self._accepted_at is None else kept.waypoint.stamp
+            if self._buffer is not None:
+                self._track(kept)
+            else:
+                self._guess = kept
 
     def _count(self, verdict: Verdict) -> Verdict:
         self._verdicts[verdict] += 1

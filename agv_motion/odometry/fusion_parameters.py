@@ -47,7 +47,8 @@ class FusionParameters:
         float, Spec('of the robot; beyond, odometry began anew', 'rad/s', (0.01, 100.0))
     ] = 10.0
     tag_x: Annotated[
-        float, Spec('where on the robot the fixes are taken, forward of base_link', 'm', (-100, 100))
+        float,
+        Spec('where on the robot the fixes are taken, forward of base_link', 'm', (-100, 100)),
     ] = 0.0
     tag_y: Annotated[float, Spec('... and left of it', 'm', (-100, 100))] = 0.0
 

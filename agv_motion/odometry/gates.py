@@ -10,11 +10,12 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.covariance import Covariance
 from agv_motion.planar import require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from agv_motion.odometry.covariance import Covariance
 
 MAX_ANGLE = 1e9
 """[rad] Of a wheel: 50,000 km on wheels of 5 cm; beyond, steps are lost in rounding."""
@@ -129,6 +130,4 @@ def is_noise(covariance: Covariance, tolerance: float) -> bool:
     ):
         return False
     slack = 1.0 + ROUNDING
-    return (
-        xy * xy <= slack * xx * yy and xt * xt <= slack * xx * tt and yt * yt <= slack * yy * tt
-    )
+    return xy * xy <= slack * xx * yy and xt * xt <= slack * xx * tt and yt * yt <= slack * yy * tt

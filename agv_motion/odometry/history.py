@@ -49,9 +49,9 @@ class OdometryHistory:
         """The first waypoint that is kept."""
         return self._waypoints[0]
 
-    def speed(self) -> tuple[float, float]:
-        """Return how fast the robot went last [m/s], and turned [rad/s]; 0 where nothing tells."""
-        return speed_between(*self._waypoints[-2:]) if len(self._waypoints) > 1 else (0.0, 0.0)
+    def last_two(self) -> list[Waypoint]:
+        """Return the newest waypoint and, where there is one, the one before it."""
+        return self._waypoints[-2:]
 
     def append(self, waypoint: Waypoint) -> None:
         """Keep a waypoint newer than all before; forget the old ones, many at a time."""

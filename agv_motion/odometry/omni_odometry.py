@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.odometry.base import OmniBase
-from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.planar import require_finite
 
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.omniwheels import OmniWheels
+    from agv_motion.odometry.continuity import Step
     from agv_motion.odometry.parameters import OdometryParameters
 
 

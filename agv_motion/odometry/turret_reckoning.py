@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.odometry.base import TurretBase
 from agv_motion.odometry.continuity import Continuity, Step
 from agv_motion.odometry.dead_reckoning import DeadReckoning
@@ -27,6 +27,7 @@ MAX_GAP = 0.5
 """[s] Silence beyond which nobody knows whether the wheels rolled on."""
 MAX_WHEEL_SPEED = 10.0
 """[m/s] No wheel of a platform on turrets rolls faster."""
+
 
 class Reckoned(NamedTuple):
     """What is known after one state of the turrets."""
@@ -75,20 +76,30 @@ class TurretReckoning:
         self._unit_covariance = TurretBase(turrets).unit_covariance
         self._reckoning = DeadReckoning()
         self._order = Continuity[float](max_gap, lambda *_: True)
+        self._rolled: Sequence[float] = ()
 
-    def take(self, time: float, angles: Sequence[float], speeds: Sequence[float]) -> Reckoned:
+    def take(
+        self,
+        time: float,
+        angles: Sequence[float],
+        speeds: Sequence[float],
+        rolled: Sequence[float] = (),
+    ) -> Reckoned:
         """Take one state; where it does not follow the last one, the pose stays.
 
         Args:
             time: Of the state [s].
             angles: (k,) steering angles [rad].
-            speeds: (k,) rolling speeds along them [m/s].
+            speeds: (k,) rolling speeds along them [m/s]; empty where only ``rolled`` is known.
+            rolled: (k,) how far each wheel has rolled in all [m]; empty where nobody counts.
 
         Raises:
             SignalError: A wrong number of values, one that is not finite, or a speed that cannot
                 be; nothing has changed.
 
         """
+        if not speeds:
+            speeds = self._speeds(time, rolled)
         fit = self._turrets.twist(angles, speeds)
         require_within('wheel speeds', speeds, self._max_speed, 'm/s', 'look at the encoders')
         before, order = self._order.last, self._order
@@ -99,8 +110,18 @@ class TurretReckoning:
             # over a gap they either rolled on or the clock leapt: as uncertain as it is long
             lost = max(before.value, speed) * order.unseen
             self._carry(fit.twist, speed, time - begun.stamp, lost)
+        if step.used:
+            self._rolled = rolled
         reckoning = self._reckoning
         return Reckoned(fit.twist, fit.residual, reckoning.pose, reckoning.covariance(), step)
+
+    def _speeds(self, time: float, rolled: Sequence[float]) -> list[float]:
+        """Return the mean speeds [m/s] since the last state, from what the wheels rolled."""
+        passed = time - self._order.stamp
+        if not self._rolled or not 0.0 < passed <= self._max_gap:
+            msg = 'no wheel speeds, and no distances just before to tell them from: give either'
+            raise SignalError(msg)
+        return [(now - last) / passed for now, last in zip(rolled, self._rolled, strict=True)]
 
     def _carry(self, twist: Twist, speed: float, passed: float, lost: float) -> None:
         """Follow a twist for a time; all wheels may have rolled ``lost`` [m] beside it."""
@@ -147,6 +168,7 @@ class TurretReckoning:
         passed = times - np.concatenate([[first], times[:-1]])
         speed = sum(map(abs, speeds)) / len(speeds)
         self._order.follow(float(times[-1]), float(speed[-1]))
+        self._rolled = ()
         displacement = (vx * passed, vy * passed, wz * passed)
         variance = self._noise * self._noise * (passed * speed)
         carried = self._reckoning.carry_columns(displacement, self._unit_covariance, variance)

@@ -28,10 +28,10 @@ class WheelAngles:
 
         """
         self._none: list[float | None] = [None] * count
-        self._order = Continuity[Sequence[float | None]](max_gap, lambda *_: True)
+        self._order = Continuity[list[float | None]](max_gap, lambda *_: True)
         self._max_rate = max_rate
-        self._angles: list[float | None] = [0.0] * count
-        self._offsets = self._none
+        self._angles = [0.0] * count
+        self._offsets = list(self._none)
         """From a position as it is told to the angle that is counted"""
         self.by_rate = False
         """Whether the last angles rest on rates"""
@@ -53,20 +53,21 @@ class WheelAngles:
             SignalError: A rate that a wheel needs is beyond its limit; nothing has changed.
 
         """
-        positions, rates = positions or self._none, rates or self._none
+        positions, rates = positions or self._none, list(rates or self._none)
+        for i, (position, rate) in enumerate(zip(positions, rates, strict=True)):
+            if rate is not None and not abs(rate) <= self._max_rate:
+                if position is None:
+                    require_within('wheel rates', (rate,), self._max_rate, 'rad/s', 'mend them')
+                rates[i] = None
         pairs = list(zip(positions, rates, strict=True))
         self.by_rate = any(position is None and rate is not None for position, rate in pairs)
-        if self.by_rate:
-            needed = [rate for position, rate in pairs if position is None and rate is not None]
-            require_within('wheel rates', needed, self._max_rate, 'rad/s', 'look at the encoders')
         before, last = self._order.stamp, self._order.last
         step = self._order.judge(stamp, rates)
         if step.used:
             if step is Step.LEAP and self._order.begun is not None:
                 before, last = self._order.begun.stamp, self._order.begun
             elapsed = 0.0 if step is Step.FIRST else stamp - before
-            known = self._none if last is None else last.value
-            self._count(positions, rates, known, elapsed)
+            self._count(pairs, self._none if last is None else last.value, elapsed)
         return [
             None if position is None and rate is None else angle
             for (position, rate), angle in zip(pairs, self._angles, strict=True)
@@ -74,22 +75,19 @@ class WheelAngles:
 
     def _count(
         self,
-        positions: Sequence[float | None],
-        rates: Sequence[float | None],
+        pairs: Sequence[tuple[float | None, float | None]],
         last: Sequence[float | None],
         elapsed: float,
     ) -> None:
         """Carry each angle on over ``elapsed`` [s], with the rates now and those before."""
-        for i, (position, now, before) in enumerate(zip(positions, rates, last, strict=True)):
-            angle, offset = self._angles[i] or 0.0, self._offsets[i]
-            if now is not None and (before is not None or offset is not None):
-                carried = angle + 0.5 * (now + (now if before is None else before)) * elapsed
-            else:
-                carried = angle
-            if position is None:
-                self._angles[i] = carried
+        for i, ((position, now), before) in enumerate(zip(pairs, last, strict=True)):
+            offset = self._offsets[i]
+            if position is not None and offset is not None:
+                self._angles[i] = offset + position
                 continue
-            if offset is None:
-                offset = carried - position if elapsed else 0.0
-                self._offsets = [*self._offsets[:i], offset, *self._offsets[i + 1 :]]
-            self._angles[i] = offset + position
+            known = [rate for rate in (now, before) if rate is not None]
+            if known and (position is not None or offset is not None or len(known) == 2):
+                self._angles[i] += sum(known) / len(known) * elapsed
+            if position is not None:  # for the first time: it may stand anywhere
+                offset = self._angles[i] - position if elapsed else 0.0
+                self._offsets[i], self._angles[i] = offset, offset + position

@@ -10,9 +10,9 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.dead_reckoning import DeadReckoning
-from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.encoders import MOVED, Encoders
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.planar import Pose, Twist, require_finite, wrap

@@ -101,7 +101,7 @@ class TurretState(NamedTuple):
     rates: list[float]
     """(n,) rates of the wheels [rad/s]; empty where they are of no use"""
     turned: list[float]
-    """(n,) angles of the wheels [rad], where the rates are of no use; else empty"""
+    """(n,) angles of the wheels [rad]; empty where nobody counts them"""
     wrong: str
     """Why rates are of no use; empty when they are"""
 
@@ -114,7 +114,8 @@ def _finite(
         msg = f'{len(values)} {field} for {len(names)} joints: give one each'
         raise SignalError(msg)
     picked = [values[place] for place in places]
-    require_finite(f'{field} of {[names[place] for place in places]}', tuple(picked))
+    if not isfinite(sum(picked)):
+        require_finite(f'{field} of {[names[place] for place in places]}', tuple(picked))
     return picked
 
 
@@ -159,14 +160,16 @@ class TurretJoints:
         """
         steering, wheel = self.places(message.name)
         angles = _finite('positions', message.position, message.name, steering)
+        turned = [message.position[i] for i in wheel]
+        if not (any(turned) and isfinite(sum(turned))):  # 0: nobody counts the turns
+            turned = []
         try:
             rates = _finite('velocities', message.velocity, message.name, wheel)
         except SignalError as error:
-            turned = _finite('positions', message.position, message.name, wheel)
-            if not any(turned):  # 0 is what one tells who counts no turns
+            if not turned:
                 raise
             return TurretState(angles, [], turned, str(error))
-        return TurretState(angles, rates, [], '')
+        return TurretState(angles, rates, turned, '')
 
     def read(self, message: JointState) -> tuple[list[float], list[float]]:
         """Return steering angles [rad] and wheel rates [rad/s], whatever the order of the joints.

@@ -58,7 +58,7 @@ class WheelJoints:
         rates, wrong_rates = _picked('velocities', message.velocity, names, places)
         wrong = '; '.join(filter(None, (wrong_angles, wrong_rates)))
         if not angles and not rates:
-            msg = f'neither positions nor velocities of use: {wrong or "give each angle [rad] or rate"}'
+            msg = f'neither positions nor velocities of use: {wrong or "give angles or rates"}'
             raise SignalError(msg)
         return WheelState(angles, rates, wrong)
 

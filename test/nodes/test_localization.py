@@ -232,7 +232,9 @@ def test_odometry_that_begins_anew_moves_nobody(tester):
     robot.run(10.0)
     before = robot.poses[-1].pose.pose.position
     moved = compose(Pose(40.0, -7.0, 2.0), robot.in_odom)
-    robot.publish(robot.odom, robot.odometry(robot.time + 0.1, moved), robot.filtered)
+    robot.odom.publish(robot.odometry(robot.time + 0.1, moved))
+    tester.graph.spin_until(lambda: 'cannot follow the last' in robot.node.complaint)
+    robot.publish(robot.odom, robot.odometry(robot.time + 0.2, moved), robot.filtered)
     tester.graph.spin_for(0.05)
     after = robot.poses[-1].pose.pose.position
     assert hypot(after.x - before.x, after.y - before.y) < 0.1

@@ -60,16 +60,26 @@ def test_encoders_that_go_round_lose_nothing(turns):
 
 
 def test_encoders_that_start_again_are_noticed():
-    """Rolling 0.3 m/s before, over 0.1 s, the wheels may have gone 0.03 m together meanwhile."""
+    """Rolling 0.15 m/s before, over 0.1 s, each wheel may have gone 15 mm meanwhile."""
     encoders = started(max_wheel_speed=1.0)
     encoders.read(10.1, [1.1, 2.1])
-    encoders.read(10.2, [30.0, 30.0])
-    assert encoders.read(10.3, [30.1, 30.1]) is Step.MOVED
-    assert encoders.read(10.4, [0.0, 0.0]) is Step.RESET
-    assert list(encoders.travel) == []
-    assert encoders.rolled == pytest.approx(0.03, abs=1e-12)
-    assert encoders.read(10.5, [0.1, 0.0]) is Step.MOVED
+    assert encoders.read(10.2, [0.0, 0.0]) is Step.DOUBTED
+    assert encoders.stamp == 10.1
+    assert encoders.read(10.3, [0.1, 0.0]) is Step.RESET
     assert encoders.travel == pytest.approx([0.01, 0.0], abs=1e-15)
+    assert encoders.duration == pytest.approx(0.1)
+    assert encoders.doubt == pytest.approx(0.015, abs=1e-9)
+    assert encoders.read(10.4, [0.2, 0.0]) is Step.MOVED
+    assert encoders.travel == pytest.approx([0.01, 0.0], abs=1e-15)
+    assert encoders.doubt == 0.0
+
+
+def test_one_impossible_reading_costs_nothing():
+    encoders = started()
+    assert encoders.read(10.1, [900.0, 2.0]) is Step.DOUBTED
+    assert encoders.read(10.2, [1.2, 2.0]) is Step.MOVED
+    assert encoders.travel == pytest.approx([0.02, 0.0], abs=1e-15)
+    assert encoders.doubt == 0.0
 
 
 def test_a_gap_keeps_the_travel_and_says_so():
@@ -84,10 +94,27 @@ def test_a_gap_in_which_the_encoders_may_have_gone_round_loses_the_travel():
     assert encoders.read(20.0, [3.0, 2.0]) is Step.RESET
 
 
-def test_a_clock_that_is_set_back_starts_again():
+@pytest.mark.parametrize('stamp', [-500.0, 7200.0, 2.1e9])
+def test_a_clock_that_leaps_loses_no_travel_and_costs_certainty(stamp):
+    """Two positions tell of 0.03 m and 0.04 m: the pose is as unsure as all of that, no more."""
     encoders = started()
-    assert encoders.read(-500.0, [1.0, 2.0]) is Step.RESET
-    assert encoders.read(-499.9, [1.1, 2.0]) is Step.MOVED
+    assert encoders.read(stamp, [1.1, 2.1]) is Step.DOUBTED
+    assert encoders.read(stamp + 0.1, [1.3, 2.2]) is Step.LEAP
+    assert encoders.travel == pytest.approx([0.03, 0.04], abs=1e-15)
+    assert encoders.duration == pytest.approx(0.1, abs=1e-6)
+    assert encoders.doubt == pytest.approx(0.035, abs=1e-12)
+    assert encoders.read(stamp + 0.2, [1.4, 2.2]) is Step.MOVED
+
+
+def test_a_clock_set_back_a_little_loses_no_travel():
+    """5 s back: what comes is late, until it has gone on for longer than a gap."""
+    encoders, rolled = started(max_gap=0.5), 0.0
+    for i in range(1, 101):
+        step = encoders.read(5.0 + 0.1 * i, [1.0 + 0.05 * i, 2.0])
+        if step.used:
+            rolled += encoders.travel[0]
+        assert step is (Step.LATE if i <= 6 else Step.LEAP if i == 7 else Step.MOVED)
+    assert rolled == pytest.approx(100 * 0.05 * 0.1, abs=1e-12)
 
 
 @pytest.mark.parametrize('angles', [[nan, 0.0], [0.0, inf], [-inf, inf]])

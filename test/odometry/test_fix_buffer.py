@@ -111,11 +111,30 @@ def test_what_is_forgotten_stays_believed():
     assert buffer.belief == belief
 
 
-def test_rejected_fixes_are_kept_since_the_last_accepted_but_not_without_end():
+@pytest.mark.parametrize('period', [0.05, 0.5, 2.0])
+def test_rejected_fixes_are_kept_that_span_the_last_seconds(period):
+    """However often they come: few of them, over 10 s, the newest and the oldest among them."""
     buffer = started()
     assert buffer.take(Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
-    far = [Sighting(position_fix(2.0 + i, -50.0, 0.0, 0.15), at(2.0 + i)) for i in range(60)]
+    far = []
+    for i in range(round(60.0 / period)):
+        stamp = 2.0 + period * i
+        far.append(Sighting(position_fix(stamp, -50.0, 0.0, 0.15), at(stamp)))
+        buffer.take(far[-1])
+        buffer.forget(stamp - 1.0)
+    kept = buffer.rejected()
+    assert set(kept) <= set(far)
+    assert kept[-1] is far[-1]
+    assert len(kept) <= 24
+    span = kept[-1].fix.stamp - kept[0].fix.stamp
+    assert 10.0 <= span <= 10.0 + max(6.0 * period, 3.0)
+
+
+def test_few_rejected_fixes_are_kept_however_old():
+    buffer = started()
+    assert buffer.take(Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
+    far = [Sighting(position_fix(20.0 * i, -50.0, 0.0, 0.15), at(20.0 * i)) for i in range(1, 9)]
     for sighting in far:
         buffer.take(sighting)
         buffer.forget(sighting.fix.stamp - 1.0)
-    assert buffer.rejected() == far[-24:]
+    assert buffer.rejected() == far

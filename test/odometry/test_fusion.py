@@ -255,12 +255,14 @@ def test_either_sign_of_odometry_that_begins_anew_is_seen(pose, noise):
     assert fusion.estimate().covariance == pytest.approx(before.covariance, abs=1e-5)
 
 
-def test_a_clock_set_back_starts_the_search_again():
+def test_a_clock_and_a_pose_that_both_leap_start_the_search_again():
     fusion = resting(30.0)
-    fusion.add_odometry(1.0, Pose(0.0, 0.0, 0.0), CERTAIN)
+    fusion.add_odometry(1.0, Pose(500.0, 0.0, 0.0), CERTAIN)
+    assert fusion.estimate().stamp == pytest.approx(30.0)
+    fusion.add_odometry(1.1, Pose(500.0, 0.0, 0.0), CERTAIN)
     assert fusion.estimate() is None
     assert fusion.health().state is State.WAITING
-    assert fusion.add_fix(position_fix(1.0, 0.0, 0.0, 0.15)) is Verdict.SEARCHING
+    assert fusion.add_fix(position_fix(1.1, 0.0, 0.0, 0.15)) is Verdict.SEARCHING
 
 
 def test_before_all_it_knows_nothing():

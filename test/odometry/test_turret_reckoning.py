@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import inf, nan, pi
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.turrets import Turrets
+from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.turret_reckoning import TurretReckoning
 from agv_motion.planar import Twist
 
@@ -17,7 +19,7 @@ TURRETS = Turrets([(0.8, -0.8), (0.8, 0.8), (-1.2, 0.0)])
 COUNT = len(TURRETS)
 ANGLE, SPEED = st.floats(-20.0, 20.0), st.floats(-3.0, 3.0)
 STATE = st.tuples(
-    st.sampled_from([0.1, 0.05, 0.0, -0.2]),
+    st.sampled_from([0.1, 0.05, 0.5]),
     st.tuples(*[ANGLE] * COUNT),
     st.tuples(*[SPEED] * COUNT) | st.just((0.0, -0.0, 0.0)),
 )
@@ -50,7 +52,8 @@ def test_a_quarter_turn_on_the_spot_by_hand():
     start = reckoning.take(10.0, command.angle, command.speed)
     assert start.pose == (0.0, 0.0, 0.0)
     assert start.covariance.tt == 0.0
-    end = reckoning.take(10.0 + pi / 2, command.angle, command.speed)
+    for i in range(1, 5):
+        end = reckoning.take(10.0 + i * pi / 8, command.angle, command.speed)
     assert end.twist == pytest.approx((0.0, 0.0, 1.0))
     assert end.residual == pytest.approx(0.0, abs=1e-15)
     assert end.pose == pytest.approx((0.0, 0.0, pi / 2), abs=1e-12)
@@ -60,8 +63,83 @@ def test_a_quarter_turn_on_the_spot_by_hand():
     assert end.covariance.tt == pytest.approx(0.01 * travel / spread)
 
 
+def rolling(stamps, speed=1.0, reckoning=None):
+    """Take states of a platform that goes straight on at these stamps; return the last."""
+    reckoning = reckoning or TurretReckoning(TURRETS, 0.02)
+    for stamp in stamps:
+        told = reckoning.take(stamp, [0.0] * COUNT, [speed] * COUNT)
+    return told
+
+
 def test_a_state_that_is_not_newer_does_not_move_the_pose():
     reckoning = TurretReckoning(TURRETS, 0.02)
-    for time in (1.0, 1.0, 0.5):
-        assert reckoning.take(time, [0.0] * COUNT, [1.0] * COUNT).pose == (0.0, 0.0, 0.0)
-    assert reckoning.take(0.75, [0.0] * COUNT, [1.0] * COUNT).pose == pytest.approx((0.25, 0, 0))
+    steps = [rolling([time], reckoning=reckoning).step for time in (1.0, 1.0, 0.9, 1.25)]
+    assert steps == [Step.FIRST, Step.DUPLICATE, Step.LATE, Step.MOVED]
+    assert rolling([1.25], reckoning=reckoning).pose == pytest.approx((0.25, 0, 0))
+
+
+@pytest.mark.parametrize(
+    'order', [[0, 2, 1, 3], [0, 3, 1, 2, 4], [0, 0, 1, 1, 2], [0, 4, 2, 3, 1, 5]]
+)
+def test_late_swapped_and_doubled_states_count_time_once(order):
+    """One metre a second for 10 s, all stamps in a disorder that comes again and again."""
+    n = max(order) + 1
+    stamps = [0.05 * (n * block + place) for block in range(200 // n) for place in order]
+    told = rolling([*stamps, 10.0])
+    assert told.pose.x == pytest.approx(10.0, abs=1e-9)
+    assert told.covariance.xx >= 0.02**2 * 10.0 / COUNT * 0.999
+
+
+@pytest.mark.parametrize('leap', [60.0, -60.0, 3600.0, 2.1e9])
+@pytest.mark.parametrize('back', [True, False])
+def test_a_clock_that_leaps_counts_no_time_of_its_own(leap, back):
+    """One state of another time is nothing; where the next ones go on from it a step is lost."""
+    before, after = [0.05 * i for i in range(21)], [1.0 + 0.05 * i for i in range(1, 21)]
+    if back:
+        told = rolling([*before, 1.0 + leap, *after])
+        assert told.pose.x == pytest.approx(2.0, abs=1e-9)
+        assert told.covariance.xx < 0.03**2
+    else:
+        told = rolling([*before, *(leap + stamp for stamp in after)])
+        assert told.pose.x == pytest.approx(1.95, abs=1e-6)
+        assert told.covariance.xx**0.5 > 0.05
+
+
+@pytest.mark.parametrize('leap', [-0.2, -0.6, -3.0, -9.0, 0.6, 3.0, 9.0])
+def test_a_clock_that_is_put_right_by_seconds_costs_what_may_be_lost(leap):
+    before, after = [0.05 * i for i in range(21)], [1.0 + 0.05 * i for i in range(1, 401)]
+    told = rolling([*before, *(leap + stamp for stamp in after)])
+    deviation = told.covariance.xx**0.5
+    assert abs(told.pose.x - 21.0) < 3.0 * deviation
+    assert deviation < 0.1 + 1.1 * abs(leap)
+
+
+@pytest.mark.parametrize('speed', [1e100, -1e30, 11.0, nan, inf])
+def test_an_impossible_speed_is_refused_and_nothing_has_changed(speed):
+    reckoning = TurretReckoning(TURRETS, 0.02, max_wheel_speed=10.0)
+    rolling([0.0, 0.1], reckoning=reckoning)
+    with pytest.raises(SignalError, match='wheel speeds'):
+        reckoning.take(0.2, [0.0] * COUNT, [1.0, speed, 1.0])
+    assert rolling([0.2], reckoning=reckoning).pose.x == pytest.approx(0.2, abs=1e-12)
+
+
+def test_where_speeds_are_unknown_what_wheels_rolled_tells_them():
+    reckoning = TurretReckoning(TURRETS, 0.02)
+    with pytest.raises(SignalError, match='no wheel speeds'):
+        reckoning.take(0.0, [0.0] * COUNT, [], [5.0] * COUNT)
+    reckoning.take(0.0, [0.0] * COUNT, [1.0] * COUNT, [5.0] * COUNT)
+    told = reckoning.take(0.1, [0.0] * COUNT, [], [5.08] * COUNT)
+    assert told.pose.x == pytest.approx(0.08)
+    assert told.twist.vx == pytest.approx(0.8)
+
+
+def test_states_that_are_late_or_beyond_limits_do_not_go_by_columns():
+    reckoning = TurretReckoning(TURRETS, 0.02)
+    rolling([1.0], reckoning=reckoning)
+    still = np.zeros((COUNT, 2))
+    assert reckoning.are_plain(np.array([1.1, 1.2]), still)
+    for times, speeds in (([1.0, 1.1], still), ([1.2, 1.1], still), ([1.1, 9.9], still),
+                          ([1.1, 1.2], still + 1e9)):  # fmt: skip
+        assert not reckoning.are_plain(np.array(times), speeds)
+        with pytest.raises(ConfigurationError, match='one by one'):
+            reckoning.take_columns(np.array(times), still, speeds)
