@@ -40,6 +40,11 @@ class AgvMotionError(Exception):
         """Keep the message, its quotations shortened."""
         super().__init__(*(shortened(a) if isinstance(a, str) else a for a in arguments))
 
+    unquoted = ''
+    """Where the message may quote a file: the same without a word of it."""
+    file = ''
+    """the file"""
+
 
 class GeometryError(AgvMotionError, ValueError):
     """The described vehicle, zone or path cannot exist: wrong shape, non-finite, out of range."""

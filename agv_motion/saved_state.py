@@ -117,7 +117,8 @@ def restore(path: str | Path, take: Callable[[bytes], None], largest: int = LARG
         if content is not None:
             take(content)
     except (OSError, ValueError, RecursionError) as error:
-        return f'{path} cannot be used: {error!s:.200}; {set_aside(path)}'
+        reason = str(getattr(error, 'unquoted', '') or error)
+        return f'{path} cannot be used: {reason:.200}; {set_aside(path)}'
     return ''
 
 

@@ -7,13 +7,12 @@ import shutil
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import yaml
 import zstandard
 
 from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.metadata import FILE_NAME
-from agv_motion.bag.yaml_text import parse
-from agv_motion.errors import SourceError
+from agv_motion.bag.metadata import ENTRIES, FILE_NAME, SIZE
+from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.files import text, yaml_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -103,8 +102,9 @@ def _in_folder(folder: Path) -> BagFiles:
 def _described(path: Path) -> dict[str, Any] | None:
     """Return what the metadata says; None where there is none that can be read."""
     try:
-        entries = parse(path.read_text(encoding='utf-8'))['rosbag2_bagfile_information']
-    except (OSError, ValueError, yaml.YAMLError, KeyError, TypeError, RecursionError):
+        content = text.read(path, limit=SIZE)
+        entries = yaml_text.plain(content, path, ENTRIES)['rosbag2_bagfile_information']
+    except (ConfigurationError, KeyError, TypeError):
         return None
     return entries if isinstance(entries, dict) else None
 

@@ -7,7 +7,6 @@ environment, where the wheels of ROS put them.
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import sys
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.files import json_text
 
 SEPARATOR = '=' * 80
 PRIMITIVES = {
@@ -109,7 +109,7 @@ def _hash(message_type: str) -> str:
     package, name = split(message_type)
     try:
         path = _file(package, name, 'json', for_type=message_type)
-        hashes = json.loads(path.read_text(encoding='utf-8'))['type_hashes']
+        hashes = json_text.load(path).value['type_hashes']
         return next(
             str(entry['hash_string'])
             for entry in hashes

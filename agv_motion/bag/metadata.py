@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
-from agv_motion.bag.yaml_text import parse
+from agv_motion.files import yaml_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from agv_motion.bag.quality_of_service import OfferedQos
 
 FILE_NAME = 'metadata.yaml'
+SIZE, ENTRIES = 64 << 20, 1_000_000
+"""[bytes], and values, that a description may have: thousands of topics and files"""
 NEVER = 2**63 - 1
 """[ns] Start of a bag without messages, as rosbag2 writes it."""
 
@@ -79,7 +81,7 @@ def describe(
 
 def inside_mcap(description: str) -> str:
     """Return a description as rosbag2 repeats it inside an MCAP file."""
-    entries = parse(description)['rosbag2_bagfile_information']
+    entries = yaml_text.plain(description, FILE_NAME, ENTRIES)['rosbag2_bagfile_information']
     return yaml.safe_dump(entries, sort_keys=False)
 
 

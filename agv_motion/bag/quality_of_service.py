@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
-from agv_motion.bag.yaml_text import parse
+from agv_motion.errors import ConfigurationError
+from agv_motion.files import yaml_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,6 +24,10 @@ _NAMES = {
     ),
 }
 """Words by the numbers of rmw, which rosbag2 wrote before metadata version 9."""
+
+
+NO_PROFILE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+"""What comes of entries that are no profile: a word for a number, a list for keys, infinity."""
 
 
 class OfferedQos(NamedTuple):
@@ -44,9 +49,9 @@ class OfferedQos(NamedTuple):
     def from_yaml(cls, text: str) -> tuple[OfferedQos, ...]:
         """Return the profiles of a topic's publishers; what cannot be read counts as not given."""
         try:
-            entries = parse(text) if text else []
-            return tuple(cls.from_entries(entry) for entry in entries or [])
-        except (yaml.YAMLError, TypeError, ValueError, KeyError, RecursionError):
+            entries = yaml_text.plain(text, 'offered_qos_profiles') or []
+            return tuple(cls.from_entries(entry) for entry in entries)
+        except (ConfigurationError, *NO_PROFILE):
             return ()
 
     @classmethod

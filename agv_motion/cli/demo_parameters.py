@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import yaml
-
+from agv_motion.files import yaml_text
 from agv_motion.ros.config import find_config
 from agv_motion.ros.run import overrides
 
 
 def configured(file: str, node: str, changes: dict[str, Any]) -> dict[str, Any]:
     """Return the arguments of a node: its values in ``file`` of config/, then ``changes``."""
-    content = yaml.safe_load(find_config(file).read_text(encoding='utf-8'))
+    content = yaml_text.load(find_config(file)).value
     values = _flat(content[f'/**/{node}']['ros__parameters'])
     return {'parameter_overrides': overrides(**(values | changes))}
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.probe.sources.csv_file import CsvParameters, iso, load
+from agv_motion.errors import ConfigurationError
+from agv_motion.probe.sources.csv_file import CsvParameters, iso, load, rows_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,12 +36,7 @@ def recorded(
         ConfigurationError: No column can be taken for a probe.
 
     """
-    try:
-        with path.open(newline='', encoding='utf-8-sig') as file:
-            header = [name.strip() for name in next(csv.reader(file), [])]
-    except (OSError, UnicodeDecodeError) as error:
-        msg = f"cannot read the probe file '{path}': {error}"
-        raise SourceError(msg) from error
+    header = [name.strip() for name in next(rows_of(path), (1, []))[1]]
     time_column = next((n for n in header if any(w in n.lower() for w in TIME_WORDS)), '')
     columns = columns or [
         n for n in header if n != time_column and any(w in n.lower() for w in PROBE_WORDS)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import yaml
-
 from agv_motion.cli.graph import meant
 from agv_motion.errors import ConfigurationError
+from agv_motion.files import yaml_text
+from agv_motion.files.marked import quoted
 from agv_motion.parameters import nested, rows
 
 if TYPE_CHECKING:
@@ -31,19 +31,15 @@ def load_parameters(path: Path, node: str, kind: type[T]) -> T:
             that there is not, or a value is of another type or refused by its row.
 
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except (OSError, ValueError, yaml.YAMLError) as error:
-        msg = f"cannot read the parameters '{path}': {error}"
-        raise ConfigurationError(msg) from error
+    content = yaml_text.load(path, 'the parameters').value
     sections = content if isinstance(content, dict) else {}
     for name, section in sections.items():
         if str(name).split('/')[-1] in {node, '**'} and isinstance(section, dict):
             values = section.get('ros__parameters')
             if isinstance(values, dict):
                 return _build(kind, values, f'{path}: ', '')
-    found = ', '.join(map(str, sections)) or 'nothing'
-    msg = f'{path}: no section /**/{node} with ros__parameters; there is {found}'
+    found = ', '.join(sections) or 'nothing'
+    msg = f'{path}: no section /**/{node} with ros__parameters; there is {found:.200}'
     raise ConfigurationError(msg)
 
 
@@ -76,7 +72,7 @@ def _typed(value: Any, origin: Any, where: str) -> Any:
     wanted = tuple if getattr(origin, '__origin__', origin) is tuple else origin
     if type(value) is not wanted or (wanted is tuple and len(set(map(type, value))) > 1):
         shown = list(value) if isinstance(value, tuple) else value
-        msg = f'{where} = {shown!r}: expected {_name(wanted)}; ROS takes no 1 for 1.0'
+        msg = f'{where} = {quoted(shown)}: expected {_name(wanted)}; ROS takes no 1 for 1.0'
         raise ConfigurationError(msg)
     return value
 

@@ -11,14 +11,13 @@ from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import yaml
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.bag.yaml_text import parse
 from agv_motion.cli.nodes import require_node
 from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.files import yaml_text
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process import add
@@ -210,12 +209,12 @@ def parameters(config: str, node: str) -> dict[str, Any]:
         return {}
     path = find_config(config)
     try:
-        content = parse(path.read_text(encoding='utf-8')) or {}
+        content = yaml_text.load(path, 'the parameters').value
         values: dict[str, Any] = {}
         for pattern, section in content.items():
             if pattern == '/**' or pattern.rpartition('/')[2] == node:
                 values |= dict(_flat(section['ros__parameters'], ''))
-    except (yaml.YAMLError, AttributeError, KeyError, TypeError) as error:
+    except (AttributeError, KeyError, TypeError) as error:
         msg = f'{path}: {error}; expected nodes, each with ros__parameters'
         raise ConfigurationError(msg) from error
     if node == 'granier_probe':

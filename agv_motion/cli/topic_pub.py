@@ -6,12 +6,12 @@ import time
 from typing import Annotated, Any
 
 import typer
-import yaml
 
 from agv_motion.cli.graph import interface_class, joined, spin
 from agv_motion.cli.message_text import fill
 from agv_motion.cli.topic_options import SimTime, SpinTime, Topic, preset_qos
 from agv_motion.errors import ConfigurationError
+from agv_motion.files import yaml_text
 
 
 def pub(
@@ -42,7 +42,7 @@ def pub(
              '{header: auto, twist: {linear: {x: 0.01}}}'
     """
     message = interface_class(message_type)()
-    content = yaml.safe_load(values)
+    content = yaml_text.plain(values, 'the message')
     if not isinstance(content, dict):
         msg = 'The passed value needs to be a dictionary in YAML format'
         raise ConfigurationError(msg)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import yaml
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -14,9 +13,10 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
 from agv_motion.bag.playback import Playback, PlaybackParameters
-from agv_motion.bag.quality_of_service import OfferedQos
+from agv_motion.bag.quality_of_service import NO_PROFILE, OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError
+from agv_motion.files import yaml_text
 from agv_motion.parameters import Spec
 from agv_motion.ros.endpoints import message_class, offering
 from agv_motion.ros.messages import stamp_of
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.bag.connection import Message
+    from agv_motion.files.marked import Marked
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -185,15 +186,16 @@ def _overrides(path: str) -> dict[str, OfferedQos]:
     """
     if not path:
         return {}
+    topics = yaml_text.load(Path(path), 'qos_overrides').mapping('qos_overrides')
+    return {topic: _profile(topic, entries) for topic, (_, entries) in topics.items()}
+
+
+def _profile(topic: str, entries: Marked) -> OfferedQos:
+    expected = 'expected reliability, durability, history, depth'
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
-        return {topic: OfferedQos.from_entries(entries) for topic, entries in content.items()}
-    except (OSError, yaml.YAMLError, AttributeError, TypeError, KeyError, ValueError) as error:
-        msg = (
-            f"qos_overrides '{path}': {error}; expected topics, each with reliability, durability, "
-            'history, depth'
-        )
-        raise ConfigurationError(msg) from error
+        return OfferedQos.from_entries(entries.value)
+    except NO_PROFILE as error:
+        entries.refuse(f'{topic:.80}: {error!r:.80}; {expected}', expected)
 
 
 def main() -> None:

@@ -137,9 +137,9 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         try:
             self.get_logger().info(self._on_start(None))
         except AgvMotionError as error:
-            self.refusal = str(error)
-            self.get_logger().error(f'cannot start: {error}')
-            self.tell(f'cannot start: {error}')
+            self.refusal = self.message_of(error)
+            self.get_logger().error(f'cannot start: {self.refusal}')
+            self.tell(f'cannot start: {self.refusal}')
 
     def share_done(self) -> float:
         """Return how much of the sequence is behind, in [0, 1], by the times predicted."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion import saved_state
 from agv_motion.errors import ConfigurationError
+from agv_motion.files import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from agv_motion.probe.probe import Probe
 
 VERSION = 1
+VALUES = 500_000
+"""that it may have: the longest window in the shortest bins has fewer"""
 
 
 def save(path: str | Path, probes: Sequence[Probe]) -> None:
@@ -54,7 +57,7 @@ def restore(path: str | Path, probes: Sequence[Probe]) -> str:
 
 
 def _states(content: bytes, count: int) -> list[dict[str, object]]:
-    values = json.loads(content)
+    values = json_text.parse(content.decode(), 'the probe state', VALUES).value
     if not isinstance(values, dict) or values.get('version') != VERSION:
         msg = f'it is not a probe state of version {VERSION}'
         raise ConfigurationError(msg)

@@ -19,6 +19,7 @@ from rclpy.qos import QoSProfile
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
 from agv_motion.ros.parameters import DeclaredParameters
+from agv_motion.ros.quotation import told
 from agv_motion.ros.rclpy_services import answer_all
 from agv_motion.ros.refusals import Refusals
 
@@ -136,7 +137,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
                 try:
                     callback(message)
                 except AgvMotionError as error:
-                    self.refuse(f'{topic}: {error}')
+                    self.refuse(f'{topic}: {self.message_of(error)}')
                 except Exception as error:  # noqa: BLE001 - a defect
                     self.stop_for(topic, error)
 
@@ -156,7 +157,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
                 try:
                     callback()
                 except AgvMotionError as error:
-                    self.refuse(str(error))
+                    self.refuse(self.message_of(error))
                 except Exception as error:  # noqa: BLE001 - a defect
                     self.stop_for('a timer', error)
 
@@ -174,7 +175,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
                 self._require_active()
                 message, response.success = act(request), True
             except AgvMotionError as error:
-                message = f'refused: {error}'
+                message = f'refused: {self.message_of(error)}'
             except Exception as error:  # noqa: BLE001 - a defect
                 self.stop_for(name, error)
                 message = f'refused: {self.defect}'
@@ -187,6 +188,10 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
         service = self.create_service(kind, name, guarded)
         self._entities.append(lambda: self.destroy_service(service))
+
+    def message_of(self, error: AgvMotionError) -> str:
+        """Return the message of an error, without a word of a file that is not for everyone."""
+        return told(error, self._declared.given)
 
     def refuse(self, reason: str) -> None:
         """Tell of an input that was not used, in the log and in the diagnostics."""
@@ -265,7 +270,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
         try:
             act()
         except AgvMotionError as error:
-            self.get_logger().error(f'cannot {transition}: {error}')
+            self.get_logger().error(f'cannot {transition}: {self.message_of(error)}')
         except Exception:  # noqa: BLE001 - a defect: told with its trace, the node stays up
             self.get_logger().fatal(f'cannot {transition}: {traceback.format_exc()}')
         else:

@@ -14,9 +14,10 @@ from rcl_interfaces.msg import (
 
 from agv_motion.errors import AgvMotionError
 from agv_motion.parameters import nested, rows
+from agv_motion.ros.quotation import told
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from _typeshed import DataclassInstance
     from rclpy.node import Node
@@ -50,6 +51,8 @@ class DeclaredParameters(Generic[T]):
         """
         self._accept = accept
         self.values: T = _declare(node, kind, '')
+        self.given = frozenset(_texts(self.values))
+        """texts that whoever started the node gave, names of files among them"""
         node.add_on_set_parameters_callback(self._on_set)
 
     def _on_set(self, changes: list[Parameter]) -> SetParametersResult:
@@ -59,7 +62,9 @@ class DeclaredParameters(Generic[T]):
                 candidate = _with(candidate, change.name.split('.'), _plain(change.value))
             if candidate != self.values:
                 self._accept(candidate)
-        except (AgvMotionError, TypeError) as error:
+        except AgvMotionError as error:
+            return SetParametersResult(successful=False, reason=told(error, self.given))
+        except TypeError as error:
             return SetParametersResult(successful=False, reason=str(error))
         self.values = candidate
         return SetParametersResult(successful=True)
@@ -99,6 +104,15 @@ def _descriptor(spec: Spec, origin: Any, *, empty: bool) -> ParameterDescriptor:
         low, high = (int(bound) for bound in spec.between)
         descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
     return descriptor
+
+
+def _texts(values: DataclassInstance) -> Iterator[str]:
+    for name, _, _ in rows(type(values)):
+        value = getattr(values, name)
+        if isinstance(value, str):
+            yield value
+    for name, _ in nested(type(values)):
+        yield from _texts(getattr(values, name))
 
 
 def _plain(value: Any) -> Any:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from math import isfinite, nan
 from pathlib import Path
-from typing import Any
 
-import yaml
-
-from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.errors import GeometryError
+from agv_motion.files import text, yaml_text
+from agv_motion.files.marked import quoted
 from agv_motion.route.route import Route
 
 KEYS = ('waypoints', 'laps')
+_NUMBER = re.compile(r'[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?')
 
 
 def load_route(path: str | Path, laps: int = 1) -> Route:
@@ -26,72 +28,88 @@ def load_route(path: str | Path, laps: int = 1) -> Route:
         laps: How often to go round where the file does not say.
 
     Raises:
-        ConfigurationError: The file cannot be read or holds no route; the message names file and,
-            of CSV, line.
+        ConfigurationError: The file cannot be read or holds no route; the message names file, line
+            and column.
 
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding='utf-8')
-    except (OSError, UnicodeDecodeError) as error:
-        msg = f"cannot read the route '{path}': {error}"
-        raise ConfigurationError(msg) from error
     if path.suffix.lower() in {'.yaml', '.yml'}:
-        points, laps = _from_yaml(path, text, laps)
+        points, laps = _from_yaml(path, laps)
     else:
-        points = _from_csv(path, text)
+        points = _from_csv(path, text.read(path, 'the route'))
     try:
         return Route(points, laps)
     except GeometryError as error:
-        msg = f'{path}: {error}'
-        raise ConfigurationError(msg) from error
+        text.refuse((path, 1, 1), str(error), str(error))
 
 
-def _from_yaml(path: Path, text: str, laps: int) -> tuple[list[Any], int]:
-    try:
-        content = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        msg = f"cannot read the route '{path}': {error}"
-        raise ConfigurationError(msg) from error
+def _from_yaml(path: Path, laps: int) -> tuple[list[tuple[float, float]], int]:
+    file = yaml_text.load(path, 'the route')
+    expected = 'expected waypoints and, if wanted, laps'
+    content = file.value
     if not isinstance(content, dict) or 'waypoints' not in content or set(content) - set(KEYS):
-        given = ', '.join(map(str, content)) if isinstance(content, dict) else repr(content)[:80]
-        msg = f'{path}: expected waypoints and, if wanted, laps; got {given}'
-        raise ConfigurationError(msg)
-    points, laps = content['waypoints'], content.get('laps', laps)
-    if not isinstance(points, list) or isinstance(laps, bool) or not isinstance(laps, int):
-        msg = f'{path}: waypoints must be a list of [x, y], and laps a whole number'
-        raise ConfigurationError(msg)
-    return points, laps
+        given = ', '.join(content) if isinstance(content, dict) else quoted(content)
+        file.refuse(f'{expected}; got {given:.80}', expected)
+    found = file.mapping('the route')
+    points = [
+        pair.point(f'waypoint {number}')
+        for number, pair in enumerate(found['waypoints'][1].items('waypoints'), 1)
+    ]
+    return points, found['laps'][1].typed('laps', int) if 'laps' in found else laps
 
 
-def _from_csv(path: Path, text: str) -> list[tuple[float, float]]:
+def _from_csv(path: Path, content: str) -> list[tuple[float, float]]:
     points: list[tuple[float, float]] = []
     columns: tuple[int, int] | None = None
-    for number, line in enumerate(text.splitlines(), 1):
+    for number, line in enumerate(content.split('\n'), 1):
         fields = _fields(line.split('#')[0])
         if not fields:
             continue
-        names = [name.strip('"').lower() for name in fields]
+        names = [name.strip('"').lower() for name, _ in fields]
         if columns is None and 'x' in names and 'y' in names:
             columns = names.index('x'), names.index('y')
             continue
         if columns is None and len(fields) != 2:
-            msg = f"{path}, line {number}: '{line.strip()}' is no pair; name the columns x and y"
-            raise ConfigurationError(msg)
+            reason = 'no pair; name the columns x and y'
+            where = (path, number, fields[-1][1])
+            text.refuse(where, f'{quoted(line.strip())} is {reason}', reason)
         columns = columns or (0, 1)
-        try:
-            points.append((float(fields[columns[0]]), float(fields[columns[1]])))
-        except (ValueError, IndexError) as error:
-            msg = f"{path}, line {number}: '{line.strip()}' gives no x and y in metres"
-            raise ConfigurationError(msg) from error
+        points.append(_point(path, number, line, fields, columns))
     return points
 
 
-def _fields(line: str) -> list[str]:
-    """Split at the first of semicolon, tab and comma that the line has, else at blanks."""
+def _point(
+    path: Path, number: int, line: str, fields: list[tuple[str, int]], columns: tuple[int, int]
+) -> tuple[float, float]:
+    """Return x and y of a line.
+
+    Raises:
+        ConfigurationError: They are missing, or no finite numbers.
+
+    """
+    values = []
+    for column in columns:
+        word, at = fields[column] if column < len(fields) else ('', len(line) + 1)
+        value = float(word) if _NUMBER.fullmatch(word) else nan
+        if not isfinite(value):
+            reason = 'gives no x and y in metres: both must be finite numbers'
+            text.refuse((path, number, at), f'{quoted(line.strip())} {reason}', reason)
+        values.append(value)
+    return values[0], values[1]
+
+
+def _fields(line: str) -> list[tuple[str, int]]:
+    """Split at the first of semicolon, tab and comma that the line has, else at blanks.
+
+    Each field comes with its column, counted from 1.
+    """
     if not line.strip():
         return []
-    for separator in ';\t,':
-        if separator in line:
-            return [field.strip() for field in line.split(separator)]
-    return line.split()
+    separator = next((sign for sign in ';\t,' if sign in line), None)
+    if separator is None:
+        return [(found[0], found.start() + 1) for found in re.finditer(r'\S+', line)]
+    fields, at = [], 1
+    for field in line.split(separator):
+        fields.append((field.strip(), at + len(field) - len(field.lstrip())))
+        at += len(field) + 1
+    return fields

@@ -11,7 +11,7 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from agv_motion.sequence.actions import Action
 
-WORDS = re.compile(r'(stop|skip)|retry (\d+)(?: then (stop|skip))?')
+WORDS = re.compile(r'(stop|skip)|retry ([0-9]{1,6})(?: then (stop|skip))?')
 
 
 @dataclass(frozen=True)

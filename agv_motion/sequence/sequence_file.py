@@ -5,19 +5,21 @@ from __future__ import annotations
 import difflib
 from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
 from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.files import yaml_text
+from agv_motion.files.marked import quoted
 from agv_motion.parameters import rows
 from agv_motion.route.route import Route
 from agv_motion.route.route_file import load_route
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
-from agv_motion.sequence.marked_yaml import Marked
 from agv_motion.sequence.sequence import OnFailure, Sequence, Step
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from agv_motion.files.marked import Marked
     from agv_motion.sequence.actions import Action
 
 ACTIONS: dict[str, type[Any]] = {
@@ -50,16 +52,16 @@ def load_sequence(path: str | Path) -> Sequence:
             message gives line, column and what may stand there.
 
     """
-    file = Marked.load(Path(path))
+    file = yaml_text.load(Path(path), 'the sequence')
     content = file.mapping('the file')
     _require_known(content, ('name', 'defaults', 'actions'), 'the file')
     if 'actions' not in content:
-        file.refuse('no actions: give a list of them')
+        _refuse(file, 'no actions: give a list of them')
     defaults = _defaults(content['defaults'][1] if 'defaults' in content else None)
     items = content['actions'][1].items('actions')
     if not items:
-        content['actions'][1].refuse('actions: the list is empty')
-    name = str(content['name'][1].value) if 'name' in content else file.path.stem
+        _refuse(content['actions'][1], 'actions: the list is empty')
+    name = _name(content['name'][1]) if 'name' in content else Path(path).stem
     return Sequence(name, tuple(_step(item, defaults) for item in items))
 
 
@@ -78,14 +80,17 @@ def _step(item: Marked, defaults: Defaults) -> Step:
     found = item.mapping('an action')
     kinds = [key for key in found if key not in OPTIONS]
     if len(kinds) != 1:
-        item.refuse(f'{len(kinds)} actions in one item: give one of {", ".join(ACTIONS)}')
+        _refuse(item, f'{len(kinds)} actions in one item: give one of {", ".join(ACTIONS)}')
     kind = kinds[0]
     key, marked = found[kind]
     if kind not in ACTIONS:
-        key.refuse(f"unknown action '{kind}'{_meant(kind, ACTIONS)}; choose one of "
-                   f'{", ".join(ACTIONS)}')  # fmt: skip
+        choices = f'choose one of {", ".join(ACTIONS)}'
+        key.refuse(
+            f"unknown action '{kind:.80}'{_meant(kind, ACTIONS)}; {choices}",
+            f'unknown action; {choices}',
+        )
     action = _action(kind, marked, defaults.keys.get(kind, {}))
-    name = str(found['name'][1].value) if 'name' in found else _words(kind, marked)
+    name = _name(found['name'][1]) if 'name' in found else _words(kind, marked)
     return Step(
         name,
         action,
@@ -95,15 +100,21 @@ def _step(item: Marked, defaults: Defaults) -> Step:
     )
 
 
+def _name(marked: Marked) -> str:
+    if isinstance(marked.value, (dict, list)):
+        marked.refuse(f'name = {quoted(marked.value)}: expected text', 'name: expected text')
+    return f'{marked.value!s:.80}'
+
+
 def _words(kind: str, marked: Marked) -> str:
     """Return an action as people would say it: `go_to x 1, y 2`."""
     value = marked.value
     if not isinstance(value, dict):
-        return f'{kind} {value}'
+        return f'{kind} {quoted(value)}' if isinstance(value, list) else f'{kind} {value!s:.80}'
     return f'{kind} ' + ', '.join(
-        f'{key} {given:g}' if isinstance(given, float) else f'{key} {given}'
+        f'{key} {given:g}' if isinstance(given, float) else f'{key:.80} {given!s:.80}'
         for key, given in value.items()
-        if not isinstance(given, list)
+        if not isinstance(given, (dict, list))
     )
 
 
@@ -117,11 +128,11 @@ def _action(kind: str, marked: Marked, defaults: dict[str, Any]) -> Action:
         if field.default is MISSING and field.name not in given
     ]
     if missing:
-        marked.refuse(f"{kind}: '{missing[0]}' is missing; it has {_explained(kind)}")
+        _refuse(marked, f"{kind}: '{missing[0]}' is missing; it has {_explained(kind)}")
     try:
         action: Action = ACTIONS[kind](**given)
     except ConfigurationError as error:
-        _culprit(marked, str(error)).refuse(f'{kind}: {error}')
+        _refuse(_culprit(marked, str(error)), f'{kind}: {error}')
     return action
 
 
@@ -140,8 +151,11 @@ def _given(marked: Marked, kind: type[Any], name: str) -> dict[str, Any]:
     found = marked.mapping(name)
     for key, (mark, _) in found.items():
         if key not in known:
-            mark.refuse(f"{name}: unknown key '{key}'{_meant(key, known)}; it has "
-                        f'{_explained(name)}')  # fmt: skip
+            has = f'it has {_explained(name)}'
+            mark.refuse(
+                f"{name}: unknown key '{key:.80}'{_meant(key, known)}; {has}",
+                f'{name}: unknown key; {has}',
+            )
     return {
         key: value.typed(f'{name}: {key}', (get_args(known[key]) or (known[key],))[0])
         for key, (_, value) in found.items()
@@ -152,18 +166,18 @@ def _route(marked: Marked) -> Route:
     found = marked.mapping('follow_route')
     _require_known(found, ROUTE_KEYS, 'follow_route')
     if ('file' in found) == ('waypoints' in found):
-        marked.refuse('follow_route: give either file or waypoints: [[x, y], ...]')
+        _refuse(marked, 'follow_route: give either file or waypoints: [[x, y], ...]')
     laps = found['laps'][1].typed('follow_route: laps', int) if 'laps' in found else 1
     try:
         if 'file' in found:
             name = found['file'][1].typed('follow_route: file', str)
-            return load_route(marked.path.parent / name, laps)
-        points = found['waypoints'][1]
-        return Route([pair.value for pair in points.items('waypoints')], laps)
+            return load_route(Path(marked.path).parent / name, laps)
+        points = found['waypoints'][1].items('waypoints')
+        return Route([pair.point(f'waypoint {i}') for i, pair in enumerate(points, 1)], laps)
     except (ConfigurationError, GeometryError) as error:
         if str(error).startswith(f'{marked.path}, line'):
             raise
-        marked.refuse(f'follow_route: {error}')
+        marked.refuse(f'follow_route: {error}', f'follow_route: {error.unquoted or error}')
 
 
 def _timeout(found: dict[str, tuple[Marked, Marked]], default: float) -> float:
@@ -172,7 +186,7 @@ def _timeout(found: dict[str, tuple[Marked, Marked]], default: float) -> float:
     marked = found['timeout'][1]
     seconds = float(marked.typed('timeout', float))
     if not 0.0 < seconds <= LONGEST:
-        marked.refuse(f'timeout = {seconds:g} s: must lie above 0, at most {LONGEST:g}')
+        _refuse(marked, f'timeout = {seconds:g} s: must lie above 0, at most {LONGEST:g}')
     return seconds
 
 
@@ -180,12 +194,13 @@ def _on_failure(found: dict[str, tuple[Marked, Marked]], default: OnFailure) -> 
     if 'on_failure' not in found:
         return default
     marked = found['on_failure'][1]
+    words = marked.typed('on_failure', str)
     try:
-        return OnFailure.parse(marked.typed('on_failure', str))
+        return OnFailure.parse(words)
     except ConfigurationError as error:
-        if str(error).startswith(marked.where):
-            raise
-        marked.refuse(str(error))
+        marked.refuse(
+            str(error), 'on_failure: choose one of stop, skip, retry N, retry N then skip'
+        )
 
 
 def _require_known(
@@ -193,8 +208,16 @@ def _require_known(
 ) -> None:
     for key, (marked, _) in found.items():
         if key not in known:
-            marked.refuse(f"{what}: unknown key '{key}'{_meant(key, known)}; there are "
-                          f'{", ".join(known)}')  # fmt: skip
+            there = f'there are {", ".join(known)}'
+            marked.refuse(
+                f"{what}: unknown key '{key:.80}'{_meant(key, known)}; {there}",
+                f'{what}: unknown key; {there}',
+            )
+
+
+def _refuse(marked: Marked, reason: str) -> NoReturn:
+    """Raise a reason in which no word of the file stands, or only numbers of a sequence."""
+    marked.refuse(reason, reason)
 
 
 def _explained(name: str) -> str:
@@ -206,5 +229,5 @@ def _explained(name: str) -> str:
 
 
 def _meant(word: str, choices: Iterable[str]) -> str:
-    close = difflib.get_close_matches(word, list(choices), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(word[:80], list(choices), n=1, cutoff=0.5)
     return f", did you mean '{close[0]}'?" if close else ''

@@ -206,6 +206,17 @@ def test_another_file_at_run_time(course, tmp_path):
     course.says('arrived')
 
 
+@pytest.mark.parametrize('name', ['secret.csv', 'secret.yaml', 'secret'])
+def test_no_word_of_a_file_goes_over_the_network(course, tmp_path, capfd, name):
+    path = tmp_path / name
+    path.write_text('root:x:0:0:root:/root:/bin/sh\nsecret: *secret\n')
+    (refused,) = course.node.set_parameters([Parameter('route_file', value=str(path))])
+    assert f'{path}, line 1, column 1: ' in refused.reason or ': no YAML' in refused.reason
+    told = refused.reason.removeprefix(str(path)) + capfd.readouterr().err.replace(str(path), '')
+    assert 'root' not in told
+    assert 'secret' not in told
+
+
 def test_a_file_that_is_no_route_stops_the_start(tester, tmp_path, capfd):
     path = tmp_path / 'r.csv'
     path.write_text('x,y\n0,0\n')

@@ -159,6 +159,10 @@ def test_a_bad_file_is_refused_at_the_start_and_at_run_time(start, tmp_path, cap
     bad.write_text('actions: []')
     (refused,) = mission.node.set_parameters([Parameter('file', value=str(bad))])
     assert 'line 1, column 10: actions: the list is empty' in refused.reason
+    bad.write_text('actions:\n  - secret: 1')
+    (refused,) = mission.node.set_parameters([Parameter('file', value=str(bad))])
+    assert 'line 2, column 5: unknown action; choose one of go_to' in refused.reason
+    assert 'secret' not in refused.reason
 
 
 def test_what_cannot_be_planned_from_here_is_refused(start):

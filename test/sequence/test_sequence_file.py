@@ -95,7 +95,7 @@ actions:
         ('name: x', '1:1', 'no actions'),
         ('[1, 2]', '1:1', 'expected keys and values'),
         ('defaults: {speed: 1}\nactions: [{wait: 1}]', '1:12', "defaults: unknown key 'speed'"),
-        ('actions:\n  - wait: {', '2:12', 'no YAML'),
+        ('actions:\n  - wait: {', '3:1', 'no YAML'),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_told_with_its_place(load, text, where, reason):

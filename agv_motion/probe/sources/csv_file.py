@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.files import text
 from agv_motion.parameters import Spec, check
 from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, UNITS, Sample, kelvin_per
 
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 DAY = 86400.0
+EARLIEST, LATEST = 0.0, 2.0**32
+"""[s] since 1970, to 2106: what a stamp of ROS can hold"""
+LARGEST = 256 << 20
+"""[bytes] of a recording: a year of three probes every second"""
 
 
 @dataclass(frozen=True)
@@ -153,24 +158,22 @@ def _read_columns(
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], str]:
     """Read the named columns; cells that are no numbers become NaN and are counted."""
     path = Path(parameters.file)
-    try:
-        with path.open(newline='', encoding='utf-8-sig') as file:
-            reader = csv.reader(file)
-            header = [name.strip() for name in next(reader, [])]
-            for name in (parameters.time_column, *parameters.columns):
-                if name not in header:
-                    msg = f"{path} has no column '{name}': it has {', '.join(header)}"
-                    raise ConfigurationError(msg)
-            rows = [row for row in reader if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        msg = f"cannot read the probe file '{path}': {error}"
-        raise SourceError(msg) from error
+    numbered = rows_of(path)
+    header = [name.strip() for name in next(numbered, (1, []))[1]]
+    for name in (parameters.time_column, *parameters.columns):
+        if name not in header:
+            missing = f"no column '{name}'"
+            has = f'{missing}: it has {", ".join(header):.200}'
+            text.refuse((path, 1, 1), has, missing)
     time_index = header.index(parameters.time_column)
-    rows = [row for row in rows if len(row) > time_index and row[time_index].strip()]
-    if not rows:
+    found = [
+        (line, row) for line, row in numbered if len(row) > time_index and row[time_index].strip()
+    ]
+    if not found:
         msg = f'{path} has no row with a time: give at least one'
         raise SourceError(msg)
-    times = np.array([parse_time(row[time_index], f'{path}') for row in rows])
+    times = np.array([_time(row, time_index, path, line) for line, row in found])
+    rows = [row for _, row in found]
     columns, unreadable = {}, 0
     for name in set(parameters.columns):
         index = header.index(name)
@@ -178,6 +181,39 @@ def _read_columns(
         unreadable += sum(number is None for number in numbers)
         columns[name] = np.array([nan if n is None else n for n in numbers], dtype=float)
     return times, columns, f'{unreadable} cells of {path} are no numbers' if unreadable else ''
+
+
+def rows_of(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number of the line, counted from 1, and the cells of each row that has any.
+
+    Raises:
+        SourceError: It cannot be read, or is no CSV.
+
+    """
+    try:
+        content = text.read(path, 'the probe file', LARGEST)
+    except ConfigurationError as error:
+        refusal = SourceError(str(error))
+        refusal.unquoted, refusal.file = error.unquoted, error.file
+        raise refusal from error
+    reader = csv.reader(content.split('\n'))
+    try:
+        for row in reader:
+            if row:
+                yield reader.line_num, row
+    except csv.Error as error:
+        reason = f'no CSV: {error}'
+        text.refuse((path, reader.line_num, 1), reason, reason, SourceError)
+
+
+def _time(row: list[str], index: int, path: Path, line: int) -> float:
+    column = sum(len(cell) + 1 for cell in row[:index]) + 1
+    try:
+        return parse_time(row[index])
+    except SourceError as error:
+        reason = 'no time: give ISO 8601 such as 2013-06-10T00:00:00Z'
+        cell = str(error).partition(': ')[2]
+        text.refuse((path, line, column), cell, reason, SourceError)
 
 
 def _number(cell: str) -> float | None:
@@ -192,22 +228,26 @@ def _number(cell: str) -> float | None:
     return number if abs(number) < inf else None
 
 
-def parse_time(text: str, place: str = 'start') -> float:
+def parse_time(words: str, place: str = 'start') -> float:
     """Return an ISO 8601 time, or a number of seconds, in seconds since 1970.
 
     Raises:
         SourceError: It is neither.
 
     """
-    text = text.strip()
+    word = words.strip()
     try:
-        if text.replace('.', '', 1).isdigit():
-            return float(text)
-        moment = datetime.fromisoformat(text.replace('Z', '+00:00'))
-    except ValueError as error:
-        msg = f"{place}: '{text}' is no time: give ISO 8601 such as 2013-06-10T00:00:00Z"
+        if word.replace('.', '', 1).isdecimal():
+            time = float(word)
+        else:
+            moment = datetime.fromisoformat(word.replace('Z', '+00:00'))
+            time = moment.replace(tzinfo=moment.tzinfo or timezone.utc).timestamp()
+        if not EARLIEST <= time <= LATEST:
+            raise ValueError(time)  # noqa: TRY301 - as unusable as the rest
+    except (ValueError, OverflowError) as error:
+        msg = f"{place}: '{word:.80}' is no time: give ISO 8601 such as 2013-06-10T00:00:00Z"
         raise SourceError(msg) from error
-    return moment.replace(tzinfo=moment.tzinfo or timezone.utc).timestamp()
+    return time
 
 
 def iso(time: float) -> str:

@@ -1,0 +1,87 @@
+"""The text of a file: a regular one, of a bounded size, in UTF-8."""
+
+from __future__ import annotations
+
+import codecs
+import os
+import stat
+from typing import TYPE_CHECKING, NoReturn
+
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from agv_motion.errors import AgvMotionError
+
+LIMIT = 1 << 20
+"""[bytes] of a file that a person writes; no zone, route or sequence comes near it"""
+
+
+def read(path: Path, what: str = 'the file', limit: int = LIMIT) -> str:
+    """Return the text of a file, its lines ended by line feeds.
+
+    Args:
+        path: The file; a device or a pipe, which might never end, is refused.
+        what: It is, for the error: ``the route``.
+        limit: Size from which on it is refused [bytes].
+
+    Raises:
+        ConfigurationError: It cannot be read, is too large, or is no UTF-8.
+
+    """
+    try:
+        # without waiting for the other end of a pipe
+        with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), 'rb') as file:
+            regular = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+            data = file.read(limit + 1) if regular else b''
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path
+        msg = f"cannot read {what} '{path}': {error}"
+        raise ConfigurationError(msg) from error
+    if not regular:
+        msg = f"cannot read {what} '{path}': it is a device or a pipe; give a file"
+        raise ConfigurationError(msg)
+    if len(data) > limit:
+        msg = f"cannot read {what} '{path}': it is larger than {limit} bytes; is it the right file?"
+        raise ConfigurationError(msg)
+    return _decoded(path, data)
+
+
+def place(path: Path | str, line: int, column: int) -> str:
+    """Return file, line and column, counted from 1 as editors do."""
+    return f'{path}, line {line}, column {column}'
+
+
+def refuse(
+    where: tuple[Path | str, int, int],
+    reason: str,
+    unquoted: str,
+    kind: type[AgvMotionError] = ConfigurationError,
+) -> NoReturn:
+    """Raise what is wrong with a file.
+
+    Args:
+        where: File, line and column.
+        reason: May quote the file: for who can read it anyway.
+        unquoted: The same without a word of the file: for who asks over the network.
+        kind: Class of the error.
+
+    """
+    error = kind(f'{place(*where)}: {reason}')
+    error.unquoted, error.file = f'{place(*where)}: {unquoted}', str(where[0])
+    raise error
+
+
+def _decoded(path: Path, data: bytes) -> str:
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        reason = 'it is UTF-16: save it as UTF-8'
+        refuse((path, 1, 1), reason, reason)
+    data = data.removeprefix(codecs.BOM_UTF8)
+    try:
+        text = data.decode()
+    except UnicodeDecodeError as error:
+        lines = data[: error.start].split(b'\n')
+        where = path, len(lines), len(lines[-1].decode(errors='replace')) + 1
+        reason = 'no UTF-8: save the file as UTF-8'
+        refuse(where, f'byte 0x{data[error.start]:02x} is {reason}', reason)
+    return text.replace('\r\n', '\n').replace('\r', '\n')
