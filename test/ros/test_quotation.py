@@ -14,7 +14,7 @@ from agv_motion.ros.quotation import told
 
 def refused(path):
     with pytest.raises(ConfigurationError) as caught:
-        text.refuse((path, 1, 2), "'root:x:0' is no pair", 'no pair')
+        text.refuse((path, 1, 2), "'secret' is no pair", 'no pair')
     return caught.value
 
 
@@ -30,13 +30,13 @@ def test_a_file_is_quoted_only_to_who_named_it_at_the_start(tmp_path):
 
 def test_the_configuration_is_quoted_and_what_a_link_in_it_leads_to_is_not(tmp_path, monkeypatch):
     folder = config_folders()[-1]
-    assert 'root' in told(refused(folder / 'zone_indoor.yaml'), ())
-    assert 'root' not in told(refused(folder / '..' / 'README.md'), ())
+    assert 'secret' in told(refused(folder / 'zone_indoor.yaml'), ())
+    assert 'secret' not in told(refused(folder / '..' / 'README.md'), ())
     (tmp_path / 'config').mkdir()
-    (tmp_path / 'secret').touch()
-    (tmp_path / 'config' / 'link').symlink_to(tmp_path / 'secret')
+    (tmp_path / 'other').touch()
+    (tmp_path / 'config' / 'link').symlink_to(tmp_path / 'other')
     monkeypatch.setattr('agv_motion.ros.quotation.config_folders', lambda: [tmp_path / 'config'])
-    assert 'root' not in told(refused(tmp_path / 'config' / 'link'), ())
+    assert 'secret' not in told(refused(tmp_path / 'config' / 'link'), ())
 
 
 def test_other_errors_are_told_as_they_are():
