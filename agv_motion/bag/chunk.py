@@ -35,6 +35,10 @@ HEAD = np.dtype(
 """What stands before the data of a message."""
 
 
+INDEX_HEAD, INDEX_ENTRY = 6, 16
+"""[bytes] Channel and size before the entries of a message index, and each of them."""
+
+
 class Chunk(NamedTuple):
     """A chunk, or a stretch of messages outside chunks, which then is its own content."""
 
@@ -54,6 +58,19 @@ class Chunk(NamedTuple):
     """a stretch of messages outside chunks"""
     torn: bool = False
     """its end is missing"""
+    index_length: int = 0
+    """[bytes] of the message indexes that follow it, by the summary"""
+
+    @property
+    def indexed_messages(self) -> int:
+        """How many messages its indexes tell of, by their length in the summary."""
+        heads = len(self.indexes or ()) * (records.PREFIX.size + INDEX_HEAD)
+        return (self.index_length - heads) // INDEX_ENTRY if self.indexes else 0
+
+    @property
+    def unindexed(self) -> bool:
+        """Whether only a walk through its content tells what is in it."""
+        return self.indexes is None and not self.bare
 
 
 def content(

@@ -60,12 +60,17 @@ class McapFile:
         self._cache: OrderedDict[int, Buffer] = OrderedDict()
         self._cached = 0
         found, problems = None, []
+        told = None
         if not scan:
             try:
-                found = mcap_summary.read(self._data, path)
+                told = mcap_summary.read(self._data, path)
+                if told is not None and mcap_summary.complete(told):
+                    found = mcap_scan.between(self._data, path, told)
             except DamagedBagError as error:
                 problems.append(error)
-        self._summary = found or mcap_scan.scan(self._data, path)
+        if found is None:
+            found = mcap_scan.scan(self._data, path, told.statistics if told else None)
+        self._summary = found
         self.problems = [*problems, *self._summary.problems]
         """what is amiss in the file, though it can be read"""
         self.indexed = self._summary.indexed

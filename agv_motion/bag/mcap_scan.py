@@ -6,12 +6,22 @@ from typing import TYPE_CHECKING
 
 from agv_motion.bag import record_parsing as parsing
 from agv_motion.bag import records
-from agv_motion.bag.chunk import HEAD, Chunk, content
+from agv_motion.bag.chunk import (
+    HEAD,
+    INDEX_ENTRY,
+    INDEX_HEAD,
+    Chunk,
+    content,
+    heads,
+    message_offsets,
+)
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap_summary import Summary
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from agv_motion.bag.records import Statistics
 
 STRETCH = 1 << 22
 """[bytes] Messages outside chunks are taken together up to this size."""
@@ -19,39 +29,90 @@ _SHORTEST_MESSAGE = HEAD.itemsize - records.PREFIX.size
 _U16_SIZE = parsing.U16.size
 
 
-def scan(data: memoryview, path: Path) -> Summary:
-    """Return what the file holds up to its last whole record, and the chunk torn after it."""
+def scan(data: memoryview, path: Path, told: Statistics | None = None) -> Summary:
+    """Return what the file holds up to its last whole record, and the chunk torn after it.
+
+    Args:
+        data: The whole file.
+        path: The file, for errors.
+        told: Statistics of the file, where it has some; if they tell another number of messages
+            than is found, no message index is believed, and that is a problem.
+
+    """
     walk = _Walk(data, path)
     walk.through()
+    if told is not None and told.messages != walk.messages:
+        walk = _Walk(data, path, believe=False)
+        walk.through()
+        finding = f'statistics of {told.messages} messages, where {walk.messages} are found'
+        walk.problems.append(DamagedBagError(path, 0, finding, 'those that are found are read'))
     return Summary(walk.schemas, walk.channels, walk.chunks, None, walk.problems, indexed=False)
+
+
+def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
+    """Return a summary with the messages outside chunks, which no index tells of.
+
+    Args:
+        data: The whole file.
+        path: The file, for errors.
+        summary: What the summary at the end of the file says.
+
+    Returns:
+        None where its statistics tell another number of messages than lies in the file, or where
+        there is something else between the chunks than whole records.
+
+    """
+    walk = _Walk(data, path)
+    walk.schemas.update(summary.schemas)
+    walk.channels.update(summary.channels)
+    position = len(records.MAGIC)
+    for chunk in summary.chunks:
+        if not walk.stretch(position, chunk.offset):
+            return None
+        walk.chunks.append(chunk)
+        walk.messages += chunk.indexed_messages
+        position = chunk.offset + chunk.length + chunk.index_length
+    statistics = summary.statistics
+    whole = walk.stretch(position, len(data)) and not walk.problems
+    if not whole or statistics is None or statistics.messages != walk.messages:
+        return None
+    return Summary(walk.schemas, walk.channels, walk.chunks, statistics)
 
 
 class _Walk:
     """A walk through the data section."""
 
-    def __init__(self, data: memoryview, path: Path) -> None:
-        self._data, self._path = data, path
+    def __init__(self, data: memoryview, path: Path, *, believe: bool = True) -> None:
+        self._data, self._path, self._believe = data, path, believe
         self.schemas: dict[int, records.Schema] = {}
         self.channels: dict[int, records.Channel] = {}
         self.chunks: list[Chunk] = []
         self.problems: list[DamagedBagError] = []
+        self.messages = 0
 
     def through(self) -> None:
         """Walk from the first record to the end of the data, or to where the file is torn."""
-        position = len(records.MAGIC)
-        whole = False
-        for opcode, at, end in parsing.walk(self._data, position, len(self._data)):
-            whole = opcode == records.DATA_END
+        end, whole = self._walk(len(records.MAGIC), len(self._data))
+        if not whole:
+            self._torn(end)
+        self._learn()
+
+    def stretch(self, position: int, end: int) -> bool:
+        """Walk from one byte to another; return whether whole records fill that, or data ends."""
+        stopped, whole = self._walk(position, end)
+        return whole or stopped == end
+
+    def _walk(self, position: int, end: int) -> tuple[int, bool]:
+        """Return where the walk ended, and whether at the end of the data."""
+        for opcode, at, after in parsing.walk(self._data, position, end):
+            position = after
             try:
-                self._record(opcode, at, end)
+                self._record(opcode, at, after)
             except DamagedBagError as error:
                 self.problems.append(error)
-            position = end
-            if whole:
-                break
-        if not whole:
-            self._torn(position)
-        self._learn()
+            if opcode == records.DATA_END:
+                return position, True
+        return position, False
 
     def _record(self, opcode: int, at: int, end: int) -> None:
         if opcode == records.SCHEMA:
@@ -64,9 +125,7 @@ class _Walk:
             self._chunk(at, end)
         elif opcode == records.MESSAGE_INDEX and self.chunks and end - at >= _U16_SIZE:
             (channel_id,) = parsing.U16.unpack_from(self._data, at)
-            chunk = self.chunks[-1]
-            indexes = {**(chunk.indexes or {}), channel_id: at - records.PREFIX.size}
-            self.chunks[-1] = chunk._replace(indexes=indexes)
+            self._index(channel_id, at - records.PREFIX.size, end - at)
         elif opcode == records.MESSAGE and end - at >= _SHORTEST_MESSAGE:
             self._message(at - records.PREFIX.size, end)
 
@@ -75,9 +134,17 @@ class _Walk:
         offset = at - records.PREFIX.size
         self.chunks.append(Chunk(offset, end - offset, head.start, head.end, head.size, None))
 
+    def _index(self, channel_id: int, at: int, length: int) -> None:
+        """Note the index of a channel in the last chunk; one without messages says nothing."""
+        chunk, entries = self.chunks[-1], (length - INDEX_HEAD) // INDEX_ENTRY
+        if self._believe and not chunk.bare and entries > 0:
+            self.chunks[-1] = chunk._replace(indexes={**(chunk.indexes or {}), channel_id: at})
+            self.messages += entries
+
     def _message(self, offset: int, end: int) -> None:
         """Add a message outside chunks to the stretch before it, or begin another stretch."""
         stamp = records.MESSAGE_HEAD.unpack_from(self._data, offset)[4]
+        self.messages += 1
         last = self.chunks[-1] if self.chunks else None
         if last and last.bare and last.offset + last.length == offset and last.length < STRETCH:
             start, latest = min(last.start, stamp), max(last.end, stamp)
@@ -104,19 +171,34 @@ class _Walk:
         self.chunks.append(Chunk(position, rest, head.start, head.end, head.size, None, torn=True))
 
     def _learn(self) -> None:
-        """Look for channels where writers put them: into chunks, before their first message."""
+        """Look into chunks of which something is not known: a channel, a schema, what they hold."""
         for number, chunk in enumerate(self.chunks):
-            if chunk.indexes and all(channel in self.channels for channel in chunk.indexes):
-                continue
-            if chunk.bare:
+            if chunk.bare or (chunk.indexes and all(map(self._described, chunk.indexes))):
                 continue
             try:
                 inside = content(self._data, chunk, self._path, validate=False)
                 self._inside(inside, chunk)
             except DamagedBagError as error:
                 self.problems.append(error)
-            if any(channel not in self.channels for channel in chunk.indexes or ()):
-                self.chunks[number] = chunk._replace(indexes=None)
+                continue
+            if chunk.indexes is None or not all(map(self._described, chunk.indexes)):
+                self.chunks[number] = self._counted(chunk, inside)
+
+    def _described(self, channel_id: int) -> bool:
+        channel = self.channels.get(channel_id)
+        return channel is not None and (channel.schema_id == 0 or channel.schema_id in self.schemas)
+
+    def _counted(self, chunk: Chunk, inside: parsing.Buffer) -> Chunk:
+        """Return a chunk that is to be read without its index, with the times of its messages."""
+        try:
+            stamps = heads(inside, message_offsets(inside))['stamp']
+        except ValueError:
+            return chunk._replace(indexes=None)
+        if chunk.indexes is None:
+            self.messages += len(stamps)
+        if not len(stamps):
+            return chunk._replace(indexes={})
+        return chunk._replace(indexes=None, start=int(stamps.min()), end=int(stamps.max()))
 
     def _inside(self, inside: parsing.Buffer, chunk: Chunk) -> None:
         for opcode, at, end in parsing.walk(inside, 0, len(inside)):

@@ -34,7 +34,7 @@ class Summary(NamedTuple):
 
 
 def read(data: memoryview, path: Path) -> Summary | None:
-    """Return the summary; None where the file has none that tells of every message.
+    """Return the summary; None where the file has none.
 
     Raises:
         DamagedBagError: There is one, but it cannot be true.
@@ -53,8 +53,7 @@ def read(data: memoryview, path: Path) -> Summary | None:
         raise DamagedBagError(path, foot, finding)
     if crc and crc32(data[start : len(data) - len(records.MAGIC) - 4]) != crc:
         raise DamagedBagError(path, start, 'a summary that does not match its CRC')
-    summary = _records(data, path, start, foot)
-    return summary if _complete(summary) else None
+    return _records(data, path, start, foot)
 
 
 def _records(data: memoryview, path: Path, start: int, foot: int) -> Summary:
@@ -91,16 +90,22 @@ def _chunk(index: records.ChunkIndex, data: memoryview, path: Path, at: int) -> 
     opcode, length = records.PREFIX.unpack_from(data, index.offset)
     if (opcode, length) != (records.CHUNK, index.length - records.PREFIX.size):
         raise DamagedBagError(path, index.offset, f'no chunk of {index.length} bytes')
-    offsets = index.index_offsets or None
+    size = index.uncompressed_size
+    offsets = index.index_offsets or (None if size else {})
     times = index.start_time, index.end_time
-    return Chunk(index.offset, index.length, *times, index.uncompressed_size, offsets)
+    where = index.offset, index.length
+    return Chunk(*where, *times, size, offsets, index_length=index.index_length)
 
 
-def _complete(summary: Summary) -> bool:
-    """Return whether the summary tells of every chunk, and there is nothing outside chunks."""
-    statistics = summary.statistics
+def complete(summary: Summary) -> bool:
+    """Return whether the summary describes every chunk and all that is in them."""
+    statistics, channels = summary.statistics, summary.channels
     if statistics is None or statistics.chunks != len(summary.chunks):
         return False
-    if statistics.messages and not summary.chunks:
-        return False
-    return all(number in summary.channels for c in summary.chunks for number in c.indexes or ())
+    named = {number for chunk in summary.chunks for number in chunk.indexes or ()}
+    return (
+        not any(chunk.unindexed for chunk in summary.chunks)
+        and named <= channels.keys()
+        and set(statistics.channel_messages) <= channels.keys()
+        and all(c.schema_id in summary.schemas or not c.schema_id for c in channels.values())
+    )

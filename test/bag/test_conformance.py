@@ -1,0 +1,83 @@
+"""The conformance suite of the MCAP project, where it lies beside the repository: all is valid."""
+
+from __future__ import annotations
+
+import json
+import os
+import tarfile
+from pathlib import Path
+
+import pytest
+
+from agv_motion.bag.reader import BagReader
+
+SUITE = 'mcap_conformance.tar.gz'
+
+
+def _archive():
+    root = Path(__file__).resolve().parents[2]
+    folders = [os.environ.get('AGV_MOTION_DATA'), root.parent / 'shared' / 'data']
+    return next((Path(f) / SUITE for f in folders if f and (Path(f) / SUITE).exists()), None)
+
+
+@pytest.fixture(scope='module')
+def suite(tmp_path_factory):
+    """Return the files of the suite, each with the JSON beside it."""
+    archive = _archive()
+    if archive is None:
+        pytest.skip(f'{SUITE} is not here: set AGV_MOTION_DATA to its folder')
+    folder = tmp_path_factory.mktemp('suite')
+    with tarfile.open(archive) as packed:
+        packed.extractall(folder, filter='data')
+    files = sorted(folder.rglob('*.mcap'))
+    assert len(files) == 416
+    return files
+
+
+def _records(file, kind):
+    told = json.loads(file.with_suffix('.json').read_text(encoding='utf-8'))
+    return [dict(r['fields']) for r in told['records'] if r['type'] == kind]
+
+
+def _expected(file):
+    """Return what the JSON beside a file says: messages in the order of log time."""
+    channels = {c['id']: c for c in _records(file, 'Channel')}
+    schemas = {s['id']: s for s in _records(file, 'Schema')}
+    messages = []
+    for message in _records(file, 'Message'):
+        channel = channels[message['channel_id']]
+        schema = schemas.get(channel['schema_id'], {'name': '', 'encoding': '', 'data': []})
+        messages.append(
+            (
+                *(int(message[key]) for key in ('log_time', 'publish_time', 'sequence')),
+                bytes(int(byte) for byte in message['data']),
+                *(channel[key] for key in ('topic', 'message_encoding')),
+                *(schema[key] for key in ('name', 'encoding')),
+                bytes(int(byte) for byte in schema['data']).decode(),
+            )
+        )
+    return sorted(messages, key=lambda message: message[0])
+
+
+def test_every_file_is_read_as_the_suite_says(suite):
+    wrong = {}
+    for file in suite:
+        expected = _expected(file)
+        with BagReader(file) as bag:
+            found = [
+                (
+                    *(m.stamp, m.publish, m.sequence, m.data),
+                    *(m.connection.topic, m.connection.encoding),
+                    *(m.connection.type, m.connection.definition_encoding),
+                    m.connection.definition,
+                )
+                for m in bag.messages()
+            ]
+            count = bag.message_count
+            span = (bag.start, bag.end) if expected else (0, 0)
+            problems = bag.problems
+        times = [message[0] for message in expected] or [0]
+        sound = found == expected and count == len(expected) and not problems
+        if not sound or span != (times[0], times[-1]):
+            wrong[file.stem] = (len(found), count, len(expected), span, problems)
+    assert not wrong
