@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from math import degrees, pi
+from math import degrees, pi, tau
 from typing import TYPE_CHECKING
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.steering import SteeringPlanner
 from agv_motion.kinematics.steering_state import SteeringState
 from agv_motion.kinematics.turret_motion import alignment
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 LOST_TURRET = 0.35
 """[rad] At rest, a turret so far from its command was turned by hand or did not follow: the
 planner goes on from where it is."""
+
+MOST_TURNS = 10.0
+"""[turns] beyond its limit that a turret can be: it is unwound from there. More is no angle of a
+turret, and nobody knows how far its cables are turned."""
 
 QUARTER = pi / 2.0
 """[rad] A turret turned further from straight, either way, can be unwound by half turns."""
@@ -43,6 +47,8 @@ class SteeringDrive:
         """what is commanded; None while nothing is known of the turrets, nor wanted of them"""
         self.measured: list[float] | None = None
         """(n,) angles as they are [rad]; None where nobody tells"""
+        self.unbelievable = ''
+        """why the angles told last cannot be; empty if they can"""
         self.unwinding = False
         self._turrets, self._period, self._unwind_after = len(turrets), period, unwind_after
         self._wanted = REST
@@ -50,17 +56,44 @@ class SteeringDrive:
         self._planned_at: float | None = None
 
     def see(self, angles: list[float]) -> None:
-        """Take up the angles as they are, (n,) [rad], finite."""
+        """Take up the angles as they are, (n,) [rad], finite.
+
+        Raises:
+            SignalError: One is no angle of a turret; until better ones come, a platform of which
+                nothing else is known stands.
+
+        """
+        most = (self.planner.limits.turn_limit + MOST_TURNS) * tau
+        furthest = max(angles, key=abs)
+        if not abs(furthest) <= most:
+            self.unbelievable = (
+                f'turret {angles.index(furthest)} stands at {furthest:.6g} rad, beyond {most:.4g} '
+                'rad, which no cable allows: look at the encoder and its zero'
+            )
+            raise SignalError(self.unbelievable)
+        self.unbelievable = ''
         if self.measured is None:
             self.plan = SteeringState(angles)
         self.measured = angles
+
+    def overturned(self) -> str:
+        """Return which turret stands beyond its turn limit, in words; empty if none does."""
+        most = self.planner.limits.turn_limit * tau
+        angles = self.plan.angles if self.plan is not None else []
+        furthest = max(angles, key=abs, default=0.0)
+        if abs(furthest) <= most:
+            return ''
+        return (
+            f'turret {angles.index(furthest)} stands at {furthest:.4g} rad, beyond its turn_limit '
+            f'of {most:.4g} rad: it turns back before the platform rolls'
+        )
 
     def want(self, twist: Twist) -> None:
         """Aim at ``twist`` from now on; turrets that nobody tells of are taken for straight."""
         self._wanted = twist
         if any(twist):
             self.unwinding = False
-            if self.plan is None:
+            if self.plan is None and not self.unbelievable:
                 self.plan = SteeringState(self.measured or [0.0] * self._turrets)
 
     def stop(self) -> None:

@@ -125,7 +125,7 @@ def choose_goals(
     """Return for each turret the angle to turn to, and -1 where its wheel shall roll backwards.
 
     Of all angles within the turn limit along the same line, the nearest; one that keeps the wheel
-    rolling forwards is preferred up to the reversal angle.
+    rolling forwards is preferred up to the reversal angle. A turret beyond its limit comes back.
 
     Args:
         state: Where the turrets stand.
@@ -135,11 +135,12 @@ def choose_goals(
     """
     most, goals, signs = limits.turn_limit * tau, [], []
     for angle, bearing, sign in zip(state.angles, bearings, state.signs, strict=True):
+        near = min(max(angle, -most), most)
         if bearing is None:
-            goals.append(min(max(angle, -most), most))
+            goals.append(near)
             signs.append(sign)
             continue
-        forwards = angle + wrap(bearing - angle)
+        forwards = near + wrap(bearing - near)
         _, _, goal, sign_there = min(
             (s < 0.0 or turn > limits.reversal_angle, turn, goal, s)
             for s, first in ((1.0, forwards), (-1.0, forwards + pi))

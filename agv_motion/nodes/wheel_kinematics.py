@@ -107,15 +107,21 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         if self._driving.plan is not None:
             turns = max(self._driving.plan.angles, key=abs) / (2.0 * pi)
             values['furthest turn of a turret'] = f'{turns:.2f}'
-        if self._stopped_by:
-            return Diagnosis(ERROR, f'stopped: {self._stopped_by}', values)
-        if self._blind:
-            return Diagnosis(ERROR, 'stopped: turrets/state is lost', values)
+        if error := self._why_stopped():
+            return Diagnosis(ERROR, error, values)
+        if warning := self._driving.overturned():
+            return Diagnosis(WARN, warning, values)
         if silence is not Silence.FRESH:
             return Diagnosis(WARN, f'cmd_vel is {silence.value}', values)
         if self._residual > self.parameters.residual_warning:
             return Diagnosis(WARN, 'the turrets pull against each other', values)
         return Diagnosis(OK, 'driving', values)
+
+    def _why_stopped(self) -> str:
+        """Return why the wheels are held; empty if they are not."""
+        if self._stopped_by:
+            return f'stopped: {self._stopped_by}'
+        return 'stopped: turrets/state is lost' if self._blind else self._driving.unbelievable
 
     def _on_stamped_twist(self, message: TwistStamped) -> None:
         self._drive(twist_of(message.twist))
@@ -239,8 +245,11 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._odometry.publish(odometry)
 
     def _note_angles(self, angles: list[float]) -> None:
-        self._state_watch.feed()
+        first = self._driving.measured is None
         self._driving.see(angles)
+        self._state_watch.feed()
+        if first and self._driving.overturned():
+            self.get_logger().warning(self._driving.overturned())
 
     def _judge_residual(self, residual: float) -> None:
         """Stop when the turrets fight too hard."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from math import cos, pi
+from contextlib import suppress
+from math import cos, isfinite, pi, tau
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering_drive import LOST_TURRET, SteeringDrive
+from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
+from agv_motion.kinematics.steering_drive import LOST_TURRET, MOST_TURNS, SteeringDrive
 from agv_motion.kinematics.steering_limits import SteeringLimits
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import REST, Twist
@@ -119,3 +122,94 @@ def test_a_stop_holds_the_angles_and_the_next_start_takes_them_as_they_are():
     one.see([0.3, 0.3])
     one.start_anew()
     assert one.plan.angles == pytest.approx([0.3, 0.3])
+
+
+MOST = LIMITS.turn_limit * tau
+
+
+@pytest.mark.parametrize('angle', [24.0, -24.0, 11.0, 12.7, MOST + 0.001, 70.0])
+@pytest.mark.parametrize('twist', [AHEAD, Twist(0.0, 0.2, 0.3), Twist(0.0, 0.0, -0.4)])
+def test_a_turret_beyond_its_limit_turns_back_before_the_platform_rolls(angle, twist):
+    one, now, before = drive(), 0.0, abs(angle)
+    one.see([angle, 0.3])
+    assert f'turret 0 stands at {angle:.4g} rad, beyond its turn_limit of 9.425' in one.overturned()
+    one.want(twist)
+    while one.overturned():
+        now = steps(one, 1, now)
+        assert one.plan.speeds == [0.0, 0.0]
+        assert abs(one.plan.angles[0]) <= before + 1e-12
+        before = abs(one.plan.angles[0])
+        assert now < 60.0
+    now = steps(one, 100, now)
+    assert one.plan.twist(PAIR) == pytest.approx(twist, abs=1e-6)
+    assert max(map(abs, one.plan.angles)) <= MOST + 1e-9
+
+
+def test_at_rest_it_is_unwound_all_the_way():
+    one, now = drive(unwind_after=1.0), 0.0
+    one.see([-24.0, 0.0])
+    now = steps(one, 400, now)
+    assert max(map(abs, one.plan.angles)) <= pi / 2 + 1e-9
+    assert not one.overturned()
+
+
+@pytest.mark.parametrize('angle', [1e9, -1e17, 1.7e308, MOST + MOST_TURNS * tau + 0.1])
+def test_an_angle_that_no_cable_allows_is_refused_and_the_platform_stands(angle):
+    one = drive()
+    with pytest.raises(SignalError, match=r'turret 1 stands at .* look at the encoder'):
+        one.see([0.0, angle])
+    one.want(AHEAD)
+    assert one.plan is None
+    assert not one.step(0.1, 0.05)
+    one.see([0.1, -0.1])
+    one.want(AHEAD)
+    steps(one, 60, 0.1)
+    assert one.plan.twist(PAIR) == pytest.approx(AHEAD, abs=1e-6)
+
+
+@given(st.floats())
+def test_an_unbelievable_angle_on_the_way_changes_nothing(angle):
+    one = drive()
+    one.see([0.0, 0.0])
+    one.want(AHEAD)
+    now = steps(one, 10)
+    plan, measured = list(one.plan.angles), one.measured
+    try:
+        one.see([0.0, angle])
+    except SignalError:
+        assert one.measured is measured
+    assert one.plan.angles == plan
+    assert 0.0 <= one.share() <= 1.0
+    steps(one, 5, now)
+    assert all(map(isfinite, one.plan.speeds))
+
+
+ANGLES = st.one_of(st.floats(-12.0, 12.0), st.floats(-100.0, 100.0), st.floats())
+TWISTS = st.builds(Twist, *[st.one_of(st.just(0.0), st.floats(-1.0, 1.0))] * 3)
+EVENTS = st.lists(
+    st.one_of(
+        st.tuples(st.just('see'), st.lists(ANGLES, min_size=2, max_size=2)),
+        st.tuples(st.just('want'), TWISTS),
+        st.tuples(st.sampled_from(['unwind', 'start_anew', 'stop']), st.none()),
+    ),
+    max_size=12,
+)
+
+
+@settings(max_examples=300)
+@given(EVENTS)
+def test_whatever_the_turrets_tell_the_wheels_keep_their_limits(events):
+    one, now = drive(unwind_after=0.5), 0.0
+    for what, value in events:
+        with suppress(AgvMotionError):
+            getattr(one, what)(*(() if value is None else (value,)))
+        before = list(one.plan.speeds) if one.plan else [0.0, 0.0]
+        for _ in range(8):
+            now += 0.1
+            if not one.step(now, 0.05):
+                continue
+            assert all(map(isfinite, (*one.plan.angles, *one.plan.speeds, one.share())))
+            for speed, last in zip(one.plan.speeds, before, strict=True):
+                assert abs(speed) <= LIMITS.max_wheel_speed + 1e-9
+                assert abs(abs(speed) - abs(last)) <= LIMITS.wheel_acceleration * 0.1 + 1e-9
+            before = list(one.plan.speeds)

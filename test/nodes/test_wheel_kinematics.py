@@ -386,3 +386,48 @@ def test_before_anything_is_known_the_turrets_are_left_alone(tester, drive):
     assert list(stop.name) == ['turret_0_wheel', 'turret_1_wheel']
     assert list(stop.velocity) == [0.0, 0.0]
     assert not stop.position
+
+
+def turrets_at(*told):
+    """Return a message of turrets that stand at these angles [rad]."""
+    joints = TurretJoints(len(told))
+    message = joints.message()
+    joints.fill(message, told, [0.0] * len(told))
+    return message
+
+
+def test_a_turret_found_beyond_its_limit_turns_back_and_the_node_says_so(drive, tester):
+    node, commands, cmd_vel = drive(**FAST)
+    state = tester.publisher(JointState, 'turrets/state', SENSOR)
+    state.publish(turrets_at(24.0, 0.0))
+    tester.graph.spin_until(lambda: 'beyond its turn_limit' in node.diagnose().message)
+    for _ in range(300):
+        cmd_vel.publish(twist(vx=1.0))
+        tester.graph.spin_for(0.02)
+        if commands and any(rates(commands[-1])):
+            break
+        state.publish(turrets_at(*(angles(commands[-1]) if commands else (24.0, 0.0))))
+    assert any(rates(commands[-1]))
+    assert max(map(abs, angles(commands[-1]))) <= 1.5 * 2 * pi
+    assert 'beyond' not in node.diagnose().message
+
+
+@pytest.mark.parametrize('bad', [1e9, 1.7e308, nan])
+def test_an_angle_that_cannot_be_leaves_the_platform_standing(drive, tester, bad):
+    node, commands, cmd_vel = drive(**FAST)
+    state = tester.publisher(JointState, 'turrets/state', SENSOR)
+    state.publish(turrets_at(0.0, bad))
+    tester.graph.spin_until(lambda: node.complaint)
+    assert 'turret 1 stands at' in node.complaint or 'finite' in node.complaint
+    if bad == bad:  # noqa: PLR0124 - not NaN
+        cmd_vel.publish(twist(vx=1.0))
+        assert not any(rates(tester.wait(commands)))
+        assert 'look at the encoder' in node.diagnose().message
+    state.publish(turrets_at(0.0, 0.0))
+    commands.clear()
+    for _ in range(300):
+        cmd_vel.publish(twist(vx=1.0))
+        tester.graph.spin_for(0.02)
+        if commands and any(rates(commands[-1])):
+            break
+    assert any(rates(commands[-1]))
