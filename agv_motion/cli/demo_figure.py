@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.cli.figure import figure
+from agv_motion.motion.polar import PLATFORM_RADIUS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -14,12 +15,24 @@ if TYPE_CHECKING:
     from agv_motion.cli.demo_report import Run
     from agv_motion.motion.zone import Zone
 
+PLATFORMS = 5
+"""Times at which the platform is drawn."""
+
 GOALS_LISTED = 12
 """Goals that the figure has room for."""
 
 
-def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
+def draw(
+    run: Run, zone: Zone, max_wheel_speed: float, path: Path, rim: float = PLATFORM_RADIUS
+) -> None:
     """Draw zone and trail, probes, wheel speeds and residual into one picture.
+
+    Args:
+        run: What was recorded.
+        zone: Where the tree walked.
+        max_wheel_speed: Limit of the wheels [m/s].
+        path: Of the picture.
+        rim: How far the platform reaches from its centre [m]; it is drawn at its true size.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -28,7 +41,7 @@ def draw(run: Run, zone: Zone, max_wheel_speed: float, path: Path) -> None:
     """
     mosaic = [['map', 'flow'], ['map', 'speed'], ['goals', 'residual']]
     with figure(path, mosaic, figsize=(13, 7), width_ratios=[1.25, 1]) as axes:
-        _draw_map(axes['map'], run, zone)
+        _draw_map(axes['map'], run, zone, rim)
         _list_goals(axes['goals'], run)
         _draw_signals(axes, run, max_wheel_speed)
 
@@ -52,7 +65,7 @@ def _draw_signals(axes: dict[str, Any], run: Run, max_wheel_speed: float) -> Non
     axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
 
 
-def _draw_map(axes: Any, run: Run, zone: Zone) -> None:
+def _draw_map(axes: Any, run: Run, zone: Zone, rim: float) -> None:
     """Draw the floor, its margin, and the memory, the trail and the goals."""
     import shapely
 
@@ -69,9 +82,10 @@ def _draw_map(axes: Any, run: Run, zone: Zone) -> None:
                                vmin=0.0, vmax=1.0)  # fmt: skip
         axes.figure.colorbar(felt, ax=axes, label='s3 remembered (grey: visited)', shrink=0.7)
     if len(run.path):
-        axes.plot(*run.path[:, 1:].T, lw=0.8, color='white')
-        axes.plot(*run.path[0, 1:], 'o', color='tab:green', label='start')
-        axes.plot(*run.path[-1, 1:], '^', color='tab:green', label='end')
+        axes.plot(*run.path[:, 1:3].T, lw=0.8, color='white')
+        axes.plot(*run.path[0, 1:3], 'o', color='tab:green', label='start')
+        axes.plot(*run.path[-1, 1:3], '^', color='tab:green', label='end')
+        _draw_platforms(axes, run, rim)
     for i, (_, x, y) in enumerate(run.goals):
         axes.annotate(
             f'{i + 1}', (x, y), color='white', fontsize='small', ha='center', va='center',
@@ -84,6 +98,19 @@ def _draw_map(axes: Any, run: Run, zone: Zone) -> None:
     )  # fmt: skip
     if len(run.path):
         axes.legend(loc='upper left', fontsize='small')
+
+
+def _draw_platforms(axes: Any, run: Run, rim: float) -> None:
+    """Draw the platform at its true size with its heading: at the start, between, at the end."""
+    from matplotlib.patches import Circle
+
+    for row in np.linspace(0, len(run.path) - 1, PLATFORMS).astype(int):
+        _, x, y, heading = run.path[row]
+        last = row == len(run.path) - 1
+        style = {'ec': 'tab:green' if row == 0 or last else '0.4', 'lw': 1.4 if last else 0.8}
+        axes.add_patch(Circle((x, y), rim, fill=False, **style))
+        ahead = x + rim * np.cos(heading), y + rim * np.sin(heading)
+        axes.plot(*zip((x, y), ahead, strict=True), color=style['ec'], lw=style['lw'])
 
 
 def _list_goals(axes: Any, run: Run) -> None:

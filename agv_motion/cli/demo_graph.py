@@ -84,11 +84,11 @@ class DemoGraph:
         self._bag = bag
         common: dict[str, Any] = {'use_sim_time': True}
         place: dict[str, Any] = {'zone_file': zone} if zone else {}
-        self._zone = load_zone(find_config(zone or 'zone_outdoor.yaml'))
         probe = GranierProbe(**configured('tree.yaml', 'granier_probe', common | probes))
         motion = MotionGenerator(
             **configured('tree.yaml', 'motion_generator', common | place | {'goals__seed': seed})
         )
+        self._zone = load_zone(find_config(motion.parameters.zone_file), motion.parameters.rim)
         wheels = WheelKinematics(**configured('tree.yaml', 'wheel_kinematics', common))
         localization = Localization(**configured('tree.yaml', 'localization', common))
         start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))
@@ -151,8 +151,8 @@ class DemoGraph:
         """Print the summary, and draw the figure beside the bag."""
         limit = self._wheels.max_wheel_speed
         run = read_run(self._bag, self._wheels.wheel_radius)
-        console.print(summary(run, self._outcome, self._zone, limit))
-        draw(run, self._zone, limit, output / 'walk.png')
+        console.print(summary(run, self._outcome, self._zone, limit, self._wheels.rim))
+        draw(run, self._zone, limit, output / 'walk.png', self._wheels.rim)
         console.print(f'\nBag: {self._bag}\nFigure: {output / "walk.png"}')
 
     def _factor(self) -> float:

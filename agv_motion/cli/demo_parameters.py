@@ -10,9 +10,16 @@ from agv_motion.ros.run import overrides
 
 
 def configured(file: str, node: str, changes: dict[str, Any]) -> dict[str, Any]:
-    """Return the arguments of a node: its values in ``file`` of config/, then ``changes``."""
+    """Return the arguments of a node: its values in ``file`` of config/, then ``changes``.
+
+    What stands under ``/**`` is for all nodes: first that, then what the node has of its own.
+    """
     content = yaml_text.load(find_config(file)).value
-    values = _flat(content[f'/**/{node}']['ros__parameters'])
+    sections = [content[name]['ros__parameters'] for name in ('/**', f'/**/{node}')
+                if name in content]  # fmt: skip
+    values: dict[str, Any] = {}
+    for section in sections:
+        values |= _flat(section)
     return {'parameter_overrides': overrides(**(values | changes))}
 
 

@@ -8,6 +8,9 @@ import numpy as np
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 
+from agv_motion.motion.polar import PLATFORM_RADIUS
+from agv_motion.ros.messages import pose_of
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -17,7 +20,7 @@ if TYPE_CHECKING:
 
 
 READ = {
-    'ground_truth': 3, 'granier/sap_flow': 4, 'turrets/command': 4, 'turrets/residual': 2,
+    'ground_truth': 4, 'granier/sap_flow': 4, 'turrets/command': 4, 'turrets/residual': 2,
     'goal': 3,
 }  # fmt: skip
 """Topics of the bag that the report needs, in the order of the fields of `Run`, and the columns
@@ -43,7 +46,7 @@ class Run(NamedTuple):
     """The bag of a demo as columns; times in seconds since its start."""
 
     path: NDArray[np.float64]
-    """(n, 3) time, x, y of the true pose"""
+    """(n, 4) time, x, y, heading of the true pose"""
     flow: NDArray[np.float64]
     """(m, 4) time, s1, s2, s3"""
     speeds: NDArray[np.float64]
@@ -61,13 +64,23 @@ class Run(NamedTuple):
 
     def distance(self) -> float:
         """Return the length of the way [m]."""
-        return float(np.hypot(*np.diff(self.path[:, 1:], axis=0).T).sum())
+        return float(np.hypot(*np.diff(self.path[:, 1:3], axis=0).T).sum())
 
     def share_inside(self, zone: Zone) -> float:
         """Return the share of the time in which the centre was inside the zone."""
         if not len(self.path):
             return 0.0
-        return float(np.mean([zone.contains(x, y) for _, x, y in self.path[::10]]))
+        return float(np.mean([zone.contains(x, y) for _, x, y, _ in self.path[::10]]))
+
+    def nearest_edge(self, zone: Zone, rim: float) -> float:
+        """Return how near the rim came to an edge [m]; negative: over it. NaN without a path."""
+        return min(
+            (
+                (1.0 if zone.contains(x, y) else -1.0) * zone.edge_distance(x, y) - rim
+                for _, x, y, _ in self.path
+            ),
+            default=float('nan'),
+        )
 
 
 def read_run(bag: Path, wheel_radius: float) -> Run:
@@ -125,7 +138,7 @@ def _remembered(message: Any) -> Remembered:
 
 def _numbers(name: str, message: Any, wheel_radius: float) -> tuple[float, ...]:
     if name == 'ground_truth':
-        return message.pose.pose.position.x, message.pose.pose.position.y
+        return pose_of(message.pose.pose)
     if name == 'granier/sap_flow':
         return message.vector.x, message.vector.y, message.vector.z
     if name == 'turrets/command':
@@ -148,8 +161,10 @@ class Outcome(NamedTuple):
     """messages by topic"""
 
 
-def summary(run: Run, outcome: Outcome, zone: Zone, max_wheel_speed: float) -> Table:
-    """Return the figures of a run as a table."""
+def summary(
+    run: Run, outcome: Outcome, zone: Zone, max_wheel_speed: float, rim: float = PLATFORM_RADIUS
+) -> Table:
+    """Return the figures of a run as a table; ``rim`` of the platform from its centre [m]."""
     table = Table(title='The walk', show_header=False, title_justify='left', box=None)
     top = float(np.abs(run.speeds[:, 1:]).max()) if len(run.speeds) else 0.0
     residual = run.residual[:, 1] if len(run.residual) else np.zeros(1)
@@ -157,6 +172,7 @@ def summary(run: Run, outcome: Outcome, zone: Zone, max_wheel_speed: float) -> T
     table.add_row('time factor achieved', f'{outcome.factor:.1f}')
     table.add_row('distance', f'{run.distance():.2f} m')
     table.add_row('time inside the zone', f'{100 * run.share_inside(zone):.1f} %')
+    table.add_row('rim to the nearest edge', f'{run.nearest_edge(zone, rim):.2f} m at least')
     table.add_row('top wheel speed', f'{60 * top:.3f} m/min (limit {60 * max_wheel_speed:.3f})')
     table.add_row(
         'residual of the turrets',

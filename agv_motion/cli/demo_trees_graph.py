@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 import time
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -22,7 +22,6 @@ from visualization_msgs.msg import MarkerArray
 from agv_motion.cli.demo_parameters import configured
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
 from agv_motion.cli.demo_trees_view import TreesView
-from agv_motion.motion.traffic.parameters import TrafficParameters
 from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.localization import Localization
@@ -36,6 +35,7 @@ from agv_motion.simulation.crowd import scattered
 
 if TYPE_CHECKING:
     import pathlib
+    from collections.abc import Sequence
 
     from rich.console import Console
 
@@ -85,16 +85,17 @@ class TreesGraph:
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         self._stop = Stop()
         self.names = NAMES[:count]
-        self.traffic = TrafficParameters()
         zone = zone or 'zone_outdoor.yaml'
-        self.zone = load_zone(find_config(zone))
+        minds = [_minds(name, self.names, zone, seed + i) for i, name in enumerate(self.names)]
+        given = minds[0].motion.parameters
+        self.traffic = given.sharing()
+        self.zone = load_zone(find_config(zone), given.rim)
         chance = random.Random(seed)  # noqa: S311 - a simulation, no secret
         starts = scattered(self.zone, count, self.traffic.clearance, chance)
         self._nodes: list[ManagedNode[Any]] = []
         self._simulators: list[Simulator] = []
         for i, (name, (x, y)) in enumerate(zip(self.names, starts, strict=True)):
-            others = [other for other in self.names if other != name]
-            self._nodes += _minds(name, others, zone, seed + i)
+            self._nodes += minds[i]
             start_at = {'start_x': x, 'start_y': y, 'start_heading': chance.uniform(-pi, pi)}
             clock = {'clock': 'follow' if i else 'lead', 'time_factor': time_factor}
             body = {'rate': RATE, 'seed': seed + i, **start_at, **clock}
@@ -128,18 +129,28 @@ class TreesGraph:
         rclpy.try_shutdown()
 
 
-def _minds(name: str, others: list[str], zone: str, seed: int) -> list[ManagedNode[Any]]:
-    """Return all nodes of one tree but its simulator."""
+class _Minds(NamedTuple):
+    """All nodes of one tree but its simulator."""
+
+    probe: GranierProbe
+    motion: MotionGenerator
+    wheels: WheelKinematics
+    localization: Localization
+
+
+def _minds(name: str, names: Sequence[str], zone: str, seed: int) -> _Minds:
+    """Return the nodes of the tree ``name``."""
+    others = [other for other in names if other != name]
     shared = {
         'rate': RATE, 'share_zone': True, 'traffic__expected': others, 'zone_file': zone,
         'goals__seed': seed,
     }  # fmt: skip
-    return [
+    return _Minds(
         GranierProbe(**_given('granier_probe', name, {'simulated__seed': seed})),
         MotionGenerator(**_given('motion_generator', name, shared)),
         WheelKinematics(**_given('wheel_kinematics', name, {'rate': RATE})),
         Localization(**_given('localization', name, {})),
-    ]
+    )
 
 
 def _given(node: str, name: str, changes: dict[str, Any]) -> dict[str, Any]:

@@ -21,6 +21,8 @@ T = TypeVar('T', bound='DataclassInstance')
 def load_parameters(path: Path, node: str, kind: type[T]) -> T:
     """Return the parameters that ``path`` gives to ``node``, defaults for the rest.
 
+    What stands under ``/**`` is for all nodes, each takes of it what it has.
+
     Args:
         path: A ROS parameter file.
         node: Its section may stand for any namespace: ``/**/node``, ``/oak/node``, ``node``.
@@ -33,14 +35,25 @@ def load_parameters(path: Path, node: str, kind: type[T]) -> T:
     """
     content = yaml_text.load(path, 'the parameters').value
     sections = content if isinstance(content, dict) else {}
-    for name, section in sections.items():
-        if str(name).split('/')[-1] in {node, '**'} and isinstance(section, dict):
-            values = section.get('ros__parameters')
-            if isinstance(values, dict):
-                return _build(kind, values, f'{path}: ', '')
+    own, shared = (_section(sections, name) for name in (node, '**'))
+    if own and shared:
+        known = {*(name for name, _, _ in rows(kind)), *dict(nested(kind))}
+        own = {name: value for name, value in shared.items() if name in known} | own
+    if own or shared:
+        return _build(kind, own or shared or {}, f'{path}: ', '')
     found = ', '.join(sections) or 'nothing'
     msg = f'{path}: no section /**/{node} with ros__parameters; there is {found:.200}'
     raise ConfigurationError(msg)
+
+
+def _section(sections: dict[Any, Any], node: str) -> dict[str, Any] | None:
+    """Return the parameters under a name that ends in ``node``, None where there are none."""
+    for name, section in sections.items():
+        if str(name).split('/')[-1] == node and isinstance(section, dict):
+            values = section.get('ros__parameters')
+            if isinstance(values, dict):
+                return values
+    return None
 
 
 def _build(kind: type[T], values: dict[str, Any], where: str, prefix: str) -> T:

@@ -43,8 +43,9 @@ class MemoryParameters:
 
     cell: Annotated[float, Spec('edge of a cell of the two maps', 'm', (0.05, 10.0))] = 0.25
     reach: Annotated[
-        float, Spec('cells so near to the trunk count as visited: the platform', 'm', (0.05, 100.0))
-    ] = PLATFORM_RADIUS
+        float,
+        Spec('cells so near to the trunk count as visited; 0: under the platform', 'm', (0, 100)),
+    ] = 0.0
     half_life: Annotated[
         float,
         Spec(
@@ -57,7 +58,7 @@ class MemoryParameters:
     def __post_init__(self) -> None:
         """Check every row, and that a visit reaches the cell it takes place in."""
         check(self)
-        if self.reach < self.cell:
+        if 0.0 < self.reach < self.cell:
             msg = (
                 f'memory.reach = {self.reach} m is less than memory.cell = {self.cell} m: '
                 'take smaller cells'
@@ -87,12 +88,18 @@ class Grid(NamedTuple):
 class Memory:
     """Two maps of one zone, and the time of what the first holds."""
 
-    def __init__(self, zone: Zone, parameters: MemoryParameters | None = None) -> None:
+    def __init__(
+        self,
+        zone: Zone,
+        parameters: MemoryParameters | None = None,
+        rim: float = PLATFORM_RADIUS,
+    ) -> None:
         """Remember nothing yet.
 
         Args:
             zone: Where the tree walks.
             parameters: Size of the cells and so on.
+            rim: How far the platform reaches from its centre [m].
 
         Raises:
             GeometryError: The cells are so small that there are too many, or so large that the
@@ -100,6 +107,8 @@ class Memory:
 
         """
         self.parameters = given = parameters or MemoryParameters()
+        self.reach = given.reach or max(rim, given.cell)
+        """Cells so near to the trunk are visited [m]."""
         self.west, self.south, east, north = zone.bounds
         columns = ceil((east - self.west) / given.cell - 1e-9)
         rows = ceil((north - self.south) / given.cell - 1e-9)
@@ -217,14 +226,14 @@ class Memory:
         """Return the cells that the platform visits at (x, y) [m], counted row by row."""
         rows, columns = self._near(y - self.south), self._near(x - self.west)
         away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
-        under = (away <= self.parameters.reach**2) & self.walkable[rows, columns]
+        under = (away <= self.reach**2) & self.walkable[rows, columns]
         row, column = np.nonzero(under)
         cells: NDArray[np.intp] = (row + rows.start) * len(self.x) + column + columns.start
         return cells
 
     def _near(self, distance: float) -> slice:
         """Return the rows (or columns) within reach of a distance from the edge of the first."""
-        cell, reach = self.parameters.cell, self.parameters.reach
+        cell, reach = self.parameters.cell, self.reach
         first = ceil((distance - reach) / cell - 0.5)
         return slice(max(first, 0), max(floor((distance + reach) / cell + 0.5), 0))
 

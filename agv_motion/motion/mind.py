@@ -45,7 +45,7 @@ class MindParameters:
     linear_speed: float = LINEAR_SPEED
     """[m/s] at v = 1"""
     platform_radius: float = PLATFORM_RADIUS
-    """[m] of what must not turn over delicate floor"""
+    """[m] how far the platform reaches: what must not turn over delicate floor"""
     corner_reach: float = 0.3
     """[m] a corner of the way counts as reached from here: twice the noise of a position fix"""
     corner_slack: float = 0.01
@@ -73,7 +73,7 @@ class Mind:
         if zone is None and not self._fixed:
             msg = f"strategy '{given.goals.strategy}' remembers places of a zone: give zone_file"
             raise ConfigurationError(msg)
-        self.memory = None if zone is None else Memory(zone, given.memory)
+        self.memory = None if zone is None else Memory(zone, given.memory, given.platform_radius)
         self._course = (
             None if zone is None else Course(zone, given.corner_reach, given.corner_slack)
         )
@@ -179,7 +179,7 @@ class Mind:
         """Ask the zone about a pose, once; poses come less often than thoughts."""
         self._seen = pose
         if self.zone is not None:
-            self._inside = self.zone.contains(pose.x, pose.y)
+            self._inside = self.zone.holds(pose.x, pose.y)
             radius = self.parameters.platform_radius
             self._place = Place(self.zone.may_turn(pose.x, pose.y, radius))
 
@@ -251,7 +251,9 @@ class Mind:
     def _arrival(self, wish: Wish | None) -> float:
         """Return the distance of arrival; what is to be visited must come under the platform."""
         arrival = self.rest.arrival
-        return min(arrival, 0.8 * self.parameters.memory.reach) if wish is Wish.UNKNOWN else arrival
+        if wish is Wish.UNKNOWN and self.memory is not None:
+            return min(arrival, 0.8 * self.memory.reach)
+        return arrival
 
     def _choose(self, time: float, pose: Pose, surroundings: Surroundings) -> None:
         """Take the next goal of the cycle; if none can be reached, try again later."""

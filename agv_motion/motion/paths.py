@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 from shapely import LineString, Polygon
-from shapely.geometry.polygon import orient
 
 from agv_motion.errors import GeometryError
+from agv_motion.motion.corners import reflex, rings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -96,7 +96,7 @@ class _VisibilityGraph:
     def __init__(self, part: Polygon) -> None:
         self._floor = part.buffer(TOLERANCE)
         shapely.prepare(self._floor)
-        self._corners = np.vstack([_reflex(ring) for ring in _rings(part)])
+        self._corners = np.vstack([reflex(ring) for ring in rings(part)])
         count = len(self._corners)
         self._step: Column = np.full((count, count), np.inf)
         for i in range(count):
@@ -143,21 +143,6 @@ class _VisibilityGraph:
         return distances
 
 
-def _rings(part: Polygon) -> list[shapely.LinearRing]:
-    """Return the edges of ``part`` with the floor on their left."""
-    oriented = orient(part)
-    return [oriented.exterior, *oriented.interiors]
-
-
-def _reflex(ring: shapely.LinearRing) -> Column:
-    """Return the (n, 2) corners of ``ring`` that point into the floor on its left."""
-    corners = np.array(ring.coords)[:-1]
-    before, after = corners - np.roll(corners, 1, 0), np.roll(corners, -1, 0) - corners
-    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    into: Column = corners[turn < 0.0]
-    return into
-
-
 class Waypoints:
     """Which corner of a way to head for."""
 
@@ -171,7 +156,7 @@ class Waypoints:
 
         """
         self._reach, self._slack = reach, slack
-        self._floor = zone.floor.buffer(-max(zone.margin - slack, 0.0))
+        self._floor = zone.floor.buffer(-max(zone.clearance - slack, 0.0))
         shapely.prepare(self._floor)
 
     def reached(self, place: Point, corners: Sequence[Point]) -> int:

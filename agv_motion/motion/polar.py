@@ -6,13 +6,14 @@ from math import atan2, cos, hypot, pi, sin
 from typing import NamedTuple
 
 from agv_motion.errors import SignalError
+from agv_motion.kinematics.platform import RADIUS
 from agv_motion.planar import Twist, require_finite, wrap
 
 LINEAR_SPEED = 1.0 / 60.0
 """[m/s] trunk speed at v = 1: one metre a minute."""
 
-PLATFORM_RADIUS = 1.18
-"""[m] from the centre to a turret; omega = 1 moves it at `LINEAR_SPEED`."""
+PLATFORM_RADIUS = RADIUS
+"""[m] from the centre to the rim; omega = 1 moves it at `LINEAR_SPEED`."""
 
 
 class PolarCommand(NamedTuple):

@@ -1,4 +1,9 @@
-"""Where the tree may go: a polygon with holes, a margin, and areas where it must not turn."""
+"""Where the tree may go: a polygon with holes, a margin, and areas where it must not turn.
+
+The platform turns as its sap flows, so its outline is the disc of its rim. The centre keeps the rim
+and the margin away from every edge; then no part of the platform leaves the floor, and none comes
+nearer to an edge than the margin.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +14,7 @@ import shapely
 from shapely import Polygon
 
 from agv_motion.errors import GeometryError
+from agv_motion.motion.corners import inset
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,19 +22,21 @@ if TYPE_CHECKING:
     Ring = Sequence[Sequence[float]]
 
 MARGIN = 0.5
-"""[m] The centre of the platform keeps this distance from every edge, as the ancestor's did."""
+"""[m] between the rim of the platform and every edge; the ancestor counted it from the centre."""
 
 
 class Zone:
     """One zone; immutable."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - a drawing, each with its own name
         self,
         boundary: Ring,
         holes: Sequence[Ring] = (),
         translation_only: Sequence[Ring] = (),
         margin: float = MARGIN,
         home: Sequence[float] | None = None,
+        *,
+        rim: float = 0.0,
     ) -> None:
         """Check the geometry and take the margin off.
 
@@ -36,8 +44,10 @@ class Zone:
             boundary: (n, 2) outer edge in the map [m].
             holes: Edges of what stands within: a bench, a pond.
             translation_only: Edges of delicate floor, where turning is not allowed.
-            margin: Distance that the centre of the platform keeps from every edge [m].
+            margin: Distance that the rim of the platform keeps from every edge [m].
             home: Where the tree is parked, x and y in the map [m]; None: anywhere.
+            rim: How far the platform reaches from its centre [m]; 0: the margin counts from the
+                centre, and what hangs over an edge is nobody's concern.
 
         Raises:
             GeometryError: An edge is no polygon, a hole lies outside or overlaps another, an area
@@ -47,7 +57,10 @@ class Zone:
         if not (isfinite(margin) and margin >= 0.0):
             msg = f'margin = {margin} m: must be zero or more, and finite'
             raise GeometryError(msg)
-        self.margin = margin
+        if not (isfinite(rim) and rim >= 0.0):
+            msg = f'rim = {rim} m: must be zero or more, and finite'
+            raise GeometryError(msg)
+        self.margin, self.rim = margin, rim
         outer = _polygon('boundary', boundary)
         self.holes = [_polygon(f'hole {i + 1}', hole) for i, hole in enumerate(holes)]
         self._check_holes(outer)
@@ -60,10 +73,11 @@ class Zone:
             if not area.intersects(self.floor):
                 msg = f'translation-only area {i + 1} touches no floor: check its coordinates'
                 raise GeometryError(msg)
-        self.parts = self._take_off(margin)
+        self.parts = self._take_off(self.clearance)
         self._walkable = shapely.union_all(self.parts)
         self._delicate = shapely.union_all(self.translation_only)
-        for geometry in (self._walkable, self._delicate, self.floor):
+        self._edges = self.floor.boundary
+        for geometry in (self._walkable, self._delicate, self.floor, self._edges):
             shapely.prepare(geometry)
         self.home = None if home is None else _point('home', home)
         if self.home is not None and not self.walkable(*self.home):
@@ -73,7 +87,7 @@ class Zone:
             msg = (
                 f'home {self.home} cannot be reached from the largest part of the zone '
                 f'({self.parts[0].area:.1f} m2): move it there, or take less than '
-                f'{margin:g} m of margin'
+                f'{margin:g} m of margin{self._from_rim}'
             )
             raise GeometryError(msg)
 
@@ -87,19 +101,27 @@ class Zone:
                     msg = f'holes {k + 1} and {i + 1} overlap: draw them as one'
                     raise GeometryError(msg)
 
-    def _take_off(self, margin: float) -> list[Polygon]:
-        """Return the parts of the floor that remain within the margin, the largest first.
+    @property
+    def clearance(self) -> float:
+        """Distance that the centre of the platform keeps from every edge [m]."""
+        return self.margin + self.rim
 
-        Round corners that point inwards the edge is an arc of eight straight pieces a quarter, so
-        there the margin is up to 0.5 % less.
-        """
+    @property
+    def _from_rim(self) -> str:
+        return f' beside the rim of {self.rim:g} m' if self.rim else ''
+
+    def _take_off(self, clearance: float) -> list[Polygon]:
+        """Return the parts of the floor that remain within the clearance, the largest first."""
         if self.floor.is_empty:
             msg = 'the holes cover the whole zone: nothing is left to walk on'
             raise GeometryError(msg)
-        inset = self.floor.buffer(-margin, quad_segs=8)
-        parts = [p for p in shapely.get_parts(inset) if isinstance(p, Polygon) and not p.is_empty]
+        left = shapely.get_parts(inset(self.floor, clearance))
+        parts = [p for p in left if isinstance(p, Polygon) and not p.is_empty]
         if not parts:
-            msg = f'margin = {margin} m leaves nothing of the zone: widen it or take less margin'
+            msg = (
+                f'margin = {self.margin} m{self._from_rim} leaves nothing of the zone: widen it or '
+                'take less margin'
+            )
             raise GeometryError(msg)
         return sorted(parts, key=lambda part: -part.area)
 
@@ -117,6 +139,14 @@ class Zone:
     def contains(self, x: float, y: float) -> bool:
         """Return whether (x, y) lies on the floor, edges included."""
         return bool(shapely.intersects_xy(self.floor, x, y))
+
+    def holds(self, x: float, y: float) -> bool:
+        """Return whether the whole platform, its rim included, lies on the floor at (x, y)."""
+        return self.contains(x, y) and self.edge_distance(x, y) >= self.rim
+
+    def edge_distance(self, x: float, y: float) -> float:
+        """Return how far (x, y) lies from the nearest edge [m]."""
+        return float(shapely.distance(self._edges, shapely.Point(x, y)))
 
     def walkable(self, x: float, y: float) -> bool:
         """Return whether the centre of the platform may be at (x, y)."""
@@ -170,7 +200,10 @@ class Zone:
                 f'lies outside the zone (x from {west:g} to {east:g} m, '
                 f'y from {south:g} to {north:g} m)'
             )
-        return f'lies nearer than the margin of {self.margin:g} m to an edge'
+        over = self.rim - self.edge_distance(x, y)
+        if over > 0.0:
+            return f'has the rim {over:.2f} m over an edge'
+        return f'lies nearer than the margin of {self.margin:g} m{self._from_rim} to an edge'
 
 
 def _point(name: str, values: Sequence[float]) -> tuple[float, float]:

@@ -49,7 +49,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def open(self) -> None:
         """Build the mind, give it back its memory, and open the topics."""
         given = self.parameters
-        zone = load_zone(find_config(given.zone_file)) if given.zone_file else None
+        zone = load_zone(find_config(given.zone_file), given.rim) if given.zone_file else None
         self._mind = Mind(zone, given.mind())
         self._company = self._join(given) if given.share_zone else None
         self._limits = Limits.of(given.limits)
@@ -92,7 +92,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _join(self, given: MotionGeneratorParameters) -> CompanyKeeper:
         name = given.tree_name or self.get_namespace().strip('/')
-        return CompanyKeeper(self, self._mind, given.traffic, name, given.peers_file)
+        return CompanyKeeper(self, self._mind, given.sharing(), name, given.peers_file)
 
     def begin(self) -> None:
         """Tell where the tree means to go, and what it remembers."""
@@ -229,7 +229,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _publish(self, limited: Limited, state: str) -> None:
         self._limited_by, self._commanded_at = limited.by, self.seconds()
         given = self.parameters
-        self._tell_twist(to_twist(limited.command, given.linear_speed, given.platform_radius))
+        self._tell_twist(to_twist(limited.command, given.linear_speed, given.rim))
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
         if state != self._told:

@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.platform import Outline
 from agv_motion.motion.generator import RestParameters
 from agv_motion.motion.goals import GoalParameters
 from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.limits import LimitParameters
 from agv_motion.motion.memory import MemoryParameters
 from agv_motion.motion.mind import MindParameters
-from agv_motion.motion.polar import LINEAR_SPEED, PLATFORM_RADIUS
+from agv_motion.motion.polar import LINEAR_SPEED
 from agv_motion.motion.schedule import ScheduleParameters
 from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.parameters import Spec, check
+from agv_motion.parameters import Spec
 
 
 @dataclass(frozen=True)
-class MotionGeneratorParameters:
+class MotionGeneratorParameters(Outline):
     """How sap flow becomes motion."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0
     linear_speed: Annotated[
         float, Spec("the trunk's speed at full sap flow", 'm/s', (1e-4, 10.0))
     ] = LINEAR_SPEED
-    platform_radius: Annotated[
-        float, Spec('centre to turret: its rim has the same top speed', 'm', (0.01, 100.0))
-    ] = PLATFORM_RADIUS
     goal: Annotated[
         tuple[float, ...],
         Spec('where to go with the strategy fixed, x and y in the map; RViz may set another', 'm'),
@@ -75,7 +73,7 @@ class MotionGeneratorParameters:
 
     def __post_init__(self) -> None:
         """Check every row, and that the goal is a point."""
-        check(self)
+        super().__post_init__()
         if len(self.goal) != 2:
             msg = f'goal = {list(self.goal)}: give x and y in metres'
             raise ConfigurationError(msg)
@@ -90,5 +88,9 @@ class MotionGeneratorParameters:
             home=self.home,
             goal=(self.goal[0], self.goal[1]) if self.goals.strategy == 'fixed' else None,
             linear_speed=self.linear_speed,
-            platform_radius=self.platform_radius,
+            platform_radius=self.rim,
         )
+
+    def sharing(self) -> TrafficParameters:
+        """Return how the zone is shared by a platform of this outline."""
+        return replace(self.traffic, body=self.rim)

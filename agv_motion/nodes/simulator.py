@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Illuminance, JointState
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.nodes.platform_parameters import PlatformParameters
+from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import TurretJoints, fill_pose

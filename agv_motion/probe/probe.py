@@ -69,7 +69,7 @@ class ProbeParameters:
     ] = 0.0
     off_below: Annotated[
         float, Spec('temperature difference of a probe that is off', 'K', (0.0, 100.0))
-    ] = 1.0
+    ] = 5.0
     highest: Annotated[float, Spec('temperature difference beyond belief', 'K', (0.0, 1000.0))] = (
         60.0
     )

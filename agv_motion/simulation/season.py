@@ -13,8 +13,6 @@ from itertools import combinations
 from math import hypot, inf
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-import shapely
-
 from agv_motion.motion.goals import GoalParameters
 from agv_motion.motion.homing import HomeParameters
 from agv_motion.motion.mind import Mind, MindParameters
@@ -37,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from agv_motion.motion.zone import Zone
+    from agv_motion.planar import Pose
     from agv_motion.simulation.sun import Sun
 
 LATITUDE, LONGITUDE = 48.86, 2.35
@@ -85,7 +84,7 @@ class Tally(NamedTuple):
     goals: int
     """taken by all trees"""
     least_inside: float
-    """[m] least distance of a tree from the edge, where nearer than the margin; negative: out"""
+    """[m] least distance of the rim of a tree from an edge; negative: over it"""
     least_gap: float
     """[m] least distance between two trees less what is allowed; infinite with one tree"""
     longest_stand: float
@@ -103,10 +102,6 @@ class Season:
         chance = random.Random(given.seed)  # noqa: S311 - a simulation, no secret
         plan = plan_of(given.kind, given.seed)
         self.zone = plan.zone()
-        # where the margin keeps the whole platform on the floor, none of it may leave
-        self._needed = given.traffic.body if self.zone.margin > given.traffic.body else 0.0
-        self._deep_inside = self.zone.floor.buffer(-self.zone.margin)
-        shapely.prepare(self._deep_inside)
         clearance = given.traffic.clearance + HomeParameters().arrival + 0.1
         homes = scattered(self.zone, given.trees, clearance, chance)
         self._obstacles = _obstacles(self.zone, chance)
@@ -195,16 +190,17 @@ class Season:
             moving |= tree.live(now, light, given.step, given.error)
             if len(self.trees) > 1:
                 self._radio.send(tree.company.traffic.claim(now), now)
-            place = shapely.Point(tree.pose.x, tree.pose.y)
-            if not shapely.covers(self._deep_inside, place):
-                sign = 1.0 if shapely.covers(self.zone.floor, place) else -1.0
-                inside = sign * self.zone.floor.boundary.distance(place) - self._needed
-                self._least_inside = min(self._least_inside, inside)
+            self._least_inside = min(self._least_inside, self._inside(tree.pose))
         allowed = 2.0 * given.traffic.body + given.traffic.margin
         for a, b in combinations(self.trees, 2):
             gap = hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) - allowed
             self._least_gap = min(self._least_gap, gap)
         return moving
+
+    def _inside(self, pose: Pose) -> float:
+        """Return how far the rim of a tree is inside the edge [m]; negative: over it."""
+        sign = 1.0 if self.zone.contains(pose.x, pose.y) else -1.0
+        return sign * self.zone.edge_distance(pose.x, pose.y) - self.zone.rim
 
 
 def _mind(given: SeasonParameters, chance: random.Random) -> MindParameters:

@@ -20,8 +20,11 @@ DOOR = 2.0 * PLATFORM_RADIUS + 0.2
 WALL = 0.2
 """[m] thick"""
 
-TIGHT = PLATFORM_RADIUS + 0.09
+TIGHT = 0.09
 """[m] margin with which the platform goes through the middle of such a door"""
+
+NARROW = 0.2
+"""[m] margin indoors"""
 
 
 class Plan(NamedTuple):
@@ -30,11 +33,11 @@ class Plan(NamedTuple):
     boundary: Ring
     holes: list[Ring]
     margin: float = MARGIN
-    """[m]"""
+    """[m] between the rim of the platform and every edge"""
 
     def zone(self, home: tuple[float, float] | None = None) -> Zone:
         """Return the zone, with ``home`` [m] in it."""
-        return Zone(self.boundary, self.holes, margin=self.margin, home=home)
+        return Zone(self.boundary, self.holes, margin=self.margin, home=home, rim=PLATFORM_RADIUS)
 
 
 def square(_: random.Random) -> Plan:
@@ -55,9 +58,9 @@ def garden(chance: random.Random) -> Plan:
 
 
 def hall(chance: random.Random) -> Plan:
-    """Return the indoor zone: 50 m2 of concrete with a column."""
-    x, y = chance.uniform(4.0, 5.4), chance.uniform(2.0, 2.4)
-    return Plan(_box(0.0, 0.0, 10.0, 5.0), [_box(x, y, x + 0.6, y + 0.6)])
+    """Return the indoor zone: 50 m2 of concrete with a column near a wall."""
+    x, y = chance.uniform(4.0, 5.4), chance.uniform(3.2, 4.0)
+    return Plan(_box(0.0, 0.0, 10.0, 5.0), [_box(x, y, x + 0.6, y + 0.6)], NARROW)
 
 
 def rooms(chance: random.Random) -> Plan:

@@ -22,7 +22,7 @@ from agv_motion.ros.run import StartError
 YARD = 'boundary: [[0, 0], [7, 0], [7, 4], [0, 4]]\nmargin: 0.4\n'
 BODY, MARGIN = 0.3, 0.1
 SMALL = {
-    'traffic__body': BODY, 'traffic__margin': MARGIN, 'traffic__tolerance': 0.05,
+    'traffic__margin': MARGIN, 'traffic__tolerance': 0.05,
     'traffic__listen': 0.5, 'platform_radius': BODY, 'linear_speed': 0.6, 'rest__arrival': 0.3,
     'limits__v_rate': 5.0, 'share_zone': True, 'traffic__expected': ['oak', 'ash'],
 }  # fmt: skip

@@ -13,9 +13,8 @@ from agv_motion.parameters import Spec, check
 class TrafficParameters:
     """How a tree shares a zone; body, margin and tolerance may differ between trees."""
 
-    body: Annotated[float, Spec('rim of the tree from its centre', 'm', (0.01, 100.0))] = (
-        PLATFORM_RADIUS
-    )
+    body: float = PLATFORM_RADIUS
+    """[m] rim of the tree from its centre; no parameter: the outline of the platform tells it"""
     margin: Annotated[float, Spec('between the rims of two trees, at least', 'm', (0.0, 10.0))] = (
         0.2
     )
