@@ -20,7 +20,7 @@ from agv_motion.planar import Twist
 from agv_motion.probe.sources.recorded import RecordedSource
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.covariances import fill_covariance
-from agv_motion.ros.messages import seconds_of, type_name
+from agv_motion.ros.messages import seconds_of, stamp_of, type_name
 from agv_motion.ros.qos import SENSOR
 
 if TYPE_CHECKING:
@@ -85,6 +85,8 @@ class RecordedMotion(MotionGenerator):
 class _State(NamedTuple):
     """What a recorded state of the turrets tells, and the messages that it leads to."""
 
+    taken: int
+    """stamp [ns]"""
     angles: list[float]
     residual: float
     fight: bytes
@@ -108,7 +110,8 @@ class RecordedWheels(WheelKinematics):
 
     def _on_stamped_twist(self, message: TwistStamped | Twist) -> None:
         if isinstance(message, Twist):
-            self._drive(message)
+            now = stamp_of(self.nanoseconds())
+            self._take_twist(message, self.parameters.base_frame, now)
         else:
             super()._on_stamped_twist(message)
 
@@ -124,8 +127,8 @@ class RecordedWheels(WheelKinematics):
         table['velocity'][:, angles.shape[1] :] = rates
         return self._commands.messages(table)
 
-    def _prepare(self, messages: list[bytes]) -> list[_State]:
-        """Return what the states tell; none unless all are alike and of use."""
+    def _prepare(self, messages: list[bytes], stamps: list[int]) -> list[_State]:
+        """Return what the states tell; none unless all are alike, news and of use."""
         try:
             names = codec(JointState).decode(messages[0]).name
             steering, wheel = self._joints.places(names)
@@ -141,8 +144,11 @@ class RecordedWheels(WheelKinematics):
         speeds = (velocities[:, wheel] * self.parameters.wheel_radius).T
         if not (np.isfinite(angles).all() and np.isfinite(speeds).all()):
             return []
-        times = table['header.stamp.sec'] + table['header.stamp.nanosec'] * 1e-9
-        if not self._reckoning.are_plain(times, speeds):
+        sec, nanosec = table['header.stamp.sec'], table['header.stamp.nanosec']
+        taken = sec.astype(np.int64) * SECOND + nanosec
+        times = sec + nanosec * 1e-9
+        news = self._state_watch.are_news(taken, np.array(stamps, np.int64))
+        if not news or not self._reckoning.are_plain(times, speeds):
             return []
         reckoned = self._reckoning.take_columns(times, angles, speeds)
         fights = self._fights.table(len(messages))
@@ -150,6 +156,7 @@ class RecordedWheels(WheelKinematics):
         return list(
             map(
                 _State,
+                taken.tolist(),
                 angles.T.tolist(),
                 reckoned.residual.tolist(),
                 self._fights.messages(fights),
@@ -174,6 +181,7 @@ class RecordedWheels(WheelKinematics):
         if not isinstance(message, _State):
             super()._on_state(message)
             return
+        self._state_watch.newest = message.taken
         self._note_angles(message.angles)
         self._fight.publish(message.fight)
         self._judge_residual(message.residual)

@@ -174,11 +174,11 @@ def _feed(world: World, messages: Iterator[Message]) -> Iterator[tuple[int, int]
     """Let messages be heard, many shown beforehand; yield how many, and the time [ns]."""
     feed = world.feed
     while together := list(islice(messages, TOGETHER)):
-        topics: dict[str, list[bytes]] = {}
+        topics: dict[str, list[Message]] = {}
         for message in together:
-            topics.setdefault(message.connection.topic, []).append(message.data)
-        for topic, data in topics.items():
-            world.look_ahead(topic, data)
+            topics.setdefault(message.connection.topic, []).append(message)
+        for topic, found in topics.items():
+            world.look_ahead(topic, [m.data for m in found], [m.stamp for m in found])
         for message in together:
             feed(message.connection.topic, message.stamp, message.data)
         yield len(together), together[-1].stamp

@@ -18,7 +18,10 @@ class Silence(Enum):
 
 
 class Watchdog:
-    """Judges the age of the last input; the ancestor reported after 3 s and stopped after 5 s."""
+    """Judges the age of the last input; the ancestor reported after 3 s and stopped after 5 s.
+
+    All times are of one clock that never leaps: a clock that is set must not switch a guard off.
+    """
 
     def __init__(self, report_after: float, stop_after: float) -> None:
         """Start with an input that has never come.
@@ -38,28 +41,26 @@ class Watchdog:
             )
             raise ConfigurationError(msg)
         self._report_after = report_after
-        self._stop_after = stop_after
-        self._heard = False
+        self.stop_after = stop_after
         self._last: float | None = None
 
-    def feed(self) -> None:
-        """Note that an input has come since the last judgement; costs nothing on the hot path."""
-        self._heard = True
+    def feed(self, now: float) -> None:
+        """Note that an input has come at ``now`` [s]."""
+        self._last = now
+
+    def forget(self) -> None:
+        """Take the input for lost until it comes again."""
+        self._last = None
 
     def age(self, now: float) -> float | None:
         """Return the age of the last input [s], or None if none has come."""
         return None if self._last is None else now - self._last
 
     def judge(self, now: float) -> Silence:
-        """Return how silent the input is at ``now`` [s]; to be called several times a second.
-
-        A clock that jumps back by more than the limit counts as silence too: the age is unknown.
-        """
-        if self._heard:
-            self._heard, self._last = False, now
+        """Return how silent the input is at ``now`` [s]."""
         if self._last is None:
             return Silence.LOST
-        age = abs(now - self._last)
-        if age >= self._stop_after:
+        age = now - self._last
+        if age >= self.stop_after:
             return Silence.LOST
         return Silence.LATE if age >= self._report_after else Silence.FRESH

@@ -78,6 +78,10 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
         for _ in range(SUBSTEPS):
             self._robot.step(self._wanted, duration / SUBSTEPS)
 
+    def let_go(self) -> None:
+        """Stop both wheels."""
+        self._wanted = [0.0, 0.0]
+
     def show(self, stamp: Any) -> None:
         """Publish what the encoders tell, and at its rate what the camera sees."""
         message = self._joints.message(self._drive.rates(self._robot.speeds))
@@ -98,6 +102,7 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
             msg = f'joints {list(message.name)}: give the velocity of {self._joints.names}'
             raise SignalError(msg)
         self._wanted = list(self._drive.speeds(rates))
+        self.note_command()
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.motion.watchdog import Silence
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
-from agv_motion.ros.input_watch import InputWatch
+from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import LATCHED, SENSOR
@@ -46,6 +46,9 @@ class DrivingParameters:
     base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
     report_after: Annotated[float, Spec('silence of the pose to report', 's', (0.01, 3600.0))] = 0.5
     stop_after: Annotated[float, Spec('silence of the pose to stop', 's', (0.01, 3600.0))] = 1.0
+    max_age: Annotated[
+        float, Spec('how far the stamp of the pose may lie from now', 's', (0.01, 1e10))
+    ] = 1.0
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     blocked: BlockedParameters = field(default_factory=BlockedParameters)
 
@@ -80,7 +83,8 @@ class DrivingNode(ManagedNode[P]):
         self._twist = REST
         self.told = ''
         """The state told last"""
-        self._pose_watch = InputWatch(self, given.position, given.report_after, given.stop_after)
+        limits = Freshness(given.report_after, given.stop_after, given.max_age)
+        self._pose_watch = InputWatch(self, given.position, limits)
         self._last_cycle: float | None = None
         self._farewell = 0.0
         arm = 0.5 * self.limits().track
@@ -93,6 +97,7 @@ class DrivingNode(ManagedNode[P]):
         else:
             self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
         self.every(1.0 / given.rate, self._on_cycle)
+        self.watch_inputs(given.stop_after, self._watch)
 
     def begin(self) -> None:
         """Know nothing of before: where the robot is must be told anew."""
@@ -176,17 +181,17 @@ class DrivingNode(ManagedNode[P]):
 
     def _on_pose(self, message: Any) -> None:
         self.require_frame(message.header.frame_id)
-        self.pose = pose_of(message.pose.pose)
-        self._pose_time = seconds_of(message.header.stamp)
-        self.lost = ''
-        self._pose_watch.feed()
+        pose = pose_of(message.pose.pose)
+        if self._pose_watch.is_news(message.header.stamp):
+            self._pose_watch.note()
+            self.pose, self._pose_time = pose, seconds_of(message.header.stamp)
+            self.lost = ''
 
     def _on_cycle(self) -> None:
         now = self.seconds()
         dt = 0.0 if self._last_cycle is None else max(now - self._last_cycle, 0.0)
         dt = min(dt, LONGEST_STEP / self.parameters.rate)
         self._last_cycle = now
-        self._watch(now)
         self._look_for_block(dt)
         self.cycle(dt)
 
@@ -200,11 +205,19 @@ class DrivingNode(ManagedNode[P]):
         elif before and not guard.reason:
             self.get_logger().info('blocked before: trying again')
 
-    def _watch(self, now: float) -> None:
-        silence, given = self._pose_watch.tell(now), self.parameters
-        if self._pose_watch.age(now) is not None:
-            lost = silence is Silence.LOST
-            self.lost = f'no {given.position} for {given.stop_after:g} s' if lost else ''
+    def _watch(self) -> None:
+        """Stop where the pose is lost; again and again where no cycle will, as the clock stands."""
+        before, self.lost = self.lost, self._why_lost()
+        if self.lost and self._farewell > 0.0 and (self.clock.fault or not before):
+            self._send(REST)
+
+    def _why_lost(self) -> str:
+        """Return why the pose cannot be used; empty if it can."""
+        watch, given = self._pose_watch, self.parameters
+        if watch.tell() is not Silence.LOST:
+            return ''
+        silent = watch.age(self.steady_seconds()) is not None and not self.clock.fault
+        return f'no {given.position} for {given.stop_after:g} s' if silent else watch.why()
 
     def _send(self, twist: Twist) -> None:
         self._twist = twist

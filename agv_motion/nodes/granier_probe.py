@@ -56,6 +56,7 @@ class GranierProbeParameters:
     warm_up_days: Annotated[
         float, Spec("how much of the source's history to learn from at the start", 'd', (0, 366))
     ] = 8.0
+    base_frame: Annotated[str, Spec('frame of the sap flow')] = 'base_link'
     state_file: Annotated[
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
     ] = ''
@@ -112,7 +113,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         self._doubt = _doubt(self._chosen[0], None)
         self._why_invalid: str | None = None
         self._message = Vector3Stamped()
-        self._message.header.frame_id = 'base_link'
+        self._message.header.frame_id = given.base_frame
         self._raw = [
             self.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
             for i in range(len(self._probes))
@@ -168,6 +169,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         if why != self._why_invalid:
             self._tell_validity(why)
         if not why:
+            self.stamp(self._message)  # believed now, whenever it was read
             self._sap_flow.publish(self._message)
 
     def _learn(self, now: float) -> None:

@@ -12,7 +12,7 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.localization_parameters import LocalizationParameters
 from agv_motion.odometry.assumed_noise import AssumedNoise
 from agv_motion.odometry.continuity import Step
@@ -24,7 +24,8 @@ from agv_motion.odometry.gates import require_within
 from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
 from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.ros.covariances import covariance_of, fill_covariance
-from agv_motion.ros.messages import fill_pose, pose_of, seconds_of, twist_of
+from agv_motion.ros.input_watch import SECOND, Freshness, InputWatch, require_near
+from agv_motion.ros.messages import fill_pose, pose_of, require_frame, seconds_of, twist_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
@@ -74,7 +75,9 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._told_at = -inf
         self._last_pose: Pose | None = None
         self._state = State.WAITING
-        self._watchdog = Watchdog(given.odom_timeout, given.odom_timeout)
+        limits = Freshness(given.odom_timeout, given.odom_timeout, given.max_age)
+        self._odom_watch = InputWatch(self, 'odom', limits)
+        self._imu_watch = InputWatch(self, 'imu', limits)
         self._pose = self.publisher(PoseWithCovarianceStamped, 'pose', SENSOR)
         self._filtered = self.publisher(Odometry, 'odom/filtered', SENSOR)
         self._transforms = None if given.tf == 'none' else Transforms(self)
@@ -96,7 +99,7 @@ class Localization(ManagedNode[LocalizationParameters]):
             'gyroscope': 'none' if self._gyro is None else f'bias {self._gyro.bias:.5f} rad/s',
         }
         values |= {f'fixes {v.name.lower()}': str(n) for v, n in health.verdicts.items() if n}
-        if self._watchdog.judge(self.seconds()) is Silence.LOST:
+        if self._odom_watch.silence() is Silence.LOST:
             return Diagnosis(ERROR, 'odom is lost', values)
         if health.state is not State.WAITING and not self._trusted(health):
             return Diagnosis(ERROR, f'pose not told: {health.state.value}', values)
@@ -106,9 +109,10 @@ class Localization(ManagedNode[LocalizationParameters]):
 
     def _on_odometry(self, message: Odometry) -> None:
         given = self.parameters
-        self._require_frame(message.header.frame_id, given.odom_frame)
-        self._require_frame(message.child_frame_id, given.base_frame)
+        require_frame(message.header.frame_id, given.odom_frame)
+        require_frame(message.child_frame_id, given.base_frame)
         pose, twist = pose_of(message.pose.pose), twist_of(message.twist.twist)
+        news = self._odom_watch.is_news(message.header.stamp)
         limits = given.fusion
         require_within('twist', twist[:2], limits.max_speed, 'm/s', 'mend it, or set max_speed')
         require_within('twist', twist[2:], limits.max_turn_rate, 'rad/s', 'or set max_turn_rate')
@@ -118,7 +122,8 @@ class Localization(ManagedNode[LocalizationParameters]):
         if not passage.step.used:
             self._tell_ignored(passage)
             return
-        self._watchdog.feed()
+        if news:
+            self._odom_watch.note()
         self._at_rest = all(abs(component) < AT_REST for component in twist)
         self._fusion.follow(passage)
         if passage.step in {Step.LEAP, Step.RESET}:
@@ -157,7 +162,8 @@ class Localization(ManagedNode[LocalizationParameters]):
 
     def _on_fix(self, message: PoseWithCovarianceStamped) -> None:
         """Take a fix; one whose yaw has no variance, or one of any heading, has no heading."""
-        self._require_frame(message.header.frame_id, self.parameters.map_frame)
+        require_frame(message.header.frame_id, self.parameters.map_frame)
+        self._require_recent(message.header.stamp)
         covariance = covariance_of(message.pose.covariance)
         pose = pose_of(message.pose.pose)
         unknown = covariance.xt == covariance.yt == covariance.tt == 0.0
@@ -171,21 +177,36 @@ class Localization(ManagedNode[LocalizationParameters]):
             newest, horizon = self._fusion.newest_stamp, self.parameters.fusion.horizon
             self.refuse(f'{text}; odom is at {newest:.3f} s, fusion.horizon = {horizon:g} s')
 
+    def _require_recent(self, stamp: Any) -> None:
+        """Raise where a fix was taken too far from now, or when is not told.
+
+        Late fixes, in any order, are of use: they take their place in time.
+        """
+        given, taken = self.parameters, stamp.sec * SECOND + stamp.nanosec
+        if taken == 0:
+            msg = 'fix with a stamp of 0: tell when it was measured, as the robot moves meanwhile'
+            raise SignalError(msg)
+        require_near(self, taken, max(given.max_age, given.fusion.horizon), self.nanoseconds())
+
     def _on_imu(self, message: Imu) -> None:
         given = self.parameters
         if message.header.frame_id != given.base_frame:
-            self._require_frame(message.header.frame_id, given.imu_frame)
-        stamp, rate = seconds_of(message.header.stamp), message.angular_velocity.z
+            require_frame(message.header.frame_id, given.imu_frame)
+        rate = message.angular_velocity.z
+        if not self._imu_watch.is_news(message.header.stamp):
+            return
+        stamp = seconds_of(message.header.stamp)
         if self._gyro is None:
             self._gyro = YawRate(given.gyro)
         self._gyro.add(stamp, rate, at_rest=self._at_rest)
+        self._imu_watch.note()
 
     def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
         self.get_logger().info(self._set_pose(message))
 
     def _set_pose(self, message: PoseWithCovarianceStamped) -> str:
         """Believe that the robot is where somebody says."""
-        self._require_frame(message.header.frame_id, self.parameters.map_frame)
+        require_frame(message.header.frame_id, self.parameters.map_frame)
         pose, covariance = pose_of(message.pose.pose), covariance_of(message.pose.covariance)
         told = ''
         if covariance == CERTAIN:
@@ -196,13 +217,6 @@ class Localization(ManagedNode[LocalizationParameters]):
     def _on_restart(self, _: Any) -> str:
         self._fusion.restart()
         return 'all forgotten: searching anew'
-
-    def _require_frame(self, frame: str, expected: str) -> None:
-        if frame not in {'', expected}:
-            msg = (
-                f"frame '{frame}': expected '{expected}'; transform it first, or set the parameter"
-            )
-            raise SignalError(msg)
 
     # What goes out
 

@@ -36,6 +36,9 @@ class LocalizationParameters:
     odom_timeout: Annotated[
         float, Spec('silence of odom after which it is lost', 's', (0.01, 3600.0))
     ] = 1.0
+    max_age: Annotated[
+        float, Spec('how far stamps of odom, fix and imu may lie from now', 's', (0.01, 1e10))
+    ] = 2.0
     tf: Annotated[
         str,
         Spec('transforms to publish where tf2_msgs is installed: map to odom, odom to base_link',

@@ -9,7 +9,6 @@ from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.errors import ConfigurationError
 from agv_motion.motion.generator import SapFlow, checked_sap_flow
 from agv_motion.motion.limits import Limited, Limits
 from agv_motion.motion.mind import Mind
@@ -21,8 +20,8 @@ from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.config import find_config
-from agv_motion.ros.input_watch import InputWatch
-from agv_motion.ros.messages import fill_path, fill_pose, pose_of
+from agv_motion.ros.input_watch import Freshness, InputWatch
+from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
 from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
@@ -66,10 +65,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._commanded_at = self.seconds()
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
-        self._watches = {
-            name: InputWatch(self, name, given.report_after, given.stop_after)
-            for name in ('sap flow', 'pose')
-        }
+        limits = Freshness(given.report_after, given.stop_after, given.max_age)
+        self._watches = {name: InputWatch(self, name, limits) for name in ('sap flow', 'pose')}
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
         self._way = self.publisher(Path, 'way', LATCHED)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
@@ -89,6 +86,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self.serve(Trigger, '~/next_goal', self._on_next_goal)
         self.serve(Trigger, '~/go_home', self._on_go_home)
         self.every(1.0 / given.rate, self._tick)
+        self.watch_inputs(given.stop_after, self._watch)
 
     def _join(self, given: MotionGeneratorParameters) -> CompanyKeeper:
         name = given.tree_name or self.get_namespace().strip('/')
@@ -126,9 +124,13 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         return Diagnosis(WARN if self._lost or alarmed else OK, self._told, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
-        vector = message.vector
-        self._sap_flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
-        self._watches['sap flow'].feed()
+        vector, watch = message.vector, self._watches['sap flow']
+        flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
+        require_frame(message.header.frame_id, self.parameters.base_frame)
+        if not watch.is_news(message.header.stamp):
+            return
+        watch.note()
+        self._sap_flow = flow
         self._thought = None
         if self._obstacle:
             self._judge()
@@ -141,23 +143,21 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._move()
 
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
-        self._require_map(message.header.frame_id)
-        self._pose = pose_of(message.pose.pose)
-        self._watches['pose'].feed()
+        require_frame(message.header.frame_id, self.parameters.map_frame)
+        pose, watch = pose_of(message.pose.pose), self._watches['pose']
+        if not watch.is_news(message.header.stamp):
+            return
+        watch.note()
+        self._pose = pose
         self._thought = None
         self._judge()
 
     def _on_goal(self, message: PoseStamped) -> None:
-        self._require_map(message.header.frame_id)
+        require_frame(message.header.frame_id, self.parameters.map_frame)
         goal = pose_of(message.pose)
         self._mind.set_goal(goal.x, goal.y, 'asked for')
         self._thought = None
         self._tell_goal(self._mind.goal)
-
-    def _require_map(self, frame: str) -> None:
-        if frame not in {'', self.parameters.map_frame}:
-            msg = f"frame '{frame}': expected '{self.parameters.map_frame}'; transform it first"
-            raise ConfigurationError(msg)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
@@ -178,14 +178,16 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         return self._told
 
     def _tick(self) -> None:
-        """Judge the silence of both inputs and keep the command alive."""
-        now = self.seconds()
-        self._lost = ''
-        for name, watch in self._watches.items():
-            if watch.tell(now) is Silence.LOST:
-                self._lost = self._lost or name
+        """Keep the command alive."""
         self._judge()
         self._move()
+
+    def _watch(self) -> None:
+        """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
+        silent = [n for n, watch in self._watches.items() if watch.tell() is Silence.LOST]
+        before, self._lost = self._lost, silent[0] if silent else ''
+        if self._lost and (self.clock.fault or not before):
+            self._tick()
 
     def _judge(self) -> None:
         """Find out whether the tree may move; again whenever what it knows has changed."""
@@ -198,7 +200,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if not self._valid:
             return 'resting: a probe cannot be believed'
         if self._lost or self._sap_flow is None or self._pose is None:
-            return f'resting: no {self._lost or "input"}'
+            return f'resting: {self.clock.fault or "no " + (self._lost or "input")}'
         return ''
 
     def _move(self) -> None:

@@ -37,8 +37,11 @@ class MotionGeneratorParameters(Outline):
     stop_after: Annotated[float, Spec('silence of sap flow or pose to stop', 's', (0.01, 3600))] = (
         5.0
     )
+    max_age: Annotated[
+        float, Spec('how far stamps of sap flow and pose may lie from now', 's', (0.01, 1e10))
+    ] = 5.0
     map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
-    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
+    base_frame: Annotated[str, Spec('frame of the twist and of the sap flow')] = 'base_link'
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     zone_file: Annotated[
         str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')

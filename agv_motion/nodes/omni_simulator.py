@@ -111,6 +111,10 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         """Let the wheels follow their commands."""
         self._robot.step(self._wanted, duration)
 
+    def let_go(self) -> None:
+        """Stop all wheels."""
+        self._wanted = [0.0] * len(self._wanted)
+
     def show(self, stamp: Any) -> None:
         """Publish what encoders and gyroscope tell, and what comes of the UWB."""
         given = self.parameters
@@ -134,6 +138,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
             raise SignalError(msg)
         radii = self.parameters.real_radii
         self._wanted = [rate * r for rate, r in zip(rates, radii, strict=True) if rate is not None]
+        self.note_command()
 
     def _publish_state(self, stamp: Any) -> None:
         radii = self.parameters.real_radii

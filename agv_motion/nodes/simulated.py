@@ -45,6 +45,15 @@ class SimulatedParameters:
         ),
     ] = 'lead'
     start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00:00'
+    command_timeout: Annotated[
+        float,
+        Spec(
+            'silence of the commands after which the motors stop, as those of real drives must; '
+            'in real and in simulated time, whichever is later',
+            's',
+            (0.01, 3600.0),
+        ),
+    ] = 0.5
     seed: Annotated[int, Spec('of all noise', '1', (0, 2**31))] = 1
     start_x: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
     start_y: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
@@ -84,7 +93,7 @@ class Body(Protocol):
 
 
 class SimulatedNode(ManagedNode[P]):
-    """Lets time pass in steps; a node overrides `reset`, `step` and `show`."""
+    """Lets time pass in steps; a node overrides `reset`, `step`, `let_go` and `show`."""
 
     # What a node overrides
 
@@ -94,6 +103,10 @@ class SimulatedNode(ManagedNode[P]):
 
     def step(self, duration: float) -> None:
         """Let the robot move for ``duration`` [s]."""
+        raise NotImplementedError
+
+    def let_go(self) -> None:
+        """Stop the motors: nobody commands them."""
         raise NotImplementedError
 
     def show(self, stamp: Any) -> None:
@@ -106,6 +119,7 @@ class SimulatedNode(ManagedNode[P]):
         """Put the robot at its start, and open the topics."""
         given = self.parameters
         self._paused, self._clocks = False, 1
+        self._commanded_at: tuple[float, float] | None = None
         self._put_at_start()
         self._truth = self.publisher(Odometry, 'ground_truth', SENSOR)
         self.serve(SetBool, '~/pause', self._on_pause)
@@ -126,7 +140,8 @@ class SimulatedNode(ManagedNode[P]):
         if self._clocks > 1:
             level, word = ERROR, f'{self._clocks} nodes tell the time on /clock'
         time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
-        return Diagnosis(level, word, {'simulated time': time})
+        commanded = 'no' if self._commanded_at is None else 'yes'
+        return Diagnosis(level, word, {'simulated time': time, 'commanded': commanded})
 
     @property
     def elapsed(self) -> float:
@@ -145,13 +160,17 @@ class SimulatedNode(ManagedNode[P]):
         message.header.stamp = stamp_of(self._nanoseconds(self.steps))
         return self.time
 
+    def note_command(self) -> None:
+        """Feed the watchdog of the motors."""
+        self._commanded_at = self.steady_seconds(), self.elapsed
+
     def carry_to(self, pose: Pose) -> None:
         """Lift the robot and set it down elsewhere, its wheels still."""
         self._body.carry_to(pose)
 
     def _put_at_start(self) -> None:
         self.steps, self._start = 0, self.parameters.start_nanoseconds()
-        self._body = self.reset()
+        self._body, self._commanded_at = self.reset(), None
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
@@ -195,8 +214,20 @@ class SimulatedNode(ManagedNode[P]):
         while self._nanoseconds(self.steps + 1) <= now:
             self._step()
 
+    def _watch_commands(self) -> None:
+        """Stop the motors when their commands fall silent."""
+        if self._commanded_at is None:
+            return
+        steady, elapsed = self._commanded_at
+        silent = min(self.steady_seconds() - steady, self.elapsed - elapsed)
+        if silent >= self.parameters.command_timeout:
+            self._commanded_at = None
+            self.let_go()
+            self.get_logger().warning(f'no command for {silent:.2f} s: the motors stop')
+
     def _step(self) -> None:
         """Let the robot go on by one step, and publish what there is to see."""
+        self._watch_commands()
         self.step(1.0 / self.parameters.rate)
         self.steps += 1
         stamp = stamp_of(self._nanoseconds(self.steps))

@@ -93,6 +93,10 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         """Let the motors follow their commands."""
         self._platform.step(*self._wanted, duration)
 
+    def let_go(self) -> None:
+        """Stop the wheels, and hold the turrets where they are."""
+        self._wanted = list(self._platform.angles), [0.0] * len(self._platform.speeds)
+
     def show(self, stamp: Any) -> None:
         """Publish what the encoders tell, and at its rate where the tree is, and in what light."""
         given = self.parameters
@@ -104,8 +108,10 @@ class Simulator(SimulatedNode[SimulatorParameters]):
     def _on_command(self, message: JointState) -> None:
         if self._joints.is_standstill(message):
             self._wanted = self._wanted[0], [0.0] * len(self._wanted[0])
+            self.note_command()
             return
         angles, rates = self._joints.read(message)
+        self.note_command()
         self._wanted = angles, [rate * self.parameters.wheel_radius for rate in rates]
 
     def _publish_state(self, stamp: Any) -> None:

@@ -43,6 +43,9 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
     ] = 60.0
     report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 3.0
     stop_after: Annotated[float, Spec('silence of cmd_vel to stop', 's', (0.01, 3600))] = 5.0
+    max_age: Annotated[
+        float, Spec('how far stamps of cmd_vel, turrets/state may lie from now', 's', (0.01, 1e10))
+    ] = 5.0
     residual_warning: Annotated[
         float, Spec('turrets fight: warn above', 'm/s', (0.0, 10.0), dynamic=True)
     ] = 0.005

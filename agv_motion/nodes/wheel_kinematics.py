@@ -19,9 +19,17 @@ from agv_motion.kinematics.steering_state import Limiter
 from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_reckoning import TurretReckoning
+from agv_motion.planar import REST
 from agv_motion.ros.covariances import fill_covariance
-from agv_motion.ros.input_watch import InputWatch
-from agv_motion.ros.messages import TurretJoints, fill_pose, fill_twist, seconds_of, twist_of
+from agv_motion.ros.input_watch import Freshness, InputWatch
+from agv_motion.ros.messages import (
+    TurretJoints,
+    fill_pose,
+    fill_twist,
+    require_frame,
+    seconds_of,
+    twist_of,
+)
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
@@ -56,9 +64,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._zero = given.steering_zero or (0.0,) * len(turrets)
         self._period = 1.0 / given.rate
         self._driving = SteeringDrive(turrets, given, self._period, given.unwind_after)
-        limits = given.report_after, given.stop_after
-        self._command_watch = InputWatch(self, 'cmd_vel', *limits)
-        self._state_watch = InputWatch(self, 'turrets/state', *limits, 'look at the encoders')
+        limits = Freshness(given.report_after, given.stop_after, given.max_age)
+        self._command_watch = InputWatch(self, 'cmd_vel', limits)
+        self._state_watch = InputWatch(self, 'turrets/state', limits, 'look at the encoders')
         self._blind = False
         self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
@@ -86,7 +94,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(Trigger, '~/unwind', self._on_unwind)
         self.every(self._period, self._go_on)
-        self.every(0.1, self._watch)
+        self.watch_inputs(given.stop_after, self._watch)
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
@@ -98,7 +106,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of turrets that fight, and of what limits the motion."""
-        silence = self._command_watch.judge(self.seconds())
+        silence = self._command_watch.silence()
         values = {
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
@@ -124,16 +132,26 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         return 'stopped: turrets/state is lost' if self._blind else self._driving.unbelievable
 
     def _on_stamped_twist(self, message: TwistStamped) -> None:
-        self._drive(twist_of(message.twist))
+        self._take_twist(twist_of(message.twist), message.header.frame_id, message.header.stamp)
 
     def _on_twist(self, message: TwistMessage) -> None:
         self._drive(twist_of(message))
 
+    def _take_twist(self, twist: Twist, frame: str, stamp: Any) -> None:
+        """Drive as a twist says that is news; obey a stop however old it is."""
+        if twist == REST:
+            self._driving.want(twist)
+        require_frame(frame, self.parameters.base_frame)
+        if self._command_watch.is_news(stamp):
+            self._drive(twist)
+
     def _drive(self, twist: Twist) -> None:
-        """Answer a twist with a command at once."""
-        self._command_watch.feed()
+        """Answer a twist with a command at once, while the clock can be believed."""
+        if self.clock.fault:
+            return
         driving = self._driving
         driving.want(twist)
+        self._command_watch.note()
         if self._stopped_by or self._blind or driving.plan is None:
             self._stand_still()
             return
@@ -144,7 +162,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         """Bring the wheels nearer to the wanted twist, also between two messages."""
         if self._driving.plan is None or self._stopped_by or self._blind:
             return
-        lost = self._command_watch.judge(self.seconds()) is Silence.LOST
+        lost = self._command_watch.silence() is Silence.LOST
         if lost and not self._driving.unwinding:
             return  # _watch has stopped the wheels
         if self._step(0.5 * self._period):
@@ -180,18 +198,11 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent; say so before."""
-        now = self.seconds()
         listeners = self._steering.get_subscription_count() + self._wheels.get_subscription_count()
         self._arrays_wanted = listeners > 0
-        self._watch_state(now)
-        if self._command_watch.tell(now) is Silence.LOST and not self._driving.unwinding:
-            self._stand_still()
-
-    def _watch_state(self, now: float) -> None:
-        """Stop when the turrets have told their angles and then fall silent."""
-        silence = self._state_watch.tell(now)
-        self._blind = silence is Silence.LOST and self._driving.measured is not None
-        if self._blind:
+        self._blind = self._state_watch.tell() is Silence.LOST and self._state_watch.spoken
+        lost = self._command_watch.tell() is Silence.LOST
+        if self._blind or self.clock.fault or (lost and not self._driving.unwinding):
             self._stand_still()
 
     def _stand_still(self) -> None:
@@ -226,6 +237,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         A state that does not follow the last, see `continuity`, is no news of anything.
         """
         state, radius = self._joints.read_state(message), self.parameters.wheel_radius
+        news = self._state_watch.is_news(message.header.stamp)
         angles = [angle + zero for angle, zero in zip(state.angles, self._zero, strict=True)]
         speeds = [rate * radius for rate in state.rates]
         rolled = [angle * radius for angle in state.turned]
@@ -235,7 +247,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self.refuse(f'turrets/state: {state.wrong}; going by the angles of the wheels')
         if not reckoned.step.used:
             return
-        self._note_angles(angles)
+        if news:
+            self._note_angles(angles)
         self._fight.publish(Float64(data=reckoned.residual))
         self._judge_residual(reckoned.residual)
         odometry.header.stamp = stamp
@@ -247,7 +260,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _note_angles(self, angles: list[float]) -> None:
         first = self._driving.measured is None
         self._driving.see(angles)
-        self._state_watch.feed()
+        self._state_watch.note()
         if first and self._driving.overturned():
             self.get_logger().warning(self._driving.overturned())
 

@@ -27,8 +27,15 @@ from agv_motion.odometry.wheel_angles import WheelAngles
 from agv_motion.parameters import Spec
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import covariance_of, fill_covariance
-from agv_motion.ros.input_watch import InputWatch
-from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, seconds_of, twist_of
+from agv_motion.ros.input_watch import Freshness, InputWatch
+from agv_motion.ros.messages import (
+    fill_pose,
+    fill_twist,
+    pose_of,
+    require_frame,
+    seconds_of,
+    twist_of,
+)
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.wheel_joints import WheelJoints
@@ -50,6 +57,10 @@ class WheelsParameters:
     stop_after: Annotated[
         float, Spec('silence of cmd_vel, or of wheels/state, to stop', 's', (0.01, 3600))
     ] = 0.5
+    max_age: Annotated[
+        float,
+        Spec('how far stamps of cmd_vel and wheels/state may lie from now', 's', (0.01, 1e10)),
+    ] = 1.0
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     base_frame: Annotated[str, Spec('frame of the twist and of the wheels')] = 'base_link'
     odom_frame: Annotated[str, Spec('frame in which the wheels carry the base')] = 'odom'
@@ -99,9 +110,9 @@ class WheelsNode(ManagedNode[P]):
         odometry = given.odometry
         fastest = odometry.max_wheel_speed / min(wheel_radii)
         self._angles = WheelAngles(len(joint_names), odometry.max_gap, fastest)
-        limits = given.report_after, given.stop_after
-        self._command_watch = InputWatch(self, 'cmd_vel', *limits)
-        self._state_watch = InputWatch(self, 'wheels/state', *limits, 'look at the encoders')
+        limits = Freshness(given.report_after, given.stop_after, given.max_age)
+        self._command_watch = InputWatch(self, 'cmd_vel', limits)
+        self._state_watch = InputWatch(self, 'wheels/state', limits, 'look at the encoders')
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
         self._extras_wanted = False
@@ -115,15 +126,15 @@ class WheelsNode(ManagedNode[P]):
         self.listen(JointState, 'wheels/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(SetMap, '~/set_odometry', self._on_set_odometry)
-        self.every(min(0.1, given.stop_after / 4.0), self._watch)
+        self.watch_inputs(given.stop_after, self._watch)
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
-        self._send(REST, self.get_clock().now().to_msg())
+        self._send(REST)
 
     def silence(self) -> Silence:
         """Return how silent `cmd_vel` is; no more than a fact where the robot was told to stand."""
-        return self._command_watch.judge(self.seconds())
+        return self._command_watch.silence()
 
     def why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""
@@ -134,40 +145,48 @@ class WheelsNode(ManagedNode[P]):
     # cmd_vel -> wheels/command
 
     def _on_stamped_twist(self, message: TwistStamped) -> None:
-        self._drive(twist_of(message.twist), message.header.stamp)
+        twist, header = twist_of(message.twist), message.header
+        if twist == REST and not self.standing:  # a stop is obeyed however old it is
+            self.standing = True
+            self._send(REST)
+        require_frame(header.frame_id, self.parameters.base_frame)
+        if self._command_watch.is_news(header.stamp):
+            self._drive(twist)
 
     def _on_twist(self, message: TwistMessage) -> None:
-        self._drive(twist_of(message), self.get_clock().now().to_msg())
+        self._drive(twist_of(message))
 
-    def _drive(self, twist: Twist, stamp: Any) -> None:
-        self._send(REST if self.stopped or self.blind else twist, stamp)
-        self._command_watch.feed()
+    def _drive(self, twist: Twist) -> None:
+        """Command the wheels, while the clock can be believed."""
+        if self.clock.fault:
+            return
+        self._send(REST if self.stopped or self.blind else twist)
+        self._command_watch.note()
         self.standing = twist == REST
 
-    def _send(self, twist: Twist, stamp: Any) -> None:
+    def _send(self, twist: Twist) -> None:
         """Command the wheels; the plain array only where someone listens."""
         rates = self.rates(twist)
         message = self.joints.message(rates)
-        message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
+        self.stamp(message)
+        message.header.frame_id = self.parameters.base_frame
         self._command.publish(message)
         if self._extras_wanted:
             self._rates.publish(Float64MultiArray(data=array('d', rates)))
 
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent, or encoders that have spoken do."""
-        now = self.seconds()
         self._extras_wanted = bool(self._rates.get_subscription_count())
-        eyes = self._state_watch.tell(now)
-        self.blind = eyes is Silence.LOST and self._state_watch.age(now) is not None
+        self.blind = self._state_watch.tell() is Silence.LOST and self._state_watch.spoken
         command = self._command_watch
-        silence = command.judge(now) if self.standing else command.tell(now)
+        silence = command.silence() if self.standing else command.tell()
         if self.blind or silence is Silence.LOST:
-            self._send(REST, self.get_clock().now().to_msg())
+            self._send(REST)
 
     def _on_stop(self, request: Any) -> str:
         self.stopped = request.data
         if request.data:
-            self._send(REST, self.get_clock().now().to_msg())
+            self._send(REST)
             return 'stopped; call again with data: false to drive on'
         return 'free to drive'
 
@@ -175,7 +194,8 @@ class WheelsNode(ManagedNode[P]):
 
     def _on_state(self, message: JointState) -> None:
         """Carry the odometry on with angles, or rates where there are none, and tell of it."""
-        state, stamp = self.joints.read(message), seconds_of(message.header.stamp)
+        state, news = self.joints.read(message), self._state_watch.is_news(message.header.stamp)
+        stamp = seconds_of(message.header.stamp)
         angles = self._angles.add(stamp, state.angles, state.rates)
         try:
             self.last_step = self.carry(stamp, angles, by_rate=self._angles.by_rate)
@@ -186,7 +206,8 @@ class WheelsNode(ManagedNode[P]):
         if not self.last_step.used:
             self._tell_ignored(stamp)
             return
-        self._state_watch.feed()
+        if news:
+            self._state_watch.note()
         if self.last_step in {Step.RESET, Step.LEAP}:
             self.get_logger().warning(
                 f'{self.last_step.value}; odometry goes on from where it was, less sure',
@@ -217,9 +238,7 @@ class WheelsNode(ManagedNode[P]):
     def _on_set_odometry(self, request: Any) -> str:
         """Go on from the pose of the request; its map is not looked at."""
         given, asked = self.parameters, request.initial_pose
-        if asked.header.frame_id not in {'', given.odom_frame}:
-            msg = f"frame '{asked.header.frame_id}': expected '{given.odom_frame}'"
-            raise SignalError(msg)
+        require_frame(asked.header.frame_id, given.odom_frame)
         pose, covariance = pose_of(asked.pose.pose), covariance_of(asked.pose.covariance)
         if covariance != CERTAIN and not is_positive_definite(covariance):
             msg = (

@@ -179,6 +179,11 @@ def _seconds(node: InProcessNode) -> float:
     return float(node.world.now) * 1e-9
 
 
+def _trust(node: ManagedNode[Any]) -> None:
+    """Believe the clock of the world."""
+    node.clock.fault = ''
+
+
 def _stamp(node: InProcessNode, message: Any) -> float:
     """Set the stamp of a message's header to the time of the world; return it [s]."""
     stamp, now = message.header.stamp, node.world.now
@@ -206,11 +211,13 @@ def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
         {
             # what nodes ask most often, without an object for each answer
             'seconds': _seconds,
+            'steady_seconds': _seconds,
+            'nanoseconds': lambda node: node.world.now,
             'stamp': _stamp,
-            # ManagedNode measures silence for diagnostics with a steady clock of its own, and
-            # publishes them every second of it; here there is one clock, and nobody to look
+            # ManagedNode looks at its clock beside a steady one, and publishes diagnostics every
+            # second of that; here there is one clock, which is always right, and nobody to look
             '_steady': property(InProcessNode.get_clock, lambda *_: None),
-            '_publish_diagnostics': lambda _: None,
+            '_start_watch': _trust,
             '_refusals': property(lambda _: _Every(), lambda *_: None),
             # a defect ends a reprocessing at once
             'stop_for': _raise,

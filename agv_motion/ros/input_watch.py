@@ -1,81 +1,203 @@
-"""A watchdog over one input of a node, which says in the log when it falls silent and comes back.
+"""What makes an input of a node fresh: a stamp that is newer than the last, near to now, and soon.
 
-Each change is told once, and an input that comes and goes only now and then: a fault that lasts a
-night fills no log. How things stand is the matter of the diagnostics.
+A repeat is no news, nor is what is too old or stamped ahead; only news feeds the watchdog. Silence
+is judged on the steady clock, so that no clock that stands or is set can switch the guard off; the
+age of a stamp is judged on the node's own clock. Each change is told once, and an input that comes
+and goes only now and then: a fault that lasts a night fills no log. How things stand is the matter
+of the diagnostics.
 """
 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
+from agv_motion.errors import SignalError
 from agv_motion.motion.watchdog import Silence, Watchdog
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from agv_motion.ros.node import ManagedNode
 
 
 CALM = 5.0
 """[s] for which an input must be back before another silence is told at once."""
 
+SECOND = 1_000_000_000
+
+
+class Freshness(NamedTuple):
+    """How fresh an input has to be."""
+
+    report_after: float
+    """silence from which it is late [s], in real time"""
+    stop_after: float
+    """silence from which it is lost [s], in real time"""
+    max_age: float
+    """how far a stamp may lie from the node's clock, either way [s]"""
+
 
 class InputWatch(Watchdog):
-    """Judges the age of the last input, and tells of it."""
+    """Judges each message of an input by its stamp, and the input by the age of its last news."""
 
     def __init__(
         self,
         node: ManagedNode[Any],
         name: str,
-        report_after: float,
-        stop_after: float,
+        limits: Freshness,
         remedy: str = '',
     ) -> None:
         """Start with an input that has never come.
 
         Args:
-            node: In whose log to tell.
+            node: Whose input it is, whose clocks count, and in whose log to tell.
             name: Of the input.
-            report_after: Age from which the input is late [s].
-            stop_after: Age from which it is lost [s].
+            limits: How fresh it has to be.
             remedy: What a person can do when it is lost.
 
         Raises:
-            ConfigurationError: The two are not positive and in order.
+            ConfigurationError: The limits of silence are not positive and in order.
 
         """
-        super().__init__(report_after, stop_after)
-        self._node, self._name = node, name
+        super().__init__(limits.report_after, limits.stop_after)
+        self.spoken = False
+        """Whether it has ever come"""
+        self._node, self._name, self._max_age = node, name, limits.max_age
         self._remedy = f'; {remedy}' if remedy else ''
+        self.newest = 0
+        """Stamp of the last news [ns]"""
+        self._overtaken = 0
+        self._repeats = 0
         self._told = Silence.FRESH
         self._silent_for = 0.0
         self._back_at = -inf
+        node.watch_over(self)
 
-    def tell(self, now: float) -> Silence:
-        """Return how silent the input is at ``now`` [s]; log it where that has changed."""
-        silence, age = self.judge(now), self.age(now)
-        if age is None:
+    def is_news(self, stamp: Any) -> bool:
+        """Return whether a message with this stamp is news; once it was of use, `note` it.
+
+        A repeat and what was overtaken are none. Stamps that went back but rise again are those of
+        a publisher that began anew, once the input was lost. A stamp of zero is set to now.
+
+        Args:
+            stamp: builtin_interfaces/Time of the message's header.
+
+        Raises:
+            SignalError: It lies too far from now.
+
+        """
+        node = self._node
+        if node.clock.fault:
+            return False
+        now = node.nanoseconds()
+        taken = stamp.sec * SECOND + stamp.nanosec
+        if taken == 0:
+            stamp.sec, stamp.nanosec = divmod(now, SECOND)
+            taken = now
+        else:
+            require_near(node, taken, self._max_age, now)
+            if taken <= self.newest and not self._begins_anew(taken):
+                self._repeats += 1
+                return False
+        self.newest = taken
+        return True
+
+    def are_news(self, taken: NDArray[np.int64], now: NDArray[np.int64]) -> bool:
+        """Return whether many messages will all be news when they come.
+
+        Args:
+            taken: (n,) their stamps [ns].
+            now: (n,) what the node's clock will tell when they come [ns].
+
+        """
+        rise = np.diff(taken, prepend=self.newest) > 0
+        near = np.abs(now - taken) <= self._max_age * self._node.clock.speed * SECOND
+        return bool(np.all(rise & near & (taken > 0)))
+
+    def note(self) -> None:
+        """Feed the watchdog: news has come, and was of use."""
+        self.feed(self._node.steady_seconds())
+        self.spoken, self._repeats, self._overtaken = True, 0, 0
+
+    def silence(self) -> Silence:
+        """Return how silent the input is now; lost while the clock cannot be believed."""
+        node = self._node
+        return Silence.LOST if node.clock.fault else self.judge(node.steady_seconds())
+
+    def tell(self) -> Silence:
+        """Return how silent the input is now; log it where that has changed."""
+        silence, age = self.silence(), self.age(self._node.steady_seconds())
+        if age is None or self._node.clock.fault:
             return silence
         if silence is not self._told and not self._is_restless():
             self._log(silence, age)
             self._told = silence
-        self._silent_for = abs(age)
+        self._silent_for = age
         return silence
+
+    def why(self) -> str:
+        """Return why the input is lost, in words."""
+        age = self.age(self._node.steady_seconds())
+        if self._node.clock.fault:
+            return self._node.clock.fault
+        return f'no {self._name} yet' if age is None else self._without(age)
+
+    def _begins_anew(self, taken: int) -> bool:
+        """Return whether a stamp that is not newer is the second, rising, of a lost input."""
+        rises = 0 < self._overtaken < taken
+        self._overtaken = taken
+        if not rises or self.silence() is not Silence.LOST:
+            return False
+        back = (self.newest - taken) * 1e-9
+        text = f'{self._name}: its stamps went back by {back:.3g} s: taken for a new beginning'
+        self._node.get_logger().warning(text)
+        return True
 
     def _is_restless(self) -> bool:
         """Return whether the input has come back only just now."""
         calm = self._node.steady_seconds() - self._back_at >= CALM
         return self._told is Silence.FRESH and not calm
 
+    def _without(self, age: float) -> str:
+        repeats = f' ({self._repeats} repeats or overtaken)' if self._repeats else ''
+        return f'no {"new " if repeats else ""}{self._name} for {age:.1f} s{repeats}'
+
     def _log(self, silence: Silence, age: float) -> None:
-        logger, name = self._node.get_logger(), self._name
-        since = f'for {age:.1f} s' if age >= 0.0 else f'since the clock went back {-age:.1f} s'
+        logger = self._node.get_logger()
         if silence is Silence.FRESH:
-            text = f'{name} is back after {self._silent_for:.1f} s'
+            text = f'{self._name} is back after {self._silent_for:.1f} s'
             logger.info(text)
             self._back_at = self._node.steady_seconds()
         elif silence is Silence.LATE:
-            text = f'no {name} {since}: going on'
+            text = f'{self._without(age)}: going on'
             logger.warning(text)
         else:
-            text = f'no {name} {since}: stopping{self._remedy}'
+            text = f'{self._without(age)}: stopping{self._remedy}'
             logger.error(text)
+
+
+def require_near(node: ManagedNode[Any], taken: int, max_age: float, now: int) -> None:
+    """Raise unless a stamp lies within ``max_age`` of now; in proportion where time runs fast.
+
+    Args:
+        node: Whose clock counts.
+        taken: The stamp [ns].
+        max_age: Limit either way [s], in real time.
+        now: Of the node's clock [ns].
+
+    Raises:
+        SignalError: It lies further away.
+
+    """
+    age = (now - taken) * 1e-9
+    limit = max_age * node.clock.speed
+    if abs(age) > limit:
+        where = f'{age:.3g} s ago' if age > 0.0 else f'{-age:.3g} s ahead'
+        msg = (
+            f'stamped {where}, limit {limit:.3g} s: set the clocks of both machines alike, give '
+            'both nodes the same use_sim_time, or raise max_age'
+        )
+        raise SignalError(msg)

@@ -32,6 +32,19 @@ def stamp_of(nanoseconds: int) -> Time:
     return Time(sec=seconds, nanosec=rest)
 
 
+def require_frame(frame: str, *expected: str) -> None:
+    """Raise unless a message's frame is as expected; one that is not given is.
+
+    Raises:
+        SignalError: It is another.
+
+    """
+    if frame and frame not in expected:
+        names = ' or '.join(f"'{name}'" for name in expected)
+        msg = f"frame '{frame}': expected {names}; transform it first, or set the frame parameter"
+        raise SignalError(msg)
+
+
 def twist_of(message: Any) -> Twist:
     """Return the planar part of a geometry_msgs/Twist.
 

@@ -7,6 +7,7 @@ refused with its reason while the node lives on.
 
 from __future__ import annotations
 
+import time
 import traceback
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
@@ -18,6 +19,7 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.qos import QoSProfile
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
+from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
 from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.quotation import told
 from agv_motion.ros.rclpy_services import answer_all
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
 
     from _typeshed import DataclassInstance
     from rclpy.lifecycle import LifecycleState
+
+    from agv_motion.motion.watchdog import Watchdog
 
 P = TypeVar('P', bound='DataclassInstance')
 
@@ -42,6 +46,18 @@ DEFECT_TRACE = 2000
 
 LAST_WORD = 1.0
 """[s] that a stopping node waits until its listeners have acknowledged its last messages."""
+
+
+LOOK_PERIOD = 0.1
+"""[s] between two looks at the node's clock."""
+
+CLOCK_TOPIC = '/clock'
+
+SELDOM = 5.0
+"""[s] between two words in the log on what is wrong with the clock."""
+
+PATIENCE = 2.0
+"""[s] for which a node that has just begun waits for the first /clock without a word."""
 
 
 class Diagnosis(NamedTuple):
@@ -79,7 +95,12 @@ class ManagedNode(LifecycleNode, Generic[P]):
         self._diagnostics = self._create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
         )
-        self.create_timer(1.0, self._publish_diagnostics, clock=self._steady)
+        self.clock = ClockWatch()
+        """Whether the node's clock can be believed; while it has a fault, inputs are lost"""
+        self._watchdogs: list[Watchdog] = []
+        self._on_fault: list[Callable[[], None]] = []
+        self._clock_told, self._clock_told_at = False, self.steady_seconds() + PATIENCE - SELDOM
+        self._start_watch()
         answer_all(self)
 
     # What a node overrides
@@ -107,19 +128,37 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """The parameters in force."""
         return self._declared.values
 
+    def nanoseconds(self) -> int:
+        """Return the time of the node's clock [ns], simulated where `use_sim_time` is set."""
+        return int(self._now().nanoseconds)
+
     def seconds(self) -> float:
         """Return the time of the node's clock [s], simulated where `use_sim_time` is set."""
         return float(self._now().nanoseconds) * 1e-9
 
     def steady_seconds(self) -> float:
-        """Return the time of a clock that never leaps [s]."""
-        return float(self._steady.now().nanoseconds) * 1e-9
+        """Return the time of a clock that never leaps, stands or is simulated [s]."""
+        return time.monotonic()
+
+    def watch_over(self, watchdog: Watchdog) -> None:
+        """Take an input for lost until it comes again, whenever the clock has a fault."""
+        self._watchdogs.append(watchdog)
+        limit = max(watchdog.stop_after - LOOK_PERIOD, 0.5 * watchdog.stop_after)
+        self.clock.stands_after = min(self.clock.stands_after, limit)
 
     def stamp(self, message: Any) -> float:
         """Set the stamp of a message's header to now, without a new object; return now [s]."""
         stamp, now = message.header.stamp, self._now().nanoseconds
         stamp.sec, stamp.nanosec = divmod(now, 1_000_000_000)
         return float(now) * 1e-9
+
+    def create_subscription(
+        self, msg_type: Any, topic: str, callback: Any, *args: Any, **kwargs: Any
+    ) -> Any:
+        """Create a subscription; a time on /clock that rclpy could not bear ends no node."""
+        if topic == CLOCK_TOPIC:
+            callback = self._if_possible(callback)
+        return super().create_subscription(msg_type, topic, callback, *args, **kwargs)
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
         """Return a publisher that lives until cleanup."""
@@ -163,6 +202,14 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
         timer = self.create_timer(seconds, guarded, clock=clock)
         self._entities.append(lambda: self.destroy_timer(timer))
+
+    def watch_inputs(self, stop_after: float, act: Callable[[], None]) -> None:
+        """Call ``act``, which stops where an input is lost, at once when the clock has a fault.
+
+        And else several times within ``stop_after`` [s], by the steady clock.
+        """
+        self.every(min(0.1, stop_after / 4.0), act, self._steady)
+        self._on_fault.append(act)
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
         """Offer a service whose answer is `success`, and `message` where its type has that.
@@ -225,7 +272,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
         return result
 
     def on_activate(self, _: LifecycleState) -> TransitionCallbackReturn:
-        """Let the callbacks act."""
+        """Let the callbacks act; what was heard before counts no more."""
+        self._forget_inputs()
         result = self._attempt('activate', self.begin)
         self.defect = ''
         self.active = result is TransitionCallbackReturn.SUCCESS
@@ -244,6 +292,9 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
     def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:
         """Close the topics."""
+        self._watchdogs.clear()
+        self._on_fault.clear()
+        self.clock.stands_after = STANDS_AFTER
         while self._entities:
             self._attempt('close', self._entities.pop())
         return TransitionCallbackReturn.SUCCESS
@@ -258,6 +309,44 @@ class ManagedNode(LifecycleNode, Generic[P]):
         return self.on_shutdown(state)
 
     # Plumbing
+
+    def _start_watch(self) -> None:
+        """Look at the clock and publish diagnostics from now on, by the steady clock."""
+        self._look_at_clock()
+        self.create_timer(LOOK_PERIOD, self._look_at_clock, clock=self._steady)
+        self.create_timer(1.0, self._publish_diagnostics, clock=self._steady)
+
+    def _look_at_clock(self) -> None:
+        """Take all inputs for lost while the clock has a fault, and tell of it."""
+        clock, steady = self.clock, self.steady_seconds()
+        clock.look(self.seconds(), steady)
+        if clock.fault:
+            self._forget_inputs()
+            for act in self._on_fault if self.active else ():
+                act()
+        if clock.fault and not self._clock_told and steady - self._clock_told_at >= SELDOM:
+            self._clock_told = True
+            self.get_logger().error(f'{clock.fault}: standing still until it runs well')
+        elif self._clock_told and not clock.fault:
+            self._clock_told, self._clock_told_at = False, steady
+            self.get_logger().info('the clock runs well: going on')
+
+    def _forget_inputs(self) -> None:
+        for watchdog in self._watchdogs:
+            watchdog.forget()
+
+    def _if_possible(self, callback: Callable[[Any], None]) -> Callable[[Any], None]:
+        """Return ``callback`` for times that can be; a negative one raises in rclpy's own."""
+
+        def guarded(message: Any) -> None:
+            if message.clock.sec >= 0:
+                callback(message)
+                return
+            fault = f'{CLOCK_TOPIC} told {message.clock.sec} s, and no time is negative'
+            self.clock.distrust(fault, self.steady_seconds())
+            self.refuse(f'{fault}: look at who publishes it')
+
+        return guarded
 
     def _create_publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
         """Create a publisher without event callbacks: destroying those crashes EventsExecutor."""
@@ -298,6 +387,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
     def _publish_diagnostics(self) -> None:
         level, message, values = self._condition()
+        if self.clock.fault:
+            level, message = ERROR, f'{self.clock.fault}: standing still'
         if self._refused:
             values = values | {'refused inputs': str(self._refused), 'last': self.complaint}
         if level == OK and self.steady_seconds() - self._complained_at < COMPLAINT_LIFETIME:

@@ -73,10 +73,10 @@ class World:
             node.on_deactivate(None)
             self._pass_on()
 
-    def look_ahead(self, topic: str, messages: list[bytes]) -> None:
-        """Show the messages that :meth:`feed` will bring next on a topic, all together."""
+    def look_ahead(self, topic: str, messages: list[bytes], stamps: list[int]) -> None:
+        """Show the messages that :meth:`feed` will bring next on a topic, and when [ns]."""
         for listener in self.listeners.get(topic, ()):
-            listener.look_ahead(messages)
+            listener.look_ahead(messages, stamps)
 
     def feed(self, topic: str, stamp: int, data: bytes) -> None:
         """Let timers run up to ``stamp`` [ns], then let a message from outside be heard.
@@ -191,16 +191,17 @@ class Listener:
         """Pass the messages of one topic on to ``callback``."""
         self.node, self.callback = node, callback
         self._decode = codec(kind).decode
-        self.prepare: Callable[[list[bytes]], list[Any]] | None = None
-        """makes of many messages what the callback takes; of none if it cannot"""
+        self.prepare: Callable[[list[bytes], list[int]], list[Any]] | None = None
+        """makes of many messages, and when they come [ns], what the callback takes; of none if it
+        cannot"""
         self._prepared: deque[Any] = deque()
         self.takes_rows = False
         """whether the callback takes the rows of other nodes"""
 
-    def look_ahead(self, messages: list[bytes]) -> None:
+    def look_ahead(self, messages: list[bytes], stamps: list[int]) -> None:
         """Prepare what will be heard next."""
         if self.prepare is not None:
-            self._prepared.extend(self.prepare(messages))
+            self._prepared.extend(self.prepare(messages, stamps))
 
     def hear(self, data: Any) -> None:
         """Take a message in bytes, or a row."""

@@ -153,14 +153,15 @@ def test_what_is_refused_is_counted_and_the_node_lives_on(diary):
 def test_what_was_looked_at_together_is_heard_one_by_one(diary):
     shown = []
 
-    def prepare(messages):
+    def prepare(messages, stamps):
         shown.append(len(messages))
         return [Float64(data=10.0 + FLOAT.decode(data).data) for data in messages]
 
     echo = add(diary.world, Echo, {}, {})
     echo.listener('in').prepare = prepare
     diary.world.start()
-    diary.world.look_ahead('/in', [FLOAT.encode(Float64(data=float(i))) for i in range(2)])
+    messages = [FLOAT.encode(Float64(data=float(i))) for i in range(2)]
+    diary.world.look_ahead('/in', messages, [START, START + SECOND])
     diary.feed('/in', 0.1, 0.0)
     diary.feed('/in', 0.2, 1.0)
     diary.feed('/in', 0.3, 2.0)
