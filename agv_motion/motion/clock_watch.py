@@ -16,7 +16,7 @@ CALM = 0.5
 """[s] for which a clock must have run well before it is believed again."""
 
 STANDS_AFTER = 2.0
-"""[s] without progress after which a clock stands still, where no input has a shorter limit."""
+"""[s] without progress after which a clock stands still, where no input has a limit."""
 
 LOOKS = 9
 """Number of looks whose median tells how fast the clock runs: one leap does not change it."""

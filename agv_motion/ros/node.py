@@ -143,8 +143,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def watch_over(self, watchdog: Watchdog) -> None:
         """Take an input for lost until it comes again, whenever the clock has a fault."""
         self._watchdogs.append(watchdog)
-        limit = max(watchdog.stop_after - LOOK_PERIOD, 0.5 * watchdog.stop_after)
-        self.clock.stands_after = min(self.clock.stands_after, limit)
+        limit = min(each.stop_after for each in self._watchdogs)
+        self.clock.stands_after = max(limit - LOOK_PERIOD, 0.5 * limit)
 
     def stamp(self, message: Any) -> float:
         """Set the stamp of a message's header to now, without a new object; return now [s]."""

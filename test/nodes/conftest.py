@@ -49,7 +49,9 @@ class Tester:
 
     def logs(self):
         """Return the list into which comes what the nodes of this graph log from now on."""
-        return self.listen(Log, '/rosout', QoSProfile(depth=1000))
+        inbox = self.listen(Log, '/rosout', QoSProfile(depth=1000))
+        self.graph.meet()
+        return inbox
 
     def publisher(self, kind, topic, qos=COMMAND):
         """Return a publisher that has found its listener."""

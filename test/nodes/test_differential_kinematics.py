@@ -19,8 +19,12 @@ from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros.node import OK, WARN
 from agv_motion.ros.qos import SENSOR
 
-BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0}
+BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0, 'max_age': 1e10}
 NAMES = ['left_wheel', 'right_wheel']
+
+
+def nanoseconds(header):
+    return header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
 
 
 class Robot:
@@ -37,7 +41,6 @@ class Robot:
     @staticmethod
     def twist(vx=0.0, vy=0.0, wz=0.0):
         message = TwistStamped()
-        message.header.stamp.sec = 42
         message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = vx, vy, wz
         return message
 
@@ -46,8 +49,12 @@ class Robot:
         self.cmd_vel.publish(self.twist(**components))
 
     def drive(self, **components):
+        """Return the command that answers a twist: the first that is stamped no sooner."""
+        watch = self.node._command_watch
+        before = watch.newest
         self.send(**components)
-        return self.tester.wait(self.commands, lambda m: m.header.stamp.sec == 42)
+        self.tester.graph.spin_until(lambda: watch.newest > before)
+        return self.tester.wait(self.commands, lambda m: nanoseconds(m.header) >= watch.newest)
 
     def tell(self, angles, stamp, names=NAMES):
         message = JointState(name=names, position=angles)

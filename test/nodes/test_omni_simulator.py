@@ -20,7 +20,7 @@ from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.ros.qos import SENSOR
 
-FAST = {'time_factor': 20.0, 'robot__wheel_noise': 0.0}
+FAST = {'time_factor': 20.0, 'command_timeout': 60.0, 'robot__wheel_noise': 0.0}
 MECANUM = {
     'wheel_angles': [pi / 4, -pi / 4, 3 * pi / 4, -3 * pi / 4],
     'wheel_distances': [0.3] * 4,

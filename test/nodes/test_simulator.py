@@ -20,7 +20,7 @@ from agv_motion.nodes.simulator import Simulator
 from agv_motion.ros.messages import TurretJoints, seconds_of
 from agv_motion.ros.qos import SENSOR
 
-FAST = {'time_factor': 20.0}
+FAST = {'time_factor': 20.0, 'command_timeout': 60.0}
 
 
 def drive(tester, rate):

@@ -31,7 +31,7 @@ PAIR = {'turret_x': [0.5, -0.5], 'turret_y': [0.0, 0.0]}
 QUICK = {
     **PAIR, 'steering_rate': 100.0, 'steering_acceleration': 1e4, 'wheel_acceleration': 100.0,
 }  # fmt: skip
-FAST = {**QUICK, 'max_wheel_speed': 5.0}
+FAST = {**QUICK, 'max_wheel_speed': 5.0, 'max_age': 1e10}
 
 
 def twist(vx=0.0, vy=0.0, wz=0.0):
