@@ -111,7 +111,7 @@ class WheelsNode(ManagedNode[P]):
         fastest = odometry.max_wheel_speed / min(wheel_radii)
         self._angles = WheelAngles(len(joint_names), odometry.max_gap, fastest)
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._command_watch = InputWatch(self, 'cmd_vel', limits)
+        self.command_watch = InputWatch(self, 'cmd_vel', limits)
         self._state_watch = InputWatch(self, 'wheels/state', limits, 'look at the encoders')
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
@@ -134,7 +134,7 @@ class WheelsNode(ManagedNode[P]):
 
     def silence(self) -> Silence:
         """Return how silent `cmd_vel` is; no more than a fact where the robot was told to stand."""
-        return self._command_watch.silence()
+        return self.command_watch.silence()
 
     def why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""
@@ -150,7 +150,7 @@ class WheelsNode(ManagedNode[P]):
             self.standing = True
             self._send(REST)
         require_frame(header.frame_id, self.parameters.base_frame)
-        if self._command_watch.is_news(header.stamp):
+        if self.command_watch.is_news(header.stamp):
             self._drive(twist)
 
     def _on_twist(self, message: TwistMessage) -> None:
@@ -161,7 +161,7 @@ class WheelsNode(ManagedNode[P]):
         if self.clock.fault:
             return
         self._send(REST if self.stopped or self.blind else twist)
-        self._command_watch.note()
+        self.command_watch.note()
         self.standing = twist == REST
 
     def _send(self, twist: Twist) -> None:
@@ -178,7 +178,7 @@ class WheelsNode(ManagedNode[P]):
         """Stop when `cmd_vel` falls silent, or encoders that have spoken do."""
         self._extras_wanted = bool(self._rates.get_subscription_count())
         self.blind = self._state_watch.tell() is Silence.LOST and self._state_watch.spoken
-        command = self._command_watch
+        command = self.command_watch
         silence = command.silence() if self.standing else command.tell()
         if self.blind or silence is Silence.LOST:
             self._send(REST)

@@ -50,7 +50,7 @@ class Robot:
 
     def drive(self, **components):
         """Return the command that answers a twist: the first that is stamped no sooner."""
-        watch = self.node._command_watch
+        watch = self.node.command_watch
         before = watch.newest
         self.send(**components)
         self.tester.graph.spin_until(lambda: watch.newest > before)

@@ -64,7 +64,7 @@ class Robot:
 
     def drive(self, **components):
         """Return the command that answers a twist: the first that is stamped no sooner."""
-        watch = self.node._command_watch
+        watch = self.node.command_watch
         before = watch.newest
         self.commands.clear()
         self.cmd_vel.publish(twist(**components))
