@@ -34,28 +34,34 @@ LONG_REST = 1.0
 HERE = Pose(0.0, 0.0, 0.0)
 
 
+After = Annotated[
+    float,
+    Spec('time without motion, though told to move, until it stops; 0: never', 's', (0.0, 3600.0),
+         dynamic=True),
+]  # fmt: skip
+Distance = Annotated[
+    float,
+    Spec('steps or drift of the pose of a robot that stands; it is to be told twice as much first',
+         'm', (0.001, 100.0), dynamic=True),
+]  # fmt: skip
+Then = Annotated[
+    str,
+    Spec('stop: until a person lets it go on; or try again by itself', choices=(STOP, RETRY),
+         dynamic=True),
+]  # fmt: skip
+RetryAfter = Annotated[
+    float, Spec('time to stand before it tries again', 's', (0.1, 1e5), dynamic=True)
+]
+
+
 @dataclass(frozen=True)
 class BlockedParameters:
     """When a robot that is told to move and does not is blocked, and what then."""
 
-    after: Annotated[
-        float,
-        Spec('time without motion, though told to move, until it stops; 0: never', 's',
-             (0.0, 3600.0), dynamic=True),
-    ] = 5.0  # fmt: skip
-    distance: Annotated[
-        float,
-        Spec('steps or drift of the pose of a robot that stands; it is to be told twice as much '
-             'first', 'm', (0.001, 100.0), dynamic=True),
-    ] = 0.05  # fmt: skip
-    then: Annotated[
-        str,
-        Spec('stop: until a person lets it go on; or try again by itself', choices=(STOP, RETRY),
-             dynamic=True),
-    ] = STOP  # fmt: skip
-    retry_after: Annotated[
-        float, Spec('time to stand before it tries again', 's', (0.1, 1e5), dynamic=True)
-    ] = 10.0
+    after: After = 5.0
+    distance: Distance = 0.05
+    then: Then = STOP
+    retry_after: RetryAfter = 10.0
 
     def __post_init__(self) -> None:
         """Check every row, and that a short glitch is no block."""
@@ -63,6 +69,16 @@ class BlockedParameters:
         if 0.0 < self.after < 0.5:
             msg = f'after = {self.after} s: give 0.5 s or more, or 0 to look for no block at all'
             raise ConfigurationError(msg)
+
+
+@dataclass(frozen=True)
+class SlowlyBlockedParameters(BlockedParameters):
+    """The same for a tree: a metre a minute, a pose by radio, and nobody beside it."""
+
+    after: After = 30.0
+    distance: Distance = 0.3
+    then: Then = RETRY
+    retry_after: RetryAfter = 60.0
 
 
 class BlockedWatch:

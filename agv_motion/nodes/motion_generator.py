@@ -9,6 +9,7 @@ from nav_msgs.msg import Path
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.blocked import BlockedGuard
 from agv_motion.motion.generator import SapFlow, checked_sap_flow
 from agv_motion.motion.limits import Limited, Limits
 from agv_motion.motion.mind import Mind
@@ -18,11 +19,11 @@ from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.company_keeper import CompanyKeeper
 from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
-from agv_motion.planar import Pose, Twist
+from agv_motion.planar import REST, Pose, Twist
 from agv_motion.ros.config import find_config
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
-from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.twist_publisher import TwistPublisher
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 THINK_PERIOD = 1.0
 """[s] after which the tree thinks again though nothing is new: of the hour, and of other ways."""
+
+RELEASE = 'clear its way, then call ~/pause with data: false'
+"""What a person does to let a blocked tree go on."""
 
 
 class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
@@ -62,7 +66,13 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._told_goal: Goal | None = None
         self._told_way: tuple[tuple[float, float], ...] = ()
         self._limited_by: tuple[str, ...] = ()
-        self._commanded_at = self.seconds()
+        self._commanded_at = self._looked_at = self.seconds()
+        self._twist = REST
+        self._guard = BlockedGuard(
+            given.blocked,
+            given.platform_radius,
+            'clear its way, then call ~/pause with data: false',
+        )
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
@@ -93,7 +103,12 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         return CompanyKeeper(self, self._mind, given.sharing(), name, given.peers_file)
 
     def begin(self) -> None:
-        """Tell where the tree means to go, and what it remembers."""
+        """Know nothing of before; tell where the tree means to go, and what it remembers."""
+        self._sap_flow = self._pose = self._thought = None
+        self._commanded_at = self._looked_at = self.seconds()
+        self._guard.release()
+        self._lost = 'sap flow'
+        self._judge()
         self._tell_goal(self._mind.goal)
         if self._keeper is not None:
             self._keeper.begin()
@@ -121,6 +136,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if self._company is not None:
             values |= self._company.report()
         alarmed = self._company is not None and self._company.alarm
+        if self._guard.reason:
+            return Diagnosis(ERROR, self._told, values)
         return Diagnosis(WARN if self._lost or alarmed else OK, self._told, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
@@ -156,31 +173,52 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         require_frame(message.header.frame_id, self.parameters.map_frame)
         goal = pose_of(message.pose)
         self._mind.set_goal(goal.x, goal.y, 'asked for')
+        self._guard.release()
+        self._judge()
         self._thought = None
         self._tell_goal(self._mind.goal)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
+        if not self._paused:
+            self._guard.release()
         self._judge()
         self._move()
         return 'paused' if self._paused else 'going on'
 
     def _on_next_goal(self, _: Any) -> str:
         self._mind.next_goal()
+        self._guard.release()
+        self._judge()
         self._thought = None
         self._move()
         return self._mind.goal.reason if self._mind.goal else f'chosen later; {self._told}'
 
     def _on_go_home(self, _: Any) -> str:
         self._mind.go_home()
+        self._guard.release()
+        self._judge()
         self._thought = None
         self._move()
         return self._told
 
     def _tick(self) -> None:
         """Keep the command alive."""
+        self._look_for_block()
         self._judge()
         self._move()
+
+    def _look_for_block(self) -> None:
+        """Find out whether the tree has moved as it was told."""
+        given, guard, now = self.parameters, self._guard, self.seconds()
+        guard.watch.parameters = given.blocked
+        dt = min(max(now - self._looked_at, 0.0), 2.0 / given.rate)
+        self._looked_at = now
+        before = guard.reason
+        if guard.update(dt, None if self._lost else self._pose, self._twist):
+            self.get_logger().error(guard.reason)
+        elif before and not guard.reason:
+            self.get_logger().info('blocked before: trying again')
 
     def _watch(self) -> None:
         """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
@@ -201,7 +239,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             return 'resting: a probe cannot be believed'
         if self._lost or self._sap_flow is None or self._pose is None:
             return f'resting: {self.clock.fault or "no " + (self._lost or "input")}'
-        return ''
+        return self._guard.reason
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
@@ -239,6 +277,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._state.publish(String(data=state))
 
     def _tell_twist(self, twist: Twist) -> None:
+        self._twist = twist
         self._command.publish(twist)
 
     def _tell_goal(self, goal: Goal | None) -> None:

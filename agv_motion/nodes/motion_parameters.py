@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Annotated
 
+from agv_motion.blocked import SlowlyBlockedParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import Outline
 from agv_motion.motion.generator import RestParameters
@@ -66,6 +67,7 @@ class MotionGeneratorParameters(Outline):
         float,
         Spec('time since a visit that memory/last_visit shows as 100', 'h', (0.01, 1e5)),
     ] = 100.0
+    blocked: SlowlyBlockedParameters = field(default_factory=SlowlyBlockedParameters)
     rest: RestParameters = field(default_factory=RestParameters)
     goals: GoalParameters = field(default_factory=GoalParameters)
     memory: MemoryParameters = field(default_factory=MemoryParameters)

@@ -16,7 +16,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
 from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
@@ -82,6 +82,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
         super().__init__(name, **kwargs)
         self.active = False
         self._entities: list[Callable[[], Any]] = []
+        self._unheard: dict[str, Callable[[], None]] = {}
+        """Latched messages that came while inactive, by topic"""
         self._now = self.get_clock().handle.get_now
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.complaint = ''
@@ -169,16 +171,23 @@ class ManagedNode(LifecycleNode, Generic[P]):
     def listen(
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
     ) -> None:
-        """Call ``callback`` with each message while active; what it raises is told, not fatal."""
+        """Call ``callback`` with each message while active; what it raises is told, not fatal.
+
+        Nobody says again what is latched: what comes while inactive is heard at the activation.
+        """
+        latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
         def guarded(message: Any) -> None:
-            if self.active:
-                try:
-                    callback(message)
-                except AgvMotionError as error:
-                    self.refuse(f'{topic}: {self.message_of(error)}')
-                except Exception as error:  # noqa: BLE001 - a defect
-                    self.stop_for(topic, error)
+            if not self.active:
+                if latched:
+                    self._unheard[topic] = lambda: guarded(message)
+                return
+            try:
+                callback(message)
+            except AgvMotionError as error:
+                self.refuse(f'{topic}: {self.message_of(error)}')
+            except Exception as error:  # noqa: BLE001 - a defect
+                self.stop_for(topic, error)
 
         subscription = self.create_subscription(
             kind, topic, guarded, qos,
@@ -277,6 +286,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
         result = self._attempt('activate', self.begin)
         self.defect = ''
         self.active = result is TransitionCallbackReturn.SUCCESS
+        while self.active and self._unheard:
+            self._unheard.popitem()[1]()
         return result
 
     def on_deactivate(self, _: LifecycleState) -> TransitionCallbackReturn:
@@ -294,6 +305,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """Close the topics."""
         self._watchdogs.clear()
         self._on_fault.clear()
+        self._unheard.clear()
         self.clock.stands_after = STANDS_AFTER
         while self._entities:
             self._attempt('close', self._entities.pop())

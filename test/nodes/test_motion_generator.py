@@ -188,3 +188,58 @@ def test_a_zone_that_is_no_polygon_stops_the_start(tester, tmp_path, capfd):
     with pytest.raises(StartError):
         tester.start(MotionGenerator, zone_file=str(path))
     assert 'boundary is no polygon' in capfd.readouterr().err
+
+
+def keeps_telling(senses, until):
+    """Tell sap flow and pose again and again, the same pose, until ``until()``."""
+
+    def tell():
+        senses.stand(7.0, 1.0, 0.0)
+        senses.feel(0.9, 0.9, 0.9)
+
+    senses.tester.graph.repeat(tell, until, every=0.05)
+
+
+def says(senses, words):
+    return any(words in message.data for message in senses.states)
+
+
+def test_a_tree_that_does_not_move_though_told_to_is_blocked_until_a_person_lets_it_go_on(
+    make_senses,
+):
+    """15 mm/s: 7 mm in 0.5 s, which 1 mm of the pose would show."""
+    senses = make_senses(blocked__after=0.5, blocked__distance=0.001, blocked__then='stop')
+    keeps_telling(senses, lambda: says(senses, 'blocked: told to move by 0.0'))
+    senses.commands.clear()
+    keeps_telling(senses, lambda: len(senses.commands) > 5)
+    assert not any(map(senses.moving, senses.commands))
+    assert senses.node.diagnose().level == b'\x02'
+    assert senses.tester.ask(SetBool, 'motion_generator/pause', SetBool.Request()).success
+    senses.commands.clear()
+    keeps_telling(senses, lambda: any(map(senses.moving, senses.commands)))
+
+
+def test_or_tries_again_by_itself(make_senses):
+    senses = make_senses(blocked__after=0.5, blocked__distance=0.001, blocked__retry_after=0.3)
+    keeps_telling(senses, lambda: says(senses, 'trying again in 0.3 s'))
+    senses.commands.clear()
+    keeps_telling(senses, lambda: any(map(senses.moving, senses.commands)))
+
+
+def test_activated_again_it_rests_until_sap_flow_and_pose_are_told_anew(senses):
+    """What it knew before may be hours old; what was latched meanwhile is heard."""
+    keeps_telling(senses, lambda: any(map(senses.moving, senses.commands)))
+    senses.node.trigger_deactivate()
+    senses.rests()
+    senses.valid.publish(Bool(data=False))
+    senses.tester.graph.spin_for(0.3)
+    senses.commands.clear()
+    senses.node.trigger_activate()
+    senses.tester.graph.spin_until(lambda: len(senses.commands) > 5)
+    senses.feel(0.9, 0.9, 0.9)
+    senses.tester.graph.spin_for(0.3)
+    assert not any(map(senses.moving, senses.commands))
+    keeps_telling(senses, lambda: says(senses, 'a probe cannot be believed'))
+    senses.valid.publish(Bool(data=True))
+    senses.commands.clear()
+    keeps_telling(senses, lambda: any(map(senses.moving, senses.commands)))
