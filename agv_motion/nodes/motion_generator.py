@@ -269,7 +269,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _publish(self, limited: Limited, state: str) -> None:
         self._limited_by, self._commanded_at = limited.by, self.seconds()
         given = self.parameters
-        self._tell_twist(to_twist(limited.command, given.linear_speed, given.rim))
+        self._twist = to_twist(limited.command, given.linear_speed, given.rim)
+        self._tell_twist(self._twist)
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
         if state != self._told:
@@ -277,7 +278,6 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._state.publish(String(data=state))
 
     def _tell_twist(self, twist: Twist) -> None:
-        self._twist = twist
         self._command.publish(twist)
 
     def _tell_goal(self, goal: Goal | None) -> None:
