@@ -68,11 +68,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = self.seconds()
         self._twist = REST
-        self._guard = BlockedGuard(
-            given.blocked,
-            given.platform_radius,
-            'clear its way, then call ~/pause with data: false',
-        )
+        self._guard = BlockedGuard(given.blocked, given.rim, RELEASE)
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         limits = Freshness(given.report_after, given.stop_after, given.max_age)

@@ -133,7 +133,7 @@ def test_no_command_passes_a_limit(kind, driver):
     assert max(rims) == pytest.approx(0.2)
 
 
-def test_activated_again_it_stands_until_it_is_told_anew(driver):
+def test_activated_again_it_stands_until_it_is_told_anew(driver, capfd):
     far = driver(report_after=0.2, stop_after=0.4)
     far.go()
     far.robot.moves()
@@ -148,6 +148,7 @@ def test_activated_again_it_stands_until_it_is_told_anew(driver):
         far.robot.report()
         far.tester.graph.spin_for(0.02)
     assert not any(map(any, far.robot.commands))
+    assert 'no odom for' not in capfd.readouterr().err
     far.go()
     far.robot.moves()
     first = next(twist for twist in far.robot.commands if any(twist))
