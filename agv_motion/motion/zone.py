@@ -25,6 +25,10 @@ MARGIN = 0.5
 """[m] between the rim of the platform and every edge; the ancestor counted it from the centre."""
 
 
+ROUNDING = 1e-6
+"""[m] by which a rim may seem to be over an edge."""
+
+
 class Zone:
     """One zone; immutable."""
 
@@ -142,7 +146,7 @@ class Zone:
 
     def holds(self, x: float, y: float) -> bool:
         """Return whether the whole platform, its rim included, lies on the floor at (x, y)."""
-        return self.contains(x, y) and self.edge_distance(x, y) >= self.rim
+        return self.contains(x, y) and self.edge_distance(x, y) >= self.rim - ROUNDING
 
     def edge_distance(self, x: float, y: float) -> float:
         """Return how far (x, y) lies from the nearest edge [m]."""

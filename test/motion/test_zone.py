@@ -7,6 +7,8 @@ from math import inf, nan
 from pathlib import Path
 
 import pytest
+import shapely
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -164,3 +166,112 @@ def test_a_drawing_that_is_no_zone_is_told(tmp_path, features, word):
 def test_a_file_that_is_not_there_is_named():
     with pytest.raises(ConfigurationError, match='cannot read the zone'):
         load_zone('nowhere.yaml')
+
+
+# The body, not a point
+
+
+@pytest.mark.parametrize(
+    ('point', 'holds', 'walkable'),
+    [
+        ((1.69, 5.0), True, True), ((1.67, 5.0), True, False), ((1.19, 5.0), True, False),
+        ((1.17, 5.0), False, False), ((0.01, 5.0), False, False), ((-1.0, 5.0), False, False),
+        ((2.81, 5.0), True, False), ((2.83, 5.0), False, False),
+    ],
+)  # fmt: skip
+def test_the_margin_counts_from_the_rim(point, holds, walkable):
+    """A disc of 1.18 m, half a metre from the wall at 0 and from the column at 4: 1.68 m to it."""
+    zone = Zone(SQUARE, [COLUMN], margin=0.5, rim=1.18)
+    assert zone.holds(*point) is holds
+    assert zone.walkable(*point) is walkable
+    assert zone.clearance == pytest.approx(1.68)
+
+
+@given(st.floats(-1, 11), st.floats(-1, 11), st.floats(0.0, 0.5), st.floats(0.01, 1.5))
+def test_where_the_platform_may_be_all_of_it_keeps_the_margin(x, y, margin, rim):
+    """Round the corners of the column too, where an arc inside the circle would be too near."""
+    zone = Zone(SQUARE, [COLUMN], margin=margin, rim=rim)
+    near = zone.nearest_walkable(x, y)
+    assert zone.edge_distance(*near) >= rim + margin - 1e-9
+    body = shapely.Point(near).buffer(rim - 1e-6, quad_segs=64)
+    assert shapely.covers(zone.floor, body)
+    if zone.walkable(x, y):
+        assert zone.holds(x, y)
+
+
+@pytest.mark.parametrize(('width', 'parts'), [(2.37, 2), (2.53, 2), (2.56, 1), (2.8, 1)])
+def test_a_door_is_as_wide_as_the_platform_and_both_margins(width, parts):
+    wall = [
+        [[4.9, 0], [5.1, 0], [5.1, 3], [4.9, 3]],
+        [[4.9, 3 + width], [5.1, 3 + width], [5.1, 10], [4.9, 10]],
+    ]
+    assert len(Zone(SQUARE, wall, margin=0.09, rim=1.18).parts) == parts
+
+
+def test_what_hangs_over_an_edge_is_told_in_metres():
+    zone = Zone(SQUARE, margin=0.5, rim=1.18)
+    assert zone.why_not(1.0, 5.0) == 'has the rim 0.18 m over an edge'
+    assert 'margin of 0.5 m beside the rim of 1.18 m' in zone.why_not(1.5, 5.0)
+
+
+@pytest.mark.parametrize('rim', [-1.0, nan, inf])
+def test_a_rim_that_is_none_is_refused(rim):
+    with pytest.raises(GeometryError, match='rim = '):
+        Zone(SQUARE, rim=rim)
+
+
+@pytest.mark.parametrize(
+    ('text', 'clearance'),
+    [
+        ('', 0.5 + 1.18), ('margin: 0.2', 0.2 + 1.18), ('clearance_from: rim', 0.5 + 1.18),
+        ('clearance_from: centre', 0.5), ('{margin: 0.3, clearance_from: centre}', 0.3),
+    ],
+)  # fmt: skip
+def test_a_file_says_what_its_margin_counts_from(tmp_path, text, clearance):
+    path = tmp_path / 'zone.yaml'
+    path.write_text(f'boundary: {SQUARE}\n' + text.strip('{}').replace(', ', '\n'))
+    assert load_zone(path).clearance == pytest.approx(clearance)
+    drawing = {'type': 'Polygon', 'coordinates': [SQUARE]}
+    properties = yaml.safe_load(text) or {}
+    path = tmp_path / 'zone.geojson'
+    path.write_text(json.dumps({'type': 'Feature', 'properties': properties, 'geometry': drawing}))
+    assert load_zone(path).clearance == pytest.approx(clearance)
+    assert load_zone(path, 0.3).rim == (0.0 if 'centre' in text else 0.3)
+
+
+def test_another_way_to_count_is_refused(tmp_path):
+    path = tmp_path / 'zone.yaml'
+    path.write_text(f'boundary: {SQUARE}\nclearance_from: trunk\n')
+    with pytest.raises(ConfigurationError, match=r"clearance_from = 'trunk': choose one of rim"):
+        load_zone(path)
+
+
+def test_the_shipped_zones_have_room_for_the_platform():
+    """Indoors 12 m2 of 50, outdoors 194 m2 of 300, for the centre; the platform covers more."""
+    areas = {}
+    for name in ('zone_outdoor.yaml', 'zone_indoor.yaml'):
+        (part,) = load_zone(CONFIG / name).parts
+        areas[name] = part.area
+        covered = part.buffer(1.18).area / load_zone(CONFIG / name).area
+        assert covered > 0.75
+    assert areas['zone_outdoor.yaml'] == pytest.approx((20 - 3.36) * (15 - 3.36))
+    assert areas['zone_indoor.yaml'] > 12.0
+
+
+PARIS = [[2.3522, 48.8566], [2.3525, 48.8566], [2.3525, 48.8568], [2.3522, 48.8568]]
+
+
+@pytest.mark.parametrize('properties', [{}, {'margin': 0.0, 'clearance_from': 'centre'}])
+def test_a_drawing_in_degrees_is_told_with_the_remedy(tmp_path, properties):
+    path = tmp_path / 'zone.geojson'
+    drawing = {'type': 'Polygon', 'coordinates': [PARIS]}
+    path.write_text(json.dumps({'type': 'Feature', 'properties': properties, 'geometry': drawing}))
+    with pytest.raises(ConfigurationError, match=r'look like degrees .* system such as UTM'):
+        load_zone(path)
+
+
+def test_a_drawing_in_the_metres_of_a_country_is_none_in_degrees(tmp_path):
+    path = tmp_path / 'zone.geojson'
+    square = [[652_000 + x, 6_862_000 + y] for x, y in SQUARE]
+    path.write_text(json.dumps({'type': 'Polygon', 'coordinates': [square]}))
+    assert load_zone(path).area == pytest.approx(100.0)

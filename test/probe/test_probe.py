@@ -14,6 +14,7 @@ from agv_motion.probe import state_file
 from agv_motion.probe.probe import Probe, ProbeParameters
 from agv_motion.probe.quality import Quality
 from agv_motion.probe.sources.csv_file import CsvParameters, load
+from agv_motion.probe.sources.source import kelvin, kelvin_per
 
 DAY = 86400.0
 
@@ -70,6 +71,22 @@ def test_what_cannot_be_believed_has_no_sap_flow(value, quality):
         reading = probe.update(3 * DAY + 900.0 * k, value)
     assert reading.quality is quality
     assert reading.sap_flow is None
+
+
+@pytest.mark.parametrize('polarity', ['more_flow_is_1', 'more_flow_is_0'])
+@pytest.mark.parametrize('normalisation', ['quantiles', 'range'])
+@pytest.mark.parametrize(('unit', 'noise'), [('mV', 0.045), ('uV', 45.0), ('V', 45e-6), ('K', 1.1)])
+def test_the_noise_of_a_half_dead_probe_is_no_sap_flow(polarity, normalisation, unit, noise):
+    """Round 0.1 mV and round nothing, from the first reading and after good days."""
+    chance, factor = np.random.default_rng(1), kelvin_per(unit)
+    for days in (0, 3):
+        _, _, probe = readings(days, polarity=polarity, normalisation=normalisation)
+        for level in (0.0, 2.2 * noise):
+            for k, raw in enumerate(level + chance.uniform(-noise, noise, 300)):
+                reading = probe.update(days * DAY + 900.0 * k, kelvin(raw, factor))
+                assert reading.quality is Quality.OFF
+                assert reading.sap_flow is None
+                assert reading.flux_density is None
 
 
 def test_above_zero_flow_is_no_flow_and_is_said():

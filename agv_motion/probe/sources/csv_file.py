@@ -15,7 +15,7 @@ import numpy as np
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.files import text
 from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, UNITS, Sample, kelvin_per
+from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, MOST, UNITS, Sample, kelvin_per
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -149,7 +149,11 @@ def load(parameters: CsvParameters) -> tuple[list[float], NDArray[np.float64], s
             np.abs(times[before] - wanted) <= np.abs(times[nearest] - wanted), before, nearest
         )
         found = np.abs(times[nearest] - wanted) <= step / 2.0
-        values[:, i] = np.where(found, columns[name][keep][nearest] * factor, nan)
+        values[:, i] = np.where(found, columns[name][keep][nearest], nan)
+    wild = np.abs(values) > MOST / factor
+    if wild.any():
+        problem = f'{problem}; {wild.sum()} values of more than {MOST:g} K are no temperature'
+    values = np.where(wild, nan, values) * factor
     return times.tolist(), values, problem.lstrip('; ')
 
 

@@ -1,27 +1,40 @@
 """Probes on a serial line: ``DD-MM-YY HH:MM:SS v1 v2 v3 ...``, one line a reading.
 
-A line that cannot be read is counted and told, a line that goes away is opened again.
+What else loggers write is in :mod:`logger_line`. A line that cannot be read is told, a line that
+goes away is opened again.
 """
 
 from __future__ import annotations
 
+import re
 import time as wall
 from dataclasses import dataclass
-from datetime import datetime, timedelta, timezone
-from math import isfinite, nan
 from typing import TYPE_CHECKING, Annotated
 
 import serial
 
 from agv_motion.errors import SignalError
 from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, UNITS, Sample, kelvin_per
+from agv_motion.probe.sources.logger_line import EPOCHS, LoggerLine, cleaned, read_line
+from agv_motion.probe.sources.source import (
+    KELVIN_PER_MILLIVOLT,
+    UNITS,
+    Sample,
+    kelvin,
+    kelvin_per,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 LONGEST_LINE = 1024
 """[bytes] Anything longer without a line end is rubbish and dropped."""
+
+OFF_CLOCK = 86400.0
+"""[s] A logger whose clock differs from the node's by more has the wrong day, or month."""
+
+MOST_TOLD = 3
+"""Problems in one complaint; the others are counted."""
 
 LONGEST_PAUSE = 30.0
 """[s] Between two attempts to open a line that is gone; the first comes after one second."""
@@ -57,40 +70,64 @@ class SerialSource:
         self.period = parameters.period
         self._line: serial.Serial | None = None
         self._buffer = b''
-        self._problem = ''
+        self._problems: list[str] = []
+        self._told: set[str] = set()
         self._pause, self._retry_at = 1.0, 0.0
 
     def history(self, now: float) -> Iterable[Sample]:  # noqa: ARG002 - a line has no past
         """Return nothing: a serial line remembers nothing; use the node's state file."""
         return ()
 
-    def read(self, now: float) -> list[Sample]:  # noqa: ARG002 - whatever has come is due
-        """Return the samples of all whole lines that have come."""
+    def read(self, now: float) -> list[Sample]:
+        """Return the samples of all whole lines that have come, whatever their time."""
         self._fill()
-        *lines, self._buffer = self._buffer.split(b'\n')
+        *lines, self._buffer = re.split(rb'[\r\n]', self._buffer)
         if len(self._buffer) > LONGEST_LINE:
-            self._problem = f'{len(self._buffer)} bytes without a line end were dropped'
+            self._note(f'{len(self._buffer)} bytes without a line end were dropped')
             self._buffer = b''
         samples = []
         for line in lines:
-            text = line.decode('ascii', errors='replace').strip()
+            text = cleaned(line)
             if text:
                 try:
-                    samples.append(parse_line(text, self._given))
+                    read = _read(text, self._given)
+                    samples.append(_sample(text, read, self._given))
                 except SignalError as error:
-                    self._problem = str(error)
+                    self._note(str(error))
+                else:
+                    self._tell_oddities(text, read, now)
         return samples
 
+    def _tell_oddities(self, text: str, line: LoggerLine, now: float) -> None:
+        """Tell once of decimal commas, and of a clock that is off by days."""
+        if line.decimal_comma and 'comma' not in self._told:
+            self._told.add('comma')
+            self._note(f"decimal commas in '{text:.80}' are read as points: told once")
+        off = line.time - now
+        if abs(off) < OFF_CLOCK or now < EPOCHS[0]:  # a clock that has not begun tells nothing
+            self._told.discard('clock')
+        elif 'clock' not in self._told:
+            self._told.add('clock')
+            self._note(
+                f"the time of '{text:.80}' is {abs(off) / OFF_CLOCK:.0f} days "
+                f'{"ahead of" if off > 0.0 else "behind"} the clock here: set the logger, day '
+                'before month; night and day are learnt by its time'
+            )
+
     def complaint(self) -> str:
-        """Return the last thing that was unreadable or missing."""
-        problem, self._problem = self._problem, ''
-        return problem
+        """Return what was unreadable or missing, the first few things of it."""
+        problems, self._problems = self._problems, []
+        left = len(problems) - MOST_TOLD
+        return '; '.join(problems[:MOST_TOLD]) + (f'; and {left} more' if left > 0 else '')
 
     def close(self) -> None:
         """Close the line."""
         if self._line is not None:
             self._line.close()
             self._line = None
+
+    def _note(self, problem: str) -> None:
+        self._problems.append(problem)
 
     def _fill(self) -> None:
         """Read what is there; open the line if it is not, with growing pauses."""
@@ -104,7 +141,7 @@ class SerialSource:
         except (OSError, serial.SerialException) as error:
             self.close()
             self._retry_at = wall.monotonic() + self._pause
-            self._problem = (
+            self._note(
                 f'{self._given.port} is not readable ({error}): check cable and permissions; '
                 f'trying again in {self._pause:.0f} s'
             )
@@ -115,32 +152,26 @@ def parse_line(text: str, parameters: SerialParameters) -> Sample:
     """Return the sample of one line; a field that is no number is NaN.
 
     Raises:
-        SignalError: The time is unreadable or a field is missing; the line is quoted.
+        SignalError: The line has no one reading, or a field is missing; the line is quoted.
 
     """
-    words = text.split()
+    return _sample(text, _read(text, parameters), parameters)
+
+
+def _read(text: str, parameters: SerialParameters) -> LoggerLine:
     try:
-        moment = datetime.strptime(' '.join(words[:2]), '%d-%m-%y %H:%M:%S')  # noqa: DTZ007
-    except ValueError as error:
-        msg = f"unreadable line '{text:.80}': expected DD-MM-YY HH:MM:SS v1 v2 ..."
+        return read_line(text, parameters.utc_offset)
+    except SignalError as error:
+        msg = f"unreadable line '{text:.80}': {error}"
         raise SignalError(msg) from error
-    values = words[2:]
-    if len(values) < max(parameters.fields):
+
+
+def _sample(text: str, line: LoggerLine, parameters: SerialParameters) -> Sample:
+    if len(line.values) < max(parameters.fields):
         msg = (
-            f"line '{text:.80}' has {len(values)} values, probe field {max(parameters.fields)} "
-            'is missing: check the logger, or the parameter serial.fields'
+            f"line '{text:.80}' has {len(line.values)} values, probe field "
+            f'{max(parameters.fields)} is missing: check the logger, or the parameter serial.fields'
         )
         raise SignalError(msg)
-    utc = moment.replace(tzinfo=timezone.utc) - timedelta(hours=parameters.utc_offset)
     factor = kelvin_per(parameters.unit, parameters.kelvin_per_millivolt)
-    return Sample(
-        utc.timestamp(), tuple(factor * _number(values[field - 1]) for field in parameters.fields)
-    )
-
-
-def _number(word: str) -> float:
-    try:
-        number = float(word)
-    except ValueError:
-        return nan
-    return number if isfinite(number) else nan
+    return Sample(line.time, tuple(kelvin(line.values[f - 1], factor) for f in parameters.fields))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import nan
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
@@ -44,6 +45,9 @@ class Source(Protocol):
 KELVIN_PER_MILLIVOLT = 25.0
 """[K/mV] of a type T thermocouple at 40 uV/K."""
 
+MOST = 1e5
+"""[K] No two needles differ by more: what is read beyond is no temperature."""
+
 UNITS = ('K', 'mV', 'V', 'uV')
 
 
@@ -55,3 +59,9 @@ def kelvin_per(unit: str, kelvin_per_millivolt: float = KELVIN_PER_MILLIVOLT) ->
         'V': 1e3 * kelvin_per_millivolt,
         'uV': 1e-3 * kelvin_per_millivolt,
     }[unit]
+
+
+def kelvin(value: float, factor: float) -> float:
+    """Return a value of a logger times ``factor`` in kelvin; NaN where it is no temperature."""
+    difference = value * factor
+    return difference if abs(difference) <= MOST else nan

@@ -101,3 +101,11 @@ def test_times_in_seconds_and_with_zones(tmp_path):
     times, _, problem = load(CsvParameters(file=str(path), columns=('a',), day_offsets=(0.0,)))
     assert times == [0.0, 1000.5, 7200.0]
     assert 'put into order' in problem
+
+
+def test_no_number_of_a_file_becomes_infinite(tmp_path):
+    played = source(tmp_path, 'time,a,b\n0,1e308,0.8\n1,-1e308,0.8\n', unit='mV')
+    assert '2 values of more than 100000 K are no temperature' in played.complaint()
+    for sample in (*played.read(0.0), *played.read(1.0)):
+        assert isnan(sample.values[0])
+        assert sample.values[1] == pytest.approx(20.0)

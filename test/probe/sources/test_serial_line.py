@@ -27,11 +27,11 @@ def terminal():
             os.close(end)
 
 
-def until(source, count, timeout=60.0):
+def until(source, count, timeout=60.0, now=0.0):
     """Return ``count`` samples, read without waiting, again and again."""
     samples, end = [], time.monotonic() + timeout
     while len(samples) < count and time.monotonic() < end:
-        samples += source.read(0.0)
+        samples += source.read(now)
     return samples
 
 
@@ -56,6 +56,77 @@ def test_an_unreadable_line_is_told_and_the_next_one_read(terminal):
     assert len(until(source, 1)) == 1
     assert 'rubbish' in source.complaint()
     assert source.complaint() == ''
+
+
+def test_control_characters_round_the_text_and_any_line_end_do_no_harm(terminal):
+    """As the original's logger sends them: NUL before the text, EOT and NUL after it."""
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    text = LINE.strip().encode()
+    for line in (
+        b'\x00\x00' + text + b'\x04\n',
+        b'\x04' + text + b'\x00\x00\r\n',
+        b'\x04\n\x00\r' + text + b'\r',
+        b'\x02' + text + b'\x03\x04\n',
+    ):
+        os.write(logger, line)
+        (sample,) = until(source, 1)
+        assert sample == parse_line(LINE.strip(), SerialParameters())
+    assert source.complaint() == ''
+
+
+@pytest.mark.parametrize('value', ['1e308', '-1e308', '9' * 400, '1e999', 'inf', '5e5'])
+@pytest.mark.parametrize('unit', ['K', 'mV', 'V', 'uV'])
+def test_no_number_of_a_line_becomes_infinite(terminal, value, unit):
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port, unit=unit, kelvin_per_millivolt=1e4))
+    source.read(0.0)
+    os.write(logger, f'24-06-15 13:05:30 {value} {value} 0.0\n'.encode())
+    (sample,) = until(source, 1)
+    assert all(isnan(value) for value in sample.values[:2])
+    assert sample.values[2] == 0.0
+
+
+def test_decimal_commas_are_read_and_told_once(terminal):
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    for told in (True, False):
+        os.write(logger, b'24-06-15 13:05:30 0,750 0,760 0,770\n')
+        (sample,) = until(source, 1)
+        assert sample.values == pytest.approx((18.75, 19.0, 19.25))
+        assert ('decimal commas' in source.complaint()) is told
+
+
+def test_a_logger_whose_day_is_another_is_told_until_it_is_set(terminal):
+    """The US logger's 06-10-13 is the sixth of October here: 118 days ahead of the clock."""
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    now = datetime(2013, 6, 10, 12, 30, tzinfo=timezone.utc).timestamp()
+    for line, word in (
+        (b'06-10-13 12:30:00 1 2 3\n', '118 days ahead of the clock here'),
+        (b'06-10-13 12:30:01 1 2 3\n', ''),
+        (b'10-06-13 12:30:00 1 2 3\n', ''),
+        (b'08-06-13 12:30:00 1 2 3\n', '2 days behind the clock here'),
+    ):
+        os.write(logger, line)
+        assert len(until(source, 1, now=now)) == 1
+        complaint = source.complaint()
+        assert word in complaint
+        assert bool(complaint) == bool(word)
+
+
+def test_many_broken_lines_are_counted(terminal):
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    os.write(logger, b'rubbish\n' * 50 + LINE.encode())
+    assert len(until(source, 1)) == 1
+    complaint = source.complaint()
+    assert complaint.count('rubbish') <= 3
+    assert 'more' in complaint
 
 
 def test_rubbish_without_end_is_dropped(terminal):

@@ -1,0 +1,47 @@
+"""The outline of the platform: told once, and read by all that need it."""
+
+from __future__ import annotations
+
+from math import inf, nan
+
+import pytest
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.platform import Outline, PlatformParameters
+
+pytest.importorskip('rclpy')
+
+from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
+
+
+def test_the_octagon_reaches_as_far_as_its_turrets():
+    assert Outline().rim == pytest.approx(1.18)
+    assert Outline(turret_x=(2.0, -1.0), turret_y=(0.0, 1.0)).rim == 2.0
+    assert Outline(platform_radius=1.5).rim == 1.5
+
+
+@pytest.mark.parametrize('kind', [PlatformParameters, MotionGeneratorParameters])
+@pytest.mark.parametrize(
+    'given',
+    [
+        {'platform_radius': nan}, {'platform_radius': inf}, {'platform_radius': -1.0},
+        {'platform_radius': 1e-9}, {'turret_x': (0.0,), 'turret_y': (0.0,)},
+        {'turret_x': (1.0, 1.0)},
+    ],
+)  # fmt: skip
+def test_an_outline_that_is_none_is_refused(kind, given):
+    with pytest.raises(ConfigurationError, match=r'platform_radius|turret'):
+        kind(**given)
+
+
+def test_a_turret_outside_the_rim_is_refused():
+    with pytest.raises(ConfigurationError, match=r'turret stands 1.18 m .* outside .* = 0.5 m'):
+        PlatformParameters(platform_radius=0.5).turrets()
+
+
+@pytest.mark.parametrize('radius', [0.3, 1.18, 2.0])
+def test_mind_and_traffic_have_the_rim_of_the_platform(radius):
+    given = MotionGeneratorParameters(platform_radius=radius)
+    assert given.mind().platform_radius == radius
+    assert given.sharing().body == radius
+    assert given.sharing().tolerance == given.traffic.tolerance
