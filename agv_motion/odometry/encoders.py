@@ -86,7 +86,8 @@ class Encoders:
             return self._judge(stamp, list(angles), by_rate=by_rate)
         self._stamp, self._angles = stamp, list(angles)
         self._order.follow(stamp, self._angles)
-        self.duration, self.travel, self.rolled, self.doubt = duration, travel, rolled, 0.0
+        self.doubt = self._uneven(travel, duration) if by_rate else 0.0
+        self.duration, self.travel, self.rolled = duration, travel, rolled
         return MOVED
 
     def set_angles(self, angles: dict[int, float]) -> None:
@@ -113,9 +114,10 @@ class Encoders:
                 before = order.begun.value
         elif step is Step.GAP and self._may_have_gone_round(stamp - since):
             step, before = Step.RESET, angles
-        self.duration, self.travel = stamp - since, self._travel(before, angles)
-        self.rolled = sum(map(abs, self.travel))
-        self.doubt = self._doubt(step, max(speed, self._speed()), by_rate=by_rate)
+        duration, travel = stamp - since, self._travel(before, angles)
+        uneven = self._uneven(travel, duration) if by_rate else 0.0
+        self.duration, self.travel, self.rolled = duration, travel, sum(map(abs, travel))
+        self.doubt = uneven + self._doubt(step, max(speed, self._speed()), by_rate=by_rate)
         return step
 
     def _doubt(self, step: Step, speed: float, *, by_rate: bool) -> float:
@@ -131,6 +133,13 @@ class Encoders:
             return speed * self._order.unseen
         share = {Step.GAP: self._gap_noise, Step.LEAP: 1.0}.get(step, 0.0)
         return share * self.rolled / len(self._radii)
+
+    def _uneven(self, travel: Sequence[float], duration: float) -> float:
+        """Return how far a wheel [m] may be wrong whose speed changed: when it did is not known."""
+        if not self.duration or len(self.travel) != len(travel):
+            return 0.0
+        share = duration / self.duration
+        return max(abs(now - share * last) for now, last in zip(travel, self.travel, strict=True))
 
     def _speed(self) -> float:
         """Return the mean speed of the wheels over the last step [m/s]."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import hypot, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from agv_motion.odometry.base import TurretBase
 from agv_motion.odometry.continuity import Continuity, Step
 from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.odometry.gates import require_within
+from agv_motion.planar import Twist
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,12 +21,14 @@ if TYPE_CHECKING:
 
     from agv_motion.kinematics.turrets import Turrets
     from agv_motion.odometry.covariance import Covariance
-    from agv_motion.planar import Pose, Twist
+    from agv_motion.planar import Pose
 
     Column = NDArray[np.float64]
 
 MAX_GAP = 0.5
 """[s] Silence beyond which nobody knows whether the wheels rolled on."""
+EVEN = 0.25
+"""[s] A step that is longer counts as less sure, where the motion changed meanwhile."""
 MAX_WHEEL_SPEED = 10.0
 """[m/s] No wheel of a platform on turrets rolls faster."""
 
@@ -75,7 +79,8 @@ class TurretReckoning:
         self._max_speed, self._max_gap = max_wheel_speed, max_gap
         self._unit_covariance = TurretBase(turrets).unit_covariance
         self._reckoning = DeadReckoning()
-        self._order = Continuity[float](max_gap, lambda *_: True)
+        self._arm = 1.0 / sqrt(len(turrets) * self._unit_covariance.tt)
+        self._order = Continuity[tuple[float, Twist]](max_gap, lambda *_: True)
         self._rolled: Sequence[float] = ()
 
     def take(
@@ -104,12 +109,15 @@ class TurretReckoning:
         require_within('wheel speeds', speeds, self._max_speed, 'm/s', 'look at the encoders')
         before, order = self._order.last, self._order
         speed = sum(map(abs, speeds)) / len(speeds)
-        step = order.judge(time, speed)
+        step = order.judge(time, (speed, fit.twist))
         if step.used and before is not None:
             begun = order.begun if step is Step.LEAP and order.begun is not None else before
+            passed, (last_speed, last_twist) = time - begun.stamp, before.value
             # over a gap they either rolled on or the clock leapt: as uncertain as it is long
-            lost = max(before.value, speed) * order.unseen
-            self._carry(fit.twist, speed, time - begun.stamp, lost)
+            lost = max(last_speed, speed) * order.unseen
+            if passed > EVEN:
+                lost += self._change(last_twist, fit.twist) * passed
+            self._carry(fit.twist, speed, passed, lost)
         if step.used:
             self._rolled = rolled
         reckoning = self._reckoning
@@ -122,6 +130,10 @@ class TurretReckoning:
             msg = 'no wheel speeds, and no distances just before to tell them from: give either'
             raise SignalError(msg)
         return [(now - last) / passed for now, last in zip(rolled, self._rolled, strict=True)]
+
+    def _change(self, before: Twist, now: Twist) -> float:
+        """Return by how much the speed of a wheel differs between two twists [m/s]."""
+        return hypot(now.vx - before.vx, now.vy - before.vy) + self._arm * abs(now.wz - before.wz)
 
     def _carry(self, twist: Twist, speed: float, passed: float, lost: float) -> None:
         """Follow a twist for a time; all wheels may have rolled ``lost`` [m] beside it."""
@@ -140,10 +152,12 @@ class TurretReckoning:
             speeds: (k, n) [m/s].
 
         """
-        steps = np.diff(times, prepend=max(self._order.stamp, times[0] - self._max_gap))
+        steps = np.diff(times)
+        if self._order.last is not None:
+            steps = np.append(steps, times[0] - self._order.stamp)
         return bool(
             not self._order.doubts
-            and np.all((steps > 0.0) & (steps <= self._max_gap))
+            and np.all((steps > 0.0) & (steps <= min(EVEN, self._max_gap)))
             and np.all(np.abs(speeds) <= self._max_speed)
         )
 
@@ -167,7 +181,8 @@ class TurretReckoning:
         first = times[0] if last is None else last.stamp
         passed = times - np.concatenate([[first], times[:-1]])
         speed = sum(map(abs, speeds)) / len(speeds)
-        self._order.follow(float(times[-1]), float(speed[-1]))
+        twist = Twist(float(vx[-1]), float(vy[-1]), float(wz[-1]))
+        self._order.follow(float(times[-1]), (float(speed[-1]), twist))
         self._rolled = ()
         displacement = (vx * passed, vy * passed, wz * passed)
         variance = self._noise * self._noise * (passed * speed)

@@ -19,7 +19,7 @@ TURRETS = Turrets([(0.8, -0.8), (0.8, 0.8), (-1.2, 0.0)])
 COUNT = len(TURRETS)
 ANGLE, SPEED = st.floats(-20.0, 20.0), st.floats(-3.0, 3.0)
 STATE = st.tuples(
-    st.sampled_from([0.1, 0.05, 0.5]),
+    st.sampled_from([0.1, 0.05, 0.2]),
     st.tuples(*[ANGLE] * COUNT),
     st.tuples(*[SPEED] * COUNT) | st.just((0.0, -0.0, 0.0)),
 )
