@@ -119,6 +119,10 @@ class TurretState(NamedTuple):
     """Why rates are of no use; empty when they are"""
 
 
+NEEDED = {'positions': 'turret angles', 'velocities': 'wheel rates'}
+"""What is needed of each field of a JointState of turrets."""
+
+
 def _finite(
     field: str, values: Sequence[float], names: Sequence[str], places: Sequence[int]
 ) -> list[float]:
@@ -128,7 +132,7 @@ def _finite(
         raise SignalError(msg)
     picked = [values[place] for place in places]
     if not isfinite(sum(picked)):
-        require_finite(f'{field} of {[names[place] for place in places]}', tuple(picked))
+        require_finite(NEEDED[field], tuple(picked))
     return picked
 
 
