@@ -18,6 +18,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool
 
+from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import SignalError
 from agv_motion.motion.watchdog import Silence
 from agv_motion.odometry.continuity import Step
@@ -45,6 +46,15 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.wheel_odometry import WheelOdometry
 
+RELEASE = 'clear the wheels and see to the motors, then send a zero cmd_vel'
+"""What lets blocked wheels go on."""
+
+ARM = 0.2
+"""[m] About half the width of a robot, where a turn of it is measured as a motion."""
+
+LONGEST_STEP = 0.2
+"""[s] A longer time between two readings counts as so much: nobody has looked meanwhile."""
+
 
 @dataclass(frozen=True)
 class WheelsParameters:
@@ -64,6 +74,7 @@ class WheelsParameters:
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     base_frame: Annotated[str, Spec('frame of the twist and of the wheels')] = 'base_link'
     odom_frame: Annotated[str, Spec('frame in which the wheels carry the base')] = 'odom'
+    blocked: BlockedParameters = field(default_factory=BlockedParameters)
     odometry: OdometryParameters = field(default_factory=OdometryParameters)
 
 
@@ -116,6 +127,8 @@ class WheelsNode(ManagedNode[P]):
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
         self._extras_wanted = False
+        self._guard = BlockedGuard(given.blocked, ARM, RELEASE)
+        self._sent, self._looked_at = REST, self.seconds()
         self._command = self.publisher(JointState, 'wheels/command', COMMAND)
         self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
         self._odom = self.publisher(Odometry, 'odom', SENSOR)
@@ -127,6 +140,11 @@ class WheelsNode(ManagedNode[P]):
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(SetMap, '~/set_odometry', self._on_set_odometry)
         self.watch_inputs(given.stop_after, self._watch)
+
+    def begin(self) -> None:
+        """Stand until a twist comes."""
+        self.standing = True
+        self._guard.release()
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
@@ -140,7 +158,7 @@ class WheelsNode(ManagedNode[P]):
         """Return why the wheels are held; empty if they are not."""
         if self.stopped:
             return 'stopped: by request'
-        return 'stopped: wheels/state is lost' if self.blind else ''
+        return 'stopped: wheels/state is lost' if self.blind else self._guard.reason
 
     # cmd_vel -> wheels/command
 
@@ -160,13 +178,15 @@ class WheelsNode(ManagedNode[P]):
         """Command the wheels, while the clock can be believed."""
         if self.clock.fault:
             return
-        self._send(REST if self.stopped or self.blind else twist)
+        if twist == REST:
+            self._guard.release()
+        self._send(REST if self.stopped or self.blind or self._guard.reason else twist)
         self.command_watch.note()
         self.standing = twist == REST
 
     def _send(self, twist: Twist) -> None:
         """Command the wheels; the plain array only where someone listens."""
-        rates = self.rates(twist)
+        rates, self._sent = self.rates(twist), twist
         message = self.joints.message(rates)
         self.stamp(message)
         message.header.frame_id = self.parameters.base_frame
@@ -213,8 +233,18 @@ class WheelsNode(ManagedNode[P]):
                 f'{self.last_step.value}; odometry goes on from where it was, less sure',
                 throttle_duration_sec=1.0,
             )
+        self._look_for_block()
         self._publish_odometry(message.header.stamp)
         self.tell_more(message.header.stamp)
+
+    def _look_for_block(self) -> None:
+        """Stop wheels that do not turn though told to, by their encoders."""
+        guard, now = self._guard, self.seconds()
+        dt, self._looked_at = min(max(now - self._looked_at, 0.0), LONGEST_STEP), now
+        guard.watch.parameters = self.parameters.blocked
+        if guard.update(dt, self._reckoning.pose, self._sent):
+            self.get_logger().error(guard.reason)
+            self._send(REST)
 
     def _tell_ignored(self, stamp: float) -> None:
         """Tell of readings that cannot be; one that comes late or twice is no news."""

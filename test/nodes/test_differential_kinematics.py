@@ -16,7 +16,7 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
-from agv_motion.ros.node import OK, WARN
+from agv_motion.ros.node import ERROR, OK, WARN
 from agv_motion.ros.qos import SENSOR
 
 BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0, 'max_age': 1e10}
@@ -187,3 +187,51 @@ def test_set_odometry_goes_on_from_there(tester):
 def test_a_base_that_cannot_be_is_refused(tester, change, word):
     with pytest.raises(ConfigurationError, match=word):
         tester.start(DifferentialKinematics, **(BASE | change))
+
+
+def test_wheels_that_do_not_turn_though_told_to_are_blocked_until_a_zero_is_sent(tester):
+    robot = Robot(tester, blocked__after=0.5, blocked__distance=0.001)
+    stamps = iter(range(1, 10**6))
+
+    def push(speed=0.5):
+        robot.cmd_vel.publish(robot.twist(vx=speed))
+        robot.tell([0.0, 0.0], 0.05 * next(stamps))
+
+    def moving():
+        return bool(robot.commands) and any(robot.commands[-1].velocity)
+
+    tester.graph.repeat(push, moving, every=0.05)
+    tester.graph.repeat(push, lambda: bool(robot.node.why_stopped()), every=0.05)
+    assert robot.node.why_stopped().startswith('blocked: told to move by 0.')
+    assert robot.node.diagnose().level == ERROR
+    robot.commands.clear()
+    tester.graph.repeat(push, lambda: len(robot.commands) > 5, every=0.05)
+    assert not any(any(command.velocity) for command in robot.commands)
+    tester.graph.repeat(lambda: push(0.0), lambda: not robot.node.why_stopped(), every=0.05)
+    tester.graph.repeat(push, moving, every=0.05)
+
+
+def test_wheels_that_turn_are_not_blocked(tester):
+    robot = Robot(tester, blocked__after=0.5, blocked__distance=0.001)
+    stamps, end = iter(range(1, 10**6)), robot.node.steady_seconds() + 1.5
+
+    def roll():
+        robot.cmd_vel.publish(robot.twist(vx=0.05))
+        step = next(stamps)
+        robot.tell([0.05 * step, 0.0625 * step], 0.05 * step)
+
+    tester.graph.repeat(roll, lambda: robot.node.steady_seconds() > end, every=0.05)
+    assert robot.node.why_stopped() == ''
+
+
+def test_activated_again_it_stands_until_a_twist_comes(tester):
+    robot = Robot(tester)
+    assert any(robot.drive(vx=0.5).velocity)
+    robot.node.trigger_deactivate()
+    tester.graph.spin_until(lambda: not any(robot.commands[-1].velocity))
+    robot.commands.clear()
+    robot.node.trigger_activate()
+    tester.graph.spin_until(lambda: len(robot.commands) > 3)
+    assert not any(any(command.velocity) for command in robot.commands)
+    assert robot.node.diagnose() == (OK, 'standing', robot.node.diagnose().values)
+    assert any(robot.drive(vx=0.5).velocity)

@@ -431,3 +431,17 @@ def test_an_angle_that_cannot_be_leaves_the_platform_standing(drive, tester, bad
         if commands and any(rates(commands[-1])):
             break
     assert any(rates(commands[-1]))
+
+
+def test_activated_again_it_stands_until_a_twist_comes(tester, drive):
+    node, commands, cmd_vel = drive(**FAST)
+    cmd_vel.publish(twist(vx=1.0))
+    tester.wait(commands, lambda m: any(rates(m)))
+    node.trigger_deactivate()
+    tester.graph.spin_until(lambda: not any(rates(commands[-1])))
+    commands.clear()
+    node.trigger_activate()
+    tester.graph.spin_until(lambda: len(commands) > 3)
+    assert not any(any(rates(command)) for command in commands)
+    cmd_vel.publish(twist(vx=1.0))
+    tester.wait(commands, lambda m: any(rates(m)))
