@@ -142,7 +142,8 @@ def _numbers(name: str, message: Any, wheel_radius: float) -> tuple[float, ...]:
     if name == 'granier/sap_flow':
         return message.vector.x, message.vector.y, message.vector.z
     if name == 'turrets/command':
-        return tuple(message.velocity[len(message.velocity) // 2 :] * wheel_radius)
+        joints = zip(message.name, message.velocity, strict=True)
+        return tuple(rate * wheel_radius for name, rate in joints if name.endswith('_wheel'))
     if name == 'goal':
         return message.pose.position.x, message.pose.position.y
     return (message.data,)

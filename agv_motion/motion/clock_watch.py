@@ -21,6 +21,9 @@ STANDS_AFTER = 2.0
 LOOKS = 9
 """Number of looks whose median tells how fast the clock runs: one leap does not change it."""
 
+SOON = 1e-3
+"""[s] Less than the time between two looks."""
+
 GEAR = 10.0
 """[-] A clock whose speed seems to rise by more than that at one look is taken to have leapt."""
 
@@ -45,7 +48,7 @@ class ClockWatch:
         """[-] Seconds of the clock per second, and no less than 1"""
         self._time: float | None = None
         self._moved_at = 0.0
-        self._calm_from = -inf
+        self._calm_from = self._told_until = -inf
         self._speeds = deque[float](maxlen=LOOKS)
 
     def look(self, time: float, steady: float) -> None:
@@ -59,9 +62,11 @@ class ClockWatch:
         if time <= 0.0:
             self._time = None
             self._speeds.clear()
-            self.distrust('no time has come on /clock yet', steady)
+            self.fault, self._calm_from = 'no time has come on /clock yet', inf
         elif self._time is None:
             self._time, self._moved_at = time, steady
+            if self._calm_from == inf:  # how fast it runs, the next look will tell
+                self._calm_from = steady + SOON
         else:
             self._compare(time - self._time, time, steady)
         if steady >= self._calm_from:
@@ -69,14 +74,17 @@ class ClockWatch:
 
     def distrust(self, fault: str, steady: float) -> None:
         """Do not believe the clock before it has run well for a while from ``steady`` [s] on."""
-        self.fault, self._calm_from = fault, steady + CALM
+        self.fault = fault
+        self._told_until = self._calm_from = steady + CALM
 
     def _compare(self, gained: float, time: float, steady: float) -> None:
         """Judge a clock that has ``gained`` so much [s] since it moved last."""
         passed = steady - self._moved_at
         if gained == 0.0:
             if passed >= self.stands_after:
-                self.distrust(f'the clock stands still at {time:.3f} s', steady)
+                self._calm_from = steady + CALM
+                if steady >= self._told_until:  # what was said of it goes first
+                    self.fault = f'the clock stands still at {time:.3f} s'
             return
         if gained < -BACK:
             self.distrust(f'the clock leapt back by {-gained:.3g} s', steady)
