@@ -18,6 +18,7 @@ class RadioParameters:
 
     loss: Annotated[float, Spec('share of messages lost', '1', (0.0, 1.0))] = 0.1
     delay: Annotated[float, Spec('longest time a message takes', 's', (0.0, 1e4))] = 2.0
+    doubled: Annotated[float, Spec('share of messages that come twice', '1', (0.0, 1.0))] = 0.0
 
     def __post_init__(self) -> None:
         """Check every row."""
@@ -42,7 +43,7 @@ class Radio:
             seed: Of all chance.
 
         """
-        self._names, self._parameters = names, parameters
+        self._names, self.parameters = names, parameters
         self._random = random.Random(seed)  # noqa: S311 - a simulation, no secret
         self._letters: list[_Letter] = []
         self.deaf: set[tuple[str, str]] = set()
@@ -50,10 +51,13 @@ class Radio:
 
     def send(self, claim: Claim, now: float) -> None:
         """Send ``claim`` to all others."""
-        given = self._parameters
+        given = self.parameters
         for name in self._names:
             lost = (claim.name, name) in self.deaf or self._random.random() < given.loss
-            if name != claim.name and not lost:
+            if name == claim.name or lost:
+                continue
+            twice = given.doubled > 0.0 and self._random.random() < given.doubled
+            for _ in range(1 + twice):
                 due = now + self._random.uniform(0.0, given.delay)
                 self._letters.append(_Letter(due, name, claim))
 

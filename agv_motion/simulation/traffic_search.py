@@ -1,0 +1,280 @@
+"""Every order of events between a few trees, up to a number of states: does floor stay apart?
+
+The trees are the real objects (:class:`RightOfWay`) on a row of cells. What may happen next: a tree
+asks for a neighbouring cell or takes its request back, hears any word told (late, again or never;
+what is new is told at once), takes what it asked for, walks on, parks, notes that the others are
+silent, begins another journey, or ends and starts again with no more than names. All of these are
+tried from every state, breadth first, so the first breach that is found is one of the shortest.
+
+Bounded: words and runs of each tree are counted, and the last few words of a run stay on the way.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations
+from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar
+
+from agv_motion.motion.polyline import line
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.motion.traffic.separation import apart
+from agv_motion.parameters import Spec, check
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Iterator
+
+    from agv_motion.motion.polyline import Point
+    from agv_motion.motion.traffic.claim import Claim
+    from agv_motion.motion.traffic.peer import Peer
+
+TRAFFIC = TrafficParameters(body=0.2, tolerance=0.1, margin=0.3, listen=0.0)
+"""Two trees keep 0.9 m; cells are 1 m apart."""
+
+LONG = 1e9
+"""[s] after which everybody is silent"""
+
+
+@dataclass(frozen=True)
+class SearchParameters:
+    """What may happen, and how far to look."""
+
+    cells: Annotated[tuple[int, ...], Spec('where the trees stand', '1', (0, 100))] = (0, 3)
+    states: Annotated[int, Spec('most states to look at', '1', (1, 10**8))] = 20_000
+    words: Annotated[int, Spec('told by a run at most', '1', (1, 100))] = 5
+    late: Annotated[int, Spec('last words of a run that are still on the way', '1', (1, 100))] = 2
+    runs: Annotated[int, Spec('of each tree at most', '1', (1, 10))] = 2
+    rounds: Annotated[int, Spec('in which all heard all before the search', '1', (0, 10))] = 1
+    parked: Annotated[bool, Spec('all are parked before the search')] = False
+    events: Annotated[
+        tuple[str, ...], Spec('that may happen', choices=('park', 'silence', 'restart', 'set out'))
+    ] = ('park', 'silence', 'restart')
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+T = TypeVar('T')
+_Act = Callable[[RightOfWay], object]
+
+SETTLES = 'settles'
+
+
+class Found(NamedTuple):
+    """What a search came to."""
+
+    states: int
+    """different ones that were looked at"""
+    granted: int
+    """steps in which a tree took floor: a search in which nobody moves says nothing"""
+    breach: tuple[str, ...]
+    """the events that lead to floor held by two; empty if there are none"""
+    complete: bool
+    """whether there was nothing left to look at"""
+
+
+class _State(NamedTuple):
+    """All trees, and the words on their way; nothing in it is ever changed."""
+
+    trees: tuple[RightOfWay, ...]
+    keys: tuple[Hashable, ...]
+    """what tells two states of each tree apart"""
+    mail: tuple[Claim, ...]
+
+    def key(self) -> Hashable:
+        """Return what tells two states apart."""
+        return self.keys, tuple((claim.name, claim.word) for claim in self.mail)
+
+
+class Search:
+    """The states of a few trees, and the steps between them."""
+
+    def __init__(self, parameters: SearchParameters | None = None) -> None:
+        """Put the trees on their cells, and let them hear each other as often as asked for."""
+        self.parameters = given = parameters or SearchParameters()
+        self._names = [f'tree_{i}' for i in range(len(given.cells))]
+        self._last_cell = max(given.cells)
+        self._granted = 0
+        trees = tuple(
+            self._new(name, (float(cell), 0.0), 1)
+            for name, cell in zip(self._names, given.cells, strict=True)
+        )
+        start = _State(trees, tuple(map(_key, trees)), ())
+        for _ in range(given.rounds):
+            start = self._talk(start)
+        if given.parked:
+            for i in range(len(trees)):
+                start = self._act(start, i, lambda one: one.park())
+            start = self._talk(self._talk(start))
+        self._start = start
+        self._before = {tree.name: tree._number for tree in start.trees}  # noqa: SLF001
+
+    def run(self) -> Found:
+        """Look at all states that can be reached, the nearest first."""
+        queue: deque[tuple[_State, tuple[str, ...]]] = deque([(self._start, ())])
+        seen = {self._start.key()}
+        while queue:
+            state, past = queue.popleft()
+            for event, following in self._steps(state):
+                if event.endswith(SETTLES) and _breached(following):
+                    return Found(len(seen), self._granted, (*past, event), complete=False)
+                key = following.key()
+                if key in seen:
+                    continue
+                if len(seen) >= self.parameters.states:
+                    return Found(len(seen), self._granted, (), complete=False)
+                seen.add(key)
+                queue.append((following, (*past, event)))
+        return Found(len(seen), self._granted, (), complete=True)
+
+    # What may happen next
+
+    def _steps(self, state: _State) -> Iterator[tuple[str, _State]]:
+        for i, tree in enumerate(state.trees):
+            told = tree._number - (self._before[tree.name] if tree.run == 1 else 0)  # noqa: SLF001
+            if told >= self.parameters.words:
+                continue
+            events = (*self._moves(tree), *self._words(tree, state), *self._troubles(tree))
+            for event, act in events:
+                yield f'{tree.name} {event}', self._act(state, i, act)
+            if 'restart' in self.parameters.events and tree.run < self.parameters.runs:
+                for place in {tree.held[0], tree.held[-1]}:
+                    again = self._new(tree.name, place, tree.run + 1)
+                    yield f'{tree.name} starts again at {place[0]:.0f}', self._put(state, i, again)
+
+    def _moves(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
+        if tree.asked:
+            yield 'withdraws', lambda one: one.withdraw()
+            yield SETTLES, self._settle
+        elif len(tree.held) == 1:
+            x = tree.held[0][0]
+            for cell in (x - 1.0, x + 1.0):
+                if 0.0 <= cell <= self._last_cell:
+                    yield (
+                        f'asks for {cell:.0f}',
+                        partial(RightOfWay.ask, piece=((x, 0.0), (cell, 0.0))),
+                    )
+        if len(tree.held) > 1:
+            yield 'walks', lambda one: one.pass_by(one.ahead)
+
+    def _words(self, tree: RightOfWay, state: _State) -> Iterator[tuple[str, _Act]]:
+        for claim in state.mail:
+            if claim.name != tree.name:
+                event = f'hears {claim.name} {claim.word.run}:{claim.word.number}'
+                yield event, partial(RightOfWay.hear, claim=claim, now=0.0)
+
+    def _troubles(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
+        events = self.parameters.events
+        if 'park' in events and not tree.parked:
+            yield 'parks', lambda one: one.park()
+        if 'silence' in events:
+            yield 'misses all', lambda one: one.peers.judge(LONG, line(one.held))
+        if 'set out' in events:
+            yield 'sets out', lambda one: one.set_out()
+
+    # Plumbing
+
+    def _new(self, name: str, place: Point, run: int) -> RightOfWay:
+        return RightOfWay(name, place, TRAFFIC, run, known=self._names)
+
+    def _settle(self, tree: RightOfWay) -> None:
+        before = len(tree.held)
+        tree.settle(0.0)
+        self._granted += len(tree.held) > before
+
+    def _act(self, state: _State, i: int, act: _Act) -> _State:
+        """Return what comes of ``act`` of tree ``i``, which tells at once what is new."""
+        tree = _clone(state.trees[i])
+        act(tree)
+        return self._put(state, i, tree)
+
+    def _put(self, state: _State, i: int, tree: RightOfWay) -> _State:
+        mail, before = state.mail, tree.__dict__.copy()
+        claim = tree.claim(0.0)
+        if _news(claim, mail):  # whether and when it is heard is another matter
+            mail = self._posted(mail, claim)
+        else:
+            tree.__dict__ = before
+        trees = (*state.trees[:i], tree, *state.trees[i + 1 :])
+        return _State(trees, (*state.keys[:i], _key(tree), *state.keys[i + 1 :]), mail)
+
+    def _posted(self, mail: tuple[Claim, ...], claim: Claim) -> tuple[Claim, ...]:
+        """Return ``mail`` with one more word; older ones of that run than the last few are lost."""
+        same = [old for old in mail if _same_run(old, claim)]
+        lost = same[: max(len(same) + 1 - self.parameters.late, 0)]
+        return (*(old for old in mail if old not in lost), claim)
+
+    def _talk(self, state: _State) -> _State:
+        """Return what comes of it when every tree hears every other's last word."""
+        for i in range(len(state.trees)):
+            state = self._put(state, i, _clone(state.trees[i]))
+        last = {claim.name: claim for claim in state.mail}
+        for i, tree in enumerate(state.trees):
+            for claim in last.values():
+                if claim.name != tree.name:
+                    state = self._act(state, i, partial(RightOfWay.hear, claim=claim, now=0.0))
+        return state
+
+
+def _breached(state: _State) -> bool:
+    return not all(
+        apart(line(a.held), line(b.held), TRAFFIC.clearance)
+        for a, b in combinations(state.trees, 2)
+    )
+
+
+def _same_run(a: Claim, b: Claim) -> bool:
+    return a.name == b.name and a.word.run == b.word.run
+
+
+def _news(claim: Claim, mail: tuple[Claim, ...]) -> bool:
+    """Return whether ``claim`` says what the last word of its run did not."""
+    last = next((old for old in reversed(mail) if _same_run(old, claim)), None)
+    return last is None or _said(last) != _said(claim)
+
+
+def _clone(tree: RightOfWay) -> RightOfWay:
+    new = _copied(tree)
+    new.peers = _copied(tree.peers)
+    peers = tree.peers._peers  # noqa: SLF001
+    new.peers._peers = {name: _clone_peer(peer) for name, peer in peers.items()}  # noqa: SLF001
+    return new
+
+
+def _clone_peer(peer: Peer) -> Peer:
+    new = _copied(peer)
+    new._runs, new._ended = dict(peer._runs), dict(peer._ended)  # noqa: SLF001
+    return new
+
+
+def _copied(thing: T) -> T:
+    """Return a shallow copy, faster than `copy.copy`."""
+    new = object.__new__(type(thing))
+    new.__dict__.update(thing.__dict__)
+    return new
+
+
+def _said(claim: Claim) -> tuple[Hashable, ...]:
+    return claim.held, claim.asked, claim.journey, claim.heard, claim.parked
+
+
+def _key(tree: RightOfWay) -> Hashable:
+    peers = tuple(_peer_key(peer) for peer in tree.peers)
+    return (
+        tree.run, tree._number, tree.held, tree.asked, tree._asked_since, tree.parked,  # noqa: SLF001
+        tree.journey, peers,
+    )  # fmt: skip
+
+
+def _peer_key(peer: Peer) -> Hashable:
+    runs = tuple((r.claim.word, r.since) for _, r in sorted(peer._runs.items()))  # noqa: SLF001
+    ended = tuple(sorted(peer._ended.items()))  # noqa: SLF001
+    sides = peer.sides and (peer.sides.own.wkb, peer.sides.theirs.wkb)
+    return (
+        runs, ended, peer.claim.word, peer.echo, peer.mutual_from, peer.silent, sides,
+        peer.doubled_at,
+    )  # fmt: skip
