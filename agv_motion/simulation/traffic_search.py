@@ -38,6 +38,9 @@ LONG = 1e9
 """[s] after which everybody is silent"""
 
 
+EVENTS = ('withdraw', 'park', 'silence', 'restart', 'set out')
+
+
 @dataclass(frozen=True)
 class SearchParameters:
     """What may happen, and how far to look."""
@@ -49,9 +52,10 @@ class SearchParameters:
     runs: Annotated[int, Spec('of each tree at most', '1', (1, 10))] = 2
     rounds: Annotated[int, Spec('in which all heard all before the search', '1', (0, 10))] = 1
     parked: Annotated[bool, Spec('all are parked before the search')] = False
-    events: Annotated[
-        tuple[str, ...], Spec('that may happen', choices=('park', 'silence', 'restart', 'set out'))
-    ] = ('park', 'silence', 'restart')
+    restarted: Annotated[
+        bool, Spec('the first has just started again; its old words are on the way')
+    ] = False
+    events: Annotated[tuple[str, ...], Spec('that may happen', choices=EVENTS)] = EVENTS[:4]
 
     def __post_init__(self) -> None:
         """Check every row."""
@@ -110,6 +114,9 @@ class Search:
             for i in range(len(trees)):
                 start = self._act(start, i, lambda one: one.park())
             start = self._talk(self._talk(start))
+        if given.restarted:
+            again = self._new(self._names[0], start.trees[0].held[0], 2)
+            start = self._put(start, 0, again)
         self._start = start
         self._before = {tree.name: tree._number for tree in start.trees}  # noqa: SLF001
 
@@ -148,7 +155,6 @@ class Search:
 
     def _moves(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
         if tree.asked:
-            yield 'withdraws', lambda one: one.withdraw()
             yield SETTLES, self._settle
         elif len(tree.held) == 1:
             x = tree.held[0][0]
@@ -169,6 +175,8 @@ class Search:
 
     def _troubles(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
         events = self.parameters.events
+        if 'withdraw' in events and tree.asked:
+            yield 'withdraws', lambda one: one.withdraw()
         if 'park' in events and not tree.parked:
             yield 'parks', lambda one: one.park()
         if 'silence' in events:

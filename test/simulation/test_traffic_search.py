@@ -1,0 +1,63 @@
+"""Every order of events between two and three trees, as far as a test may look; and does it see?
+
+The long form is launch_scripts/search_traffic.py.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.motion.traffic.peer import Peer
+from agv_motion.motion.traffic.peers import Peers
+from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameters
+
+RESTARTED = {'restarted': True, 'rounds': 3, 'words': 4, 'events': ()}
+MUTUAL = {'rounds': 2, 'events': ()}
+PARKED = {'parked': True, 'events': ()}
+
+
+@pytest.mark.parametrize(
+    'given',
+    [
+        {'cells': (0, 3), 'events': EVENTS},
+        {'cells': (0, 3), 'rounds': 2, 'events': ('silence',)},
+        {'cells': (0, 2), 'rounds': 2, 'events': ('restart', 'park')},
+        {'cells': (0, 2), **MUTUAL},
+        {'cells': (0, 2), **PARKED},
+        {'cells': (0, 2), **RESTARTED},
+        {'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'events': ()},
+        {'cells': (0, 2, 4), **PARKED},
+    ],
+)
+def test_no_order_of_events_lets_two_hold_the_same_floor(given):
+    found = Search(SearchParameters(states=1500, **given)).run()
+    assert found.breach == ()
+    assert found.complete or found.states == 1500
+
+
+def test_floor_is_taken_in_what_was_searched():
+    """A search in which nobody may move proves nothing."""
+    assert Search(SearchParameters(states=1500, cells=(0, 2), **MUTUAL)).run().granted > 10
+
+
+def answers_to_any_run(peers, claim):
+    word = claim.heard.get(peers._name)  # noqa: SLF001
+    return word.number if word is not None else -1
+
+
+@pytest.mark.parametrize(
+    ('thing', 'name', 'broken', 'given'),
+    [
+        (Peer, 'stays', property(lambda peer: peer.claim.parked), PARKED),
+        (Peers, 'forget_agreements', lambda *_: None, PARKED),
+        (Peers, 'echo', answers_to_any_run, RESTARTED),
+        (RightOfWay, 'precedence', property(lambda _: (0, '')), MUTUAL),
+        (Peer, 'answered', lambda *_: True, MUTUAL),
+    ],
+    ids=['parked', 'unparked', 'runs', 'precedence', 'answers'],
+)
+def test_a_rule_that_is_broken_is_seen(monkeypatch, thing, name, broken, given):
+    monkeypatch.setattr(thing, name, broken)
+    found = Search(SearchParameters(states=15_000, cells=(0, 2), **given)).run()
+    assert found.breach
