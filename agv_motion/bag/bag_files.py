@@ -85,11 +85,11 @@ def _in_folder(folder: Path) -> BagFiles:
         problems.append(DamagedBagError(folder / FILE_NAME, 0, 'no metadata that can be read'))
     named = [folder / PurePath(str(name)).name for name in _names(described or {})]
     problems += [
-        DamagedBagError(folder / FILE_NAME, 0, f'it names {path.name}, which is not there')
+        DamagedBagError(folder / FILE_NAME, 0, f'it names {path.name:.200}, which is not there')
         for path in named
-        if not path.exists()
+        if not _is_there(path)
     ]
-    paths = [path for path in named if path.exists()] or sorted(
+    paths = [path for path in named if _is_there(path)] or sorted(
         (p for p in folder.iterdir() if p.name.removesuffix(COMPRESSED).endswith(SUFFIXES)),
         key=_number,
     )
@@ -97,6 +97,14 @@ def _in_folder(folder: Path) -> BagFiles:
         msg = f'{folder} is no bag: it has no .mcap and no .db3 file'
         raise SourceError(msg)
     return BagFiles(paths, _mode(described or {}) == 'message', problems)
+
+
+def _is_there(path: Path) -> bool:
+    """Return whether there is a file of a name that may be none: too long, or with a NUL."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def _described(path: Path) -> dict[str, Any] | None:

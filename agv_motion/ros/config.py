@@ -31,9 +31,10 @@ def find_config(name: str) -> Path:
 
     """
     candidates = [Path(name), *(folder / name for folder in config_folders())]
-    for candidate in candidates:
-        if candidate.is_file():
-            return candidate
+    with suppress(OSError, ValueError):  # a name that is none: too long, or with a NUL in it
+        for candidate in candidates:
+            if candidate.is_file():
+                return candidate
     places = ', '.join(str(folder) for folder in config_folders() if folder.is_dir())
-    msg = f"no file '{name}', neither by that path nor in {places or 'an installed config folder'}"
+    msg = f'no file {name!r:.200}, neither by that path nor in {places or "an installed config folder"}'
     raise ConfigurationError(msg)

@@ -114,6 +114,10 @@ class InProcessNode(_Rclpy):
             raise ConfigurationError(msg)
         return _Value(given)
 
+    def get_parameter(self, name: str) -> Any:
+        """Return what was given for a parameter of rclpy's own; `use_sim_time` is false."""
+        return _Value(self._overrides.get(name, False))
+
     def add_on_set_parameters_callback(self, _: Any) -> None:
         """Leave it: parameters stay as they are."""
 

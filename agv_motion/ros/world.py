@@ -189,7 +189,7 @@ class Listener:
 
     def __init__(self, node: Any, kind: Any, callback: Callable[[Any], None]) -> None:
         """Pass the messages of one topic on to ``callback``."""
-        self.node, self.callback = node, callback
+        self.node, self.kind, self.callback = node, kind, callback
         self._decode = codec(kind).decode
         self.prepare: Callable[[list[bytes], list[int]], list[Any]] | None = None
         """makes of many messages, and when they come [ns], what the callback takes; of none if it
