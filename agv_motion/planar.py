@@ -15,6 +15,10 @@ SMALL_ANGLE = 1e-4
 """[rad] Below this the series of sin(a)/a and (1 - cos a)/a are exact to double precision."""
 
 
+FARTHEST = 1e7
+"""[m] of any place from the origin of its map, along each axis: as far as UTM goes."""
+
+
 class Pose(NamedTuple):
     """Where a frame is, seen from another."""
 

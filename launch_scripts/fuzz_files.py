@@ -22,7 +22,7 @@ from agv_motion.motion.zone_file import load_zone
 from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
 from agv_motion.probe.probe import Probe, ProbeParameters
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
-from agv_motion.probe.sources.serial_line import SerialParameters, parse_line
+from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.state_file import restore
 from agv_motion.route.route_file import load_route
 from agv_motion.sequence.sequence_file import load_sequence
@@ -150,11 +150,30 @@ def read_zone(path: Path) -> None:
     zone.nearest_walkable(1.0, 2.0)
 
 
+class Line:
+    """A serial line on which something has come, in place of the real one."""
+
+    def __init__(self, data: bytes) -> None:
+        """Keep what has come."""
+        self.data = data
+
+    def read(self, _: int) -> bytes:
+        """Return what has come, once."""
+        data, self.data = self.data, b''
+        return data
+
+    def close(self) -> None:
+        """Leave it."""
+
+
 def read_line(data: bytes) -> None:
-    """Take the time and values of a line, as the source does."""
-    sample = parse_line(data.decode('ascii', errors='replace').strip(), SerialParameters())
-    assert isfinite(sample.time)
-    assert not any(np.isinf(sample.values))
+    """Read lines, each of which is a sample or told."""
+    source = SerialSource(SerialParameters(port='fuzzed'))
+    source._line = Line(data + b'\r\n' + data[:60] + b'\n')  # type: ignore[assignment] # noqa: SLF001
+    samples = source.read(1434366000.0)
+    assert all(isfinite(sample.time) for sample in samples)
+    assert not any(np.isinf(sample.values).any() for sample in samples)
+    source.complaint()
 
 
 def sound_state() -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import os
 import stat
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 from agv_motion.errors import ConfigurationError
 
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.errors import AgvMotionError
+
+    E = TypeVar('E', bound=AgvMotionError)
 
 LIMIT = 1 << 20
 """[bytes] of a file that a person writes; no zone, route or sequence comes near it"""
@@ -45,6 +47,13 @@ def read(path: Path, what: str = 'the file', limit: int = LIMIT) -> str:
         msg = f"cannot read {what} '{path}': it is larger than {limit} bytes; is it the right file?"
         raise ConfigurationError(msg)
     return _decoded(path, data)
+
+
+def as_kind(error: AgvMotionError, kind: type[E]) -> E:
+    """Return an error as one of another class."""
+    other = kind(str(error))
+    other.unquoted, other.file = error.unquoted, error.file
+    return other
 
 
 def place(path: Path | str, line: int, column: int) -> str:

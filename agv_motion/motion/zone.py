@@ -15,6 +15,7 @@ from shapely import Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.corners import inset
+from agv_motion.planar import FARTHEST
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -239,8 +240,11 @@ def _polygon(name: str, ring: Ring) -> Polygon:
     except (TypeError, ValueError) as error:
         msg = f'{name} must be a list of [x, y] in metres, got {ring!r:.80}'
         raise GeometryError(msg) from error
-    if not all(isfinite(x) and isfinite(y) for x, y in points):
-        msg = f'{name} holds a coordinate that is not finite: {points!r:.80}'
+    if not all(abs(x) <= FARTHEST and abs(y) <= FARTHEST for x, y in points):
+        msg = (
+            f'{name} holds a coordinate that is not finite, or further than {FARTHEST:g} m: '
+            f'{points!r:.80}'
+        )
         raise GeometryError(msg)
     if len(set(points)) < 3:
         msg = f'{name} has {len(set(points))} different corners: a polygon needs at least 3'

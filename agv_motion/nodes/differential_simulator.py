@@ -10,7 +10,7 @@ from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
 from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
-from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters
+from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import fill_pose
 from agv_motion.ros.qos import COMMAND, SENSOR
@@ -101,6 +101,7 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
         if len(rates) != len(self._joints.names):
             msg = f'joints {list(message.name)}: give the velocity of {self._joints.names}'
             raise SignalError(msg)
+        require_possible(rates)
         self._wanted = list(self._drive.speeds(rates))
         self.note_command()
 

@@ -11,7 +11,7 @@ from sensor_msgs.msg import Imu, JointState
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
-from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters
+from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.planar import Pose
 from agv_motion.ros.covariances import fill_covariance
@@ -137,6 +137,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
             msg = f'joints {list(message.name)}: give the velocity of {self._joints.names}'
             raise SignalError(msg)
         radii = self.parameters.real_radii
+        require_possible([rate for rate in rates if rate is not None])
         self._wanted = [rate * r for rate, r in zip(rates, radii, strict=True) if rate is not None]
         self.note_command()
 

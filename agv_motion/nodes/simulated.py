@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime, timezone
-from typing import Annotated, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, TypeVar
 
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
@@ -13,12 +13,18 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
 from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import SENSOR
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FASTEST = 1e4
+"""[rad/s, rad] Rate of a motor, and angle of a turret, beyond which a command is none."""
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -90,6 +96,19 @@ class Body(Protocol):
 
     def carry_to(self, pose: Pose) -> None:
         """Lift it and set it down elsewhere."""
+
+
+def require_possible(rates: Sequence[float], angles: Sequence[float] = ()) -> None:
+    """Raise unless motors could be commanded so.
+
+    Raises:
+        SignalError: A rate [rad/s] or an angle [rad] is beyond `FASTEST`, or not finite.
+
+    """
+    for value in (*rates, *angles):
+        if not abs(value) <= FASTEST:
+            msg = f'a command of {value:g}: no motor turns by more than {FASTEST:g} rad, or rad/s'
+            raise SignalError(msg)
 
 
 class SimulatedNode(ManagedNode[P]):

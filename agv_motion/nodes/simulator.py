@@ -10,7 +10,7 @@ from sensor_msgs.msg import Illuminance, JointState
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters
+from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import TurretJoints, fill_pose
 from agv_motion.ros.qos import COMMAND, SENSOR
@@ -111,6 +111,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
             self.note_command()
             return
         angles, rates = self._joints.read(message)
+        require_possible(rates, angles)
         self.note_command()
         self._wanted = angles, [rate * self.parameters.wheel_radius for rate in rates]
 

@@ -10,7 +10,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import require_finite
+from agv_motion.planar import FARTHEST, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,8 +21,8 @@ MAX_ANGLE = 1e9
 """[rad] Of a wheel: 50,000 km on wheels of 5 cm; beyond, steps are lost in rounding."""
 MAX_WAY = 1e5
 """[m] Of a robot from the origin of its odometry, about which errors are kept."""
-MAX_COORDINATE = 1e7
-"""[m] In the map: as far as UTM goes."""
+MAX_COORDINATE = FARTHEST
+"""[m] In the map."""
 MAX_HEADING = 1e6
 """[rad] So many turns nobody counts."""
 MAX_DEVIATION = 1e4

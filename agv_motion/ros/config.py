@@ -36,5 +36,6 @@ def find_config(name: str) -> Path:
             if candidate.is_file():
                 return candidate
     places = ', '.join(str(folder) for folder in config_folders() if folder.is_dir())
-    msg = f'no file {name!r:.200}, neither by that path nor in {places or "an installed config folder"}'
+    places = places or 'an installed config folder'
+    msg = f'no file {name!r:.200}, neither by that path nor in {places}'
     raise ConfigurationError(msg)

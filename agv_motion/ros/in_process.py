@@ -121,6 +121,10 @@ class InProcessNode(_Rclpy):
     def add_on_set_parameters_callback(self, _: Any) -> None:
         """Leave it: parameters stay as they are."""
 
+    def resolve_topic_name(self, topic: str) -> str:
+        """Return the full name of a topic."""
+        return self._full(topic)
+
     def count_publishers(self, topic: str) -> int:
         """Return how many speak on a topic."""
         return len(self.world.publishers.get(self._full(topic), ()))

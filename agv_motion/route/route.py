@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from math import atan2, hypot, inf, isfinite, pi
+from math import atan2, hypot, inf, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError
+from agv_motion.planar import FARTHEST
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -114,8 +115,8 @@ def _point(index: int, pair: Sequence[float]) -> Point:
     except (TypeError, ValueError) as error:
         msg = f'waypoint {index + 1} is {pair!r}: give two numbers, x and y in metres'
         raise GeometryError(msg) from error
-    if not isfinite(x) or not isfinite(y):
-        msg = f'waypoint {index + 1} is ({x}, {y}): must be finite'
+    if not abs(x) <= FARTHEST or not abs(y) <= FARTHEST:
+        msg = f'waypoint {index + 1} is ({x:g}, {y:g}): must be finite, at most {FARTHEST:g} m off'
         raise GeometryError(msg)
     return Point(x, y)
 

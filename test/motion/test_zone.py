@@ -127,13 +127,42 @@ def test_geojson_says_the_same_as_yaml(tmp_path):
 @pytest.mark.parametrize(
     ('text', 'error', 'word'),
     [
-        ('boundary: [[0, 0], [1, 1]]', GeometryError, 'zone.yaml: boundary has 2'),
+        (
+            'boundary: [[0, 0], [1, 1]]',
+            GeometryError,
+            'zone.yaml, line 1, column 11: boundary',
+        ),
         ('border: []', ConfigurationError, 'expected boundary'),
-        ('[1, 2', ConfigurationError, 'cannot read the zone'),
+        ('[1, 2', ConfigurationError, 'zone.yaml, line 2, column 1: no YAML'),
+        (
+            'boundary: [[0, 0], [9, 0, 1, 2], [9, 9]]',
+            GeometryError,
+            'column 20: boundary: corner',
+        ),
+        (
+            'boundary: [[0, 0], [9, .inf], [9, 9]]',
+            GeometryError,
+            'column 24: boundary: corner',
+        ),
+        ('boundary: [0, [9, 0], [9, 9]]', GeometryError, 'column 12: boundary: corner 1'),
+        ('boundary: 3', GeometryError, 'column 11: boundary: expected a list'),
+        ('boundary: []', GeometryError, 'column 11: boundary has 0'),
         ('just words', ConfigurationError, 'expected boundary'),
-        ('{boundary: [[0, 0], [9, 0], [9, 9]], margin: wide}', GeometryError, 'zone.yaml'),
-        ('{boundary: [[0, 0], [9, 0], [9, 9]], home: 3}', GeometryError, 'zone.yaml: home must'),
-        ('{boundary: [[0, 0], [9, 0], [9, 9]], holes: yes}', GeometryError, 'holes must be a list'),
+        (
+            '{boundary: [[0, 0], [9, 0], [9, 9]], margin: wide}',
+            GeometryError,
+            'column 46: margin = ',
+        ),
+        (
+            '{boundary: [[0, 0], [9, 0], [9, 9]], home: 3}',
+            GeometryError,
+            'column 44: home: expected a',
+        ),
+        (
+            '{boundary: [[0, 0], [9, 0], [9, 9]], holes: yes}',
+            GeometryError,
+            'column 45: holes: expected',
+        ),
     ],
 )
 def test_a_file_that_is_no_zone_is_named(tmp_path, text, error, word):
@@ -153,6 +182,13 @@ TRIANGLE = {'type': 'Polygon', 'coordinates': [[[0, 0], [9, 0], [9, 9]]]}
         ([{'geometry': TRIANGLE}, {'geometry': TRIANGLE}], 'feature 2 is a Polygon of kind .zone'),
         ([{'geometry': {'type': 'MultiPolygon'}}], 'feature 1 is a MultiPolygon'),
         ([{'properties': {'kind': 'pond'}, 'geometry': TRIANGLE}], "kind 'pond'"),
+        ([{'properties': {'kind': 'pond'}}], "kind 'pond'"),
+        ([{'properties': {'kind': ['zone']}, 'geometry': TRIANGLE}], r"kind \['zone'\]"),
+        ([{'properties': 3, 'geometry': TRIANGLE}], 'properties: expected keys and values'),
+        ([{'geometry': {'type': 'Polygon'}}], 'each with coordinates'),
+        ([{'geometry': {'type': 'Polygon', 'coordinates': 3}}], 'coordinates: expected a list'),
+        ([7], 'feature 1: expected keys and values'),
+        (7, 'features: expected a list'),
         ([], 'expected boundary'),
     ],
 )

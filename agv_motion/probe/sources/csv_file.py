@@ -197,9 +197,7 @@ def rows_of(path: Path) -> Iterator[tuple[int, list[str]]]:
     try:
         content = text.read(path, 'the probe file', LARGEST)
     except ConfigurationError as error:
-        refusal = SourceError(str(error))
-        refusal.unquoted, refusal.file = error.unquoted, error.file
-        raise refusal from error
+        raise text.as_kind(error, SourceError) from error
     reader = csv.reader(content.split('\n'))
     try:
         for row in reader:
