@@ -8,6 +8,7 @@ from agv_motion.odometry.covariance import Covariance
 from agv_motion.odometry.gates import (
     MAX_COORDINATE,
     MAX_HEADING,
+    MAX_STAMP,
     require_measurement,
     require_within,
 )
@@ -39,6 +40,7 @@ class Fix:
         require_finite('fix (stamp, x, y)', (self.stamp, self.x, self.y))
         name = f'fix at {self.stamp} s'
         require_within(name, (self.x, self.y), MAX_COORDINATE, 'm', 'give it in the map')
+        require_within('stamp of a fix', (self.stamp,), MAX_STAMP, 's', 'look at its clock')
         if self.heading is not None:
             require_finite('heading of a fix', (self.heading,))
             require_within('heading of a fix', (self.heading,), MAX_HEADING, 'rad', 'mend it')

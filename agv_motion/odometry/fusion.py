@@ -122,8 +122,8 @@ class PoseFusion:
 
     def add_fix(self, fix: Fix) -> Verdict:
         """Take in a position fix, in time, late or out of order; return what became of it."""
-        newest = self._history.newest.stamp if self._history else fix.stamp - 1.0
-        if newest < fix.stamp <= newest + max(self._given.horizon, 1.0):
+        ahead = fix.stamp - self._history.newest.stamp if self._history else 0.5
+        if 0.0 < ahead <= max(self._given.horizon, 1.0):
             if fix not in self._waiting:
                 self._waiting = sorted([*self._waiting, fix], key=lambda waiting: waiting.stamp)
             del self._waiting[:-MOST_WAITING]

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.covariance import Covariance
 
+MAX_STAMP = 1e11
+"""[s] 3,000 years."""
 MAX_ANGLE = 1e9
 """[rad] Of a wheel: 50,000 km on wheels of 5 cm; beyond, steps are lost in rounding."""
 MAX_WAY = 1e5

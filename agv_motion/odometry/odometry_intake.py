@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.odometry.continuity import LEAP, Continuity, Step
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
-from agv_motion.odometry.gates import MAX_WAY, is_noise, require_noise, require_within
+from agv_motion.odometry.gates import MAX_STAMP, MAX_WAY, is_noise, require_noise, require_within
 from agv_motion.odometry.gyro_odometry import GyroOdometry
 from agv_motion.odometry.history import Waypoint
 from agv_motion.planar import Pose, require_finite, wrap
@@ -123,6 +123,7 @@ def _require(waypoint: Waypoint) -> None:
     """Raise unless it can be where odometry sees a robot."""
     stamp, (x, y, theta), noise = waypoint
     require_finite('odometry', (stamp, x, y, theta, *noise))
+    require_within('stamp of odometry', (stamp,), MAX_STAMP, 's', 'look at its clock')
     require_within('odometry (x, y)', (x, y), MAX_WAY, 'm', 'let odometry begin anew at 0')
     if noise != CERTAIN:
         xx, xy, xt, yy, yt, tt = shift(noise, x, y)
