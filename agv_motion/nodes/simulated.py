@@ -153,6 +153,11 @@ class SimulatedNode(ManagedNode[P]):
         self.every(period, self._lead, steady)
         self.every(1.0, self._watch_clocks, steady)
 
+    def begin(self) -> None:
+        """Stand until a command comes: the last one may be hours old."""
+        self._commanded_at = None
+        self.let_go()
+
     def diagnose(self) -> Diagnosis:
         """Tell the simulated time."""
         level, word = (WARN, 'paused') if self._paused else (OK, 'running')

@@ -199,8 +199,8 @@ class Follower:
         if not leader.finished:  # a robot that is held is asked for more
             calm = is_calm(approach.twist, given.settle_speed, given.settle_turn)
             return self._correct() if calm and stalled else twist
-        calm = is_calm(twist, given.settle_speed, given.settle_turn)
-        if (calm and self._is_near(self.error)) or (stalled and self._is_near(approach.error)):
+        calm = is_calm(twist, given.settle_speed, given.settle_turn) and self._is_near(self.error)
+        if (calm or stalled) and self._is_near(approach.error):  # no pose alone is to be believed
             return self._come_up()
         return self._correct() if stalled else twist
 

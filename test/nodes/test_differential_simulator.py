@@ -56,6 +56,21 @@ def test_it_drives_measures_pauses_and_begins_again(tester):
     assert tester.wait(truth).pose.pose.position.x == pytest.approx(0.0, abs=0.01)
 
 
+def test_activated_again_it_stands_until_a_command_comes(tester):
+    truth = tester.listen(Odometry, 'ground_truth', SENSOR)
+    node = tester.start(DifferentialSimulator, command_timeout=60.0, **STIFF)
+    command = tester.publisher(JointState, 'wheels/command')
+    rolling = JointState(name=['right_wheel', 'left_wheel'], velocity=[4.0, 4.0])
+    command.publish(rolling)
+    tester.wait(truth, lambda m: m.twist.twist.linear.x > 0.1)
+    node.trigger_deactivate()
+    tester.graph.quiet(truth)
+    node.trigger_activate()
+    assert tester.wait(truth).twist.twist.linear.x == 0.0
+    command.publish(rolling)
+    tester.wait(truth, lambda m: m.twist.twist.linear.x > 0.1)
+
+
 def test_a_command_for_one_wheel_is_refused(tester):
     node = tester.start(DifferentialSimulator)
     command = tester.publisher(JointState, 'wheels/command')

@@ -134,12 +134,12 @@ def test_no_command_passes_a_limit(kind, driver):
 
 
 def test_activated_again_it_stands_until_it_is_told_anew(driver, capfd):
-    far = driver(report_after=0.2, stop_after=0.4)
+    far = driver(report_after=1.2, stop_after=1.3)
     far.go()
     far.robot.moves()
     far.node.trigger_deactivate()
     far.tester.graph.spin_until(lambda: not any(far.robot.commands[-1]))
-    for _ in range(30):  # odom goes on meanwhile
+    for _ in range(70):  # odom goes on meanwhile
         far.robot.report()
         far.tester.graph.spin_for(0.02)
     far.robot.commands.clear()
