@@ -60,7 +60,7 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
         """Put the robot at its start, and open the topics."""
         self._joints = WheelJoints(self.parameters.joint_names)
         super().open()
-        self._state = self.publisher(JointState, 'wheels/state', SENSOR)
+        self._state = self.publisher(JointState, 'wheels/state', SENSOR, sole=True)
         self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         self.listen(JointState, 'wheels/command', self._on_command, COMMAND)
 

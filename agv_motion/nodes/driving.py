@@ -91,11 +91,11 @@ class DrivingNode(ManagedNode[P]):
         self.guard = BlockedGuard(given.blocked, arm, f'clear its way, then {self.release}')
         """Watches that the robot moves when told to"""
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
-        self._state = self.publisher(String, self.state_topic, LATCHED)
+        self._state = self.publisher(String, self.state_topic, LATCHED, sole=True)
         if given.position == 'odom':
-            self.listen(Odometry, 'odom', self._on_pose, SENSOR)
+            self.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
         else:
-            self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
+            self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
         self.every(1.0 / given.rate, self._on_cycle)
         self.watch_inputs(given.stop_after, self._watch)
 

@@ -118,7 +118,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
             self.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
             for i in range(len(self._probes))
         ]
-        self._sap_flow = self.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR)
+        self._sap_flow = self.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
         self._valid = self.publisher(Bool, 'granier/valid', LATCHED)
         self.serve(Trigger, '~/recalibrate', self._on_recalibrate)
         if isinstance(self._source, SimulatedSource):

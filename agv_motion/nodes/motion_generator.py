@@ -74,9 +74,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
         self._watches = {name: InputWatch(self, name, limits) for name in ('sap flow', 'pose')}
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
-        self._way = self.publisher(Path, 'way', LATCHED)
+        self._way = self.publisher(Path, 'way', LATCHED, sole=True)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
-        self._state = self.publisher(String, 'state', LATCHED)
+        self._state = self.publisher(String, 'state', LATCHED, sole=True)
         self._keeper = (
             None
             if self._mind.memory is None
@@ -84,9 +84,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
                 self, self._mind.memory, given.memory_file, given.map_frame, given.last_visit_span
             )
         )
-        self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR)
+        self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
         self.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
-        self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
+        self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
         self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
         self.serve(SetBool, '~/pause', self._on_pause)
         self.serve(Trigger, '~/next_goal', self._on_next_goal)

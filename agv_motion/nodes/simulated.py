@@ -140,7 +140,7 @@ class SimulatedNode(ManagedNode[P]):
         self._paused, self._clocks = False, 1
         self._commanded_at: tuple[float, float] | None = None
         self._put_at_start()
-        self._truth = self.publisher(Odometry, 'ground_truth', SENSOR)
+        self._truth = self.publisher(Odometry, 'ground_truth', SENSOR, sole=True)
         self.serve(SetBool, '~/pause', self._on_pause)
         self.serve(Trigger, '~/reset', self._on_reset)
         self.serve(SetMap, '~/carry', self._on_carry)

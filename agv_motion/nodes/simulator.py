@@ -76,7 +76,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         self._obstacles = given.obstacles()
         self._joints = TurretJoints(len(given.turret_x))
         super().open()
-        self._state = self.publisher(JointState, 'turrets/state', SENSOR)
+        self._state = self.publisher(JointState, 'turrets/state', SENSOR, sole=True)
         self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         self._sunlight = self.publisher(Illuminance, 'sunlight', SENSOR)
         self.listen(JointState, 'turrets/command', self._on_command, COMMAND)

@@ -80,16 +80,16 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._message.header.frame_id = given.base_frame
         self._odometry_message = Odometry(child_frame_id=given.base_frame)
         self._odometry_message.header.frame_id = given.odom_frame
-        self._command = self.publisher(JointState, 'turrets/command', COMMAND)
+        self._command = self.publisher(JointState, 'turrets/command', COMMAND, sole=True)
         self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
         self._limits = self.publisher(String, 'turrets/limiter', LATCHED)
         self._fight = self.publisher(Float64, 'turrets/residual', SENSOR)
-        self._odometry = self.publisher(Odometry, 'odom', SENSOR)
+        self._odometry = self.publisher(Odometry, 'odom', SENSOR, sole=True)
         if given.stamped:
-            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND)
+            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
-            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND)
+            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
         self.listen(JointState, 'turrets/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(Trigger, '~/unwind', self._on_unwind)

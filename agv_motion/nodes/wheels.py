@@ -129,13 +129,13 @@ class WheelsNode(ManagedNode[P]):
         self._extras_wanted = False
         self._guard = BlockedGuard(given.blocked, ARM, RELEASE)
         self._sent, self._looked_at = REST, self.seconds()
-        self._command = self.publisher(JointState, 'wheels/command', COMMAND)
+        self._command = self.publisher(JointState, 'wheels/command', COMMAND, sole=True)
         self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
-        self._odom = self.publisher(Odometry, 'odom', SENSOR)
+        self._odom = self.publisher(Odometry, 'odom', SENSOR, sole=True)
         if given.stamped:
-            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND)
+            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
-            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND)
+            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
         self.listen(JointState, 'wheels/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(SetMap, '~/set_odometry', self._on_set_odometry)

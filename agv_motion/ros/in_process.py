@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rclpy.lifecycle import LifecycleNode
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.graph_guard import NoGraph
 from agv_motion.ros.world import Clock, Listener, Logger, Publisher, Timer, World, require_success
 
 if TYPE_CHECKING:
@@ -226,6 +227,7 @@ def in_process(kind: type[ManagedNode[Any]]) -> type[Any]:
             # second of that; here there is one clock, which is always right, and nobody to look
             '_steady': property(InProcessNode.get_clock, lambda *_: None),
             '_start_watch': _trust,
+            '_graph': property(lambda _: NoGraph(), lambda *_: None),
             '_refusals': property(lambda _: _Every(), lambda *_: None),
             # a defect ends a reprocessing at once
             'stop_for': _raise,

@@ -20,6 +20,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
 from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
+from agv_motion.ros.graph_guard import GraphGuard
+from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.quotation import told
 from agv_motion.ros.rclpy_services import answer_all
@@ -93,6 +95,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
         self._refusals = Refusals()
         self.defect = ''
         """What went wrong in a callback by a fault of ours: the node was deactivated for it."""
+        self._graph = GraphGuard(self)
         self._declared = DeclaredParameters(self, parameters, self._accept)
         self._diagnostics = self._create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
@@ -162,18 +165,25 @@ class ManagedNode(LifecycleNode, Generic[P]):
             callback = self._if_possible(callback)
         return super().create_subscription(msg_type, topic, callback, *args, **kwargs)
 
-    def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
-        """Return a publisher that lives until cleanup."""
+    def publisher(self, kind: type[Any], topic: str, qos: QoSProfile, *, sole: bool = False) -> Any:
+        """Return a publisher that lives until cleanup.
+
+        Where it is the ``sole`` one that a robot may have, the node acts only as long as there is
+        no other on the graph; tools of a person, such as `agv topic pub`, are told but let be.
+        """
         publisher = self._create_publisher(kind, topic, qos)
+        self._graph.add(kind, topic, qos, publishes=True, sole=sole)
         self._entities.append(lambda: self.destroy_publisher(publisher))
         return publisher
 
     def listen(
-        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
-    ) -> None:
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile,
+        *, sole: bool = False,
+    ) -> None:  # fmt: skip
         """Call ``callback`` with each message while active; what it raises is told, not fatal.
 
         Nobody says again what is latched: what comes while inactive is heard at the activation.
+        Where the messages should come from a ``sole`` node, it is told when several publish them.
         """
         latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
@@ -193,6 +203,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
             kind, topic, guarded, qos,
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
+        self._graph.add(kind, topic, qos, publishes=False, sole=sole)
         self._entities.append(lambda: self.destroy_subscription(subscription))
 
     def every(
@@ -253,9 +264,13 @@ class ManagedNode(LifecycleNode, Generic[P]):
         """Tell of an input that was not used, in the log and in the diagnostics."""
         self._refused += 1
         self.complaint, self._complained_at = shortened(reason), self.steady_seconds()
-        line = self._refusals.line(self.complaint, self._complained_at)
+        self.warn(f'refused: {self.complaint}')
+
+    def warn(self, text: str) -> None:
+        """Log a warning; of repeats only some, with their number."""
+        line = self._refusals.line(text, self.steady_seconds())
         if line:
-            self.get_logger().warning(f'refused: {line}')
+            self.get_logger().warning(line)
 
     def stop_for(self, where: str, error: Exception) -> None:
         """Deactivate the node for a defect: nobody knows what state its callback has left.
@@ -281,7 +296,10 @@ class ManagedNode(LifecycleNode, Generic[P]):
         return result
 
     def on_activate(self, _: LifecycleState) -> TransitionCallbackReturn:
-        """Let the callbacks act; what was heard before counts no more."""
+        """Let the callbacks act, unless another node does; what was heard before counts no more."""
+        if self._graph.rivals:
+            self.get_logger().error(f'cannot activate: {self._graph.rivals}')
+            return TransitionCallbackReturn.FAILURE
         self._forget_inputs()
         result = self._attempt('activate', self.begin)
         self.defect = ''
@@ -303,6 +321,7 @@ class ManagedNode(LifecycleNode, Generic[P]):
 
     def on_cleanup(self, _: LifecycleState) -> TransitionCallbackReturn:
         """Close the topics."""
+        self._graph.clear()
         self._watchdogs.clear()
         self._on_fault.clear()
         self._unheard.clear()
@@ -323,9 +342,10 @@ class ManagedNode(LifecycleNode, Generic[P]):
     # Plumbing
 
     def _start_watch(self) -> None:
-        """Look at the clock and publish diagnostics from now on, by the steady clock."""
+        """Look at clock and graph and publish diagnostics from now on, by the steady clock."""
         self._look_at_clock()
         self.create_timer(LOOK_PERIOD, self._look_at_clock, clock=self._steady)
+        self.create_timer(GRAPH_PERIOD, self._graph.check, clock=self._steady)
         self.create_timer(1.0, self._publish_diagnostics, clock=self._steady)
 
     def _look_at_clock(self) -> None:
@@ -393,12 +413,18 @@ class ManagedNode(LifecycleNode, Generic[P]):
                 return self.diagnose()
             except Exception as error:  # noqa: BLE001 - a defect
                 self.stop_for('the diagnostics', error)
+        if self._graph.rivals:
+            return Diagnosis(ERROR, f'stopped: {self._graph.rivals}', {})
         if self.defect:
             return Diagnosis(ERROR, f'stopped by {self.defect}', {})
         return Diagnosis(WARN, 'not active', {})
 
     def _publish_diagnostics(self) -> None:
         level, message, values = self._condition()
+        faults = self._graph.faults()
+        values = values | self._graph.values()
+        if level == OK and faults:
+            level, message = WARN, faults[0]
         if self.clock.fault:
             level, message = ERROR, f'{self.clock.fault}: standing still'
         if self._refused:

@@ -1,0 +1,90 @@
+"""What a node does about others on its topics: falls silent beside a rival, and tells of the rest.
+
+Two motion generators, kinematics or localizations on one robot pull it two ways. Each sees the
+other, deactivates itself with its outputs safe, and goes on when it is alone again.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.ros.graph_watch import GraphWatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.qos import QoSProfile
+
+    from agv_motion.ros.node import ManagedNode
+
+
+class GraphGuard:
+    """Watches the topics of one node, and acts upon what it finds."""
+
+    def __init__(self, node: ManagedNode[Any]) -> None:
+        """Watch nothing yet."""
+        self.rivals = ''
+        """Who publishes together what one node may alone; empty if it does."""
+        self._node, self._watch = node, GraphWatch(node)
+        self._rests = False
+        self._told: frozenset[str] = frozenset()
+
+    def add(
+        self, kind: type[Any], topic: str, qos: QoSProfile, *, publishes: bool, sole: bool
+    ) -> None:
+        """Watch a topic of the node from now on."""
+        self._watch.add(kind, topic, qos, publishes=publishes, sole=sole)
+
+    def clear(self) -> None:
+        """Watch nothing any more."""
+        self._watch.clear()
+        self.rivals, self._rests = '', False
+
+    def check(self) -> None:
+        """Look at the graph; deactivate the node beside a rival, activate it when that is gone."""
+        node = self._node
+        self.rivals = self._watch.look()
+        if self.rivals and node.active:
+            node.get_logger().error(
+                f'stopped: {self.rivals}: stop all but one, or give each robot a namespace (one '
+                'that was killed stays on the graph for up to 20 s); then this node goes on'
+            )
+            self._rests = True
+            node.trigger_deactivate()
+        elif self._rests and not self.rivals:
+            self._rests = False
+            node.get_logger().info('alone on its topics again: going on')
+            node.trigger_activate()
+        self._tell()
+
+    def faults(self) -> tuple[str, ...]:
+        """Return what keeps ends from meeting, and what to do about it."""
+        return self._watch.faults()
+
+    def values(self) -> dict[str, str]:
+        """Return what there is to know for the diagnostics."""
+        crowds = {f'publishers of {topic}': who for topic, who in self._watch.crowds().items()}
+        return crowds | {f'graph {i + 1}': fault for i, fault in enumerate(self.faults())}
+
+    def _tell(self) -> None:
+        """Log what is new."""
+        crowds = {
+            f'{who} all publish {topic}: let one of them at a time, or all are obeyed in turn'
+            for topic, who in self._watch.crowds().items()
+        }
+        now_true = frozenset((*self.faults(), *crowds))
+        for text in sorted(now_true - self._told):
+            self._node.warn(text)
+        self._told = now_true
+
+
+class NoGraph:
+    """Stands for the guard where there is no graph: a node is alone in a reprocessing."""
+
+    rivals = ''
+
+    def add(self, *_: Any, **__: Any) -> None:
+        """Watch nothing."""
+
+    clear: Callable[..., None] = add
+    check: Callable[..., None] = add
