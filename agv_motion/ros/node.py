@@ -12,6 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from _typeshed import DataclassInstance
     from rclpy.lifecycle import LifecycleState
+    from rclpy.parameter import Parameter
 
     from agv_motion.motion.watchdog import Watchdog
 
@@ -107,6 +109,8 @@ class ManagedNode(LifecycleNode, Generic[P]):
         self._clock_told, self._clock_told_at = False, self.steady_seconds() + PATIENCE - SELDOM
         self._start_watch()
         answer_all(self)
+        for text in self._declared.unknown:
+            self.refuse(text)
 
     # What a node overrides
 
@@ -164,6 +168,14 @@ class ManagedNode(LifecycleNode, Generic[P]):
         if topic == CLOCK_TOPIC:
             callback = self._if_possible(callback)
         return super().create_subscription(msg_type, topic, callback, *args, **kwargs)
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """Set parameters; names and types that are wrong are refused with what to write."""
+        for parameter in parameter_list:
+            wrong = self._declared.wrong(parameter.name, parameter.value)
+            if wrong:
+                return SetParametersResult(successful=False, reason=shortened(wrong))
+        return super().set_parameters_atomically(parameter_list)
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile, *, sole: bool = False) -> Any:
         """Return a publisher that lives until cleanup.

@@ -12,8 +12,10 @@ from rcl_interfaces.msg import (
     SetParametersResult,
 )
 
-from agv_motion.errors import AgvMotionError
+from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.parameters import nested, rows
+from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
 
 if TYPE_CHECKING:
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
     from rclpy.parameter import Parameter
 
     from agv_motion.parameters import Spec
+
+OF_EVERY_NODE = 'use_sim_time', 'start_type_description_service', 'autostart', 'executor'
+"""Parameters that nodes have beside their own"""
 
 T = TypeVar('T', bound='DataclassInstance')
 
@@ -46,14 +51,34 @@ class DeclaredParameters(Generic[T]):
         Raises:
             ConfigurationError: The values given contradict each other or their rows.
             InvalidParameterValueException: A scalar lies outside its range.
-            InvalidParameterTypeException: A value has another type than its default (1 for 1.0).
+            ConfigurationError: A value has another type than its default (1 for 1.0).
 
         """
         self._accept = accept
+        self._types = dict(_types(kind, ''))
+        given = getattr(node, '_parameter_overrides', {})  # rclpy has no other way to ask
+        for name, parameter in given.items():
+            wrong = self.wrong(name, parameter.value) if name in self._types else ''
+            if wrong:
+                raise ConfigurationError(wrong)
         self.values: T = _declare(node, kind, '')
+        self.unknown = tuple(self._no_parameter(name) for name in given if not self._is_known(name))
+        """what was given and is no parameter of the node, with what may have been meant"""
         self.given = frozenset(_texts(self.values))
         """texts that whoever started the node gave, names of files among them"""
         node.add_on_set_parameters_callback(self._on_set)
+
+    def wrong(self, name: str, value: Any) -> str:
+        """Return why a parameter cannot have this value: no such name, or type; empty if it may."""
+        if not self._is_known(name):
+            return self._no_parameter(name)
+        return wrong_type(name, value, self._types[name]) if name in self._types else ''
+
+    def _is_known(self, name: str) -> bool:
+        return name in self._types or name in OF_EVERY_NODE or name.startswith('qos_overrides.')
+
+    def _no_parameter(self, name: str) -> str:
+        return f"no parameter '{name}'{meant(name, [*self._types, *OF_EVERY_NODE])}"
 
     def _on_set(self, changes: list[Parameter]) -> SetParametersResult:
         try:
@@ -68,6 +93,14 @@ class DeclaredParameters(Generic[T]):
             return SetParametersResult(successful=False, reason=str(error))
         self.values = candidate
         return SetParametersResult(successful=True)
+
+
+def _types(kind: type[Any], prefix: str) -> Iterator[tuple[str, Any]]:
+    """Yield name and type of every parameter."""
+    for name, origin, _ in rows(kind):
+        yield prefix + name, origin
+    for name, group in nested(kind):
+        yield from _types(group, f'{prefix}{name}.')
 
 
 def _declare(node: Node, kind: type[Any], prefix: str) -> Any:

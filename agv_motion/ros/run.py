@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.ros.parameter_arguments import check_arguments, passed_over
 from agv_motion.ros.stop import Stop, end_no_more
 
 if TYPE_CHECKING:
@@ -138,6 +139,7 @@ def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
     """
     stop = Stop()
     try:
+        check_arguments(sys.argv)
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
         _run(make_node(), lambda: stop.requested)
     except UNUSABLE as error:
@@ -154,6 +156,8 @@ def _run(node: ManagedNode[Any], until: Callable[[], bool]) -> None:
     if executor not in EXECUTORS:
         msg = f"executor = '{executor}': choose one of {', '.join(EXECUTORS)}"
         raise ConfigurationError(msg)
+    for text in passed_over(sys.argv, node.get_fully_qualified_name()):
+        node.refuse(text)
     if autostart:
         start(node, until)
     spin([node], until, executor)

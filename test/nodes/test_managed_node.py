@@ -62,7 +62,7 @@ class Robot:
         assert not any(self.commands[-1].velocity)
 
 
-def fail(*_):
+def fail(*_, **__):
     """Have a defect."""
     return 1 // 0
 

@@ -1,0 +1,102 @@
+"""What the command line says of parameters, looked at before rcl does.
+
+A fault in a parameter file ends rcl with a trace of C code, and a file or an argument for a node
+of another name is passed over without a word.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.files import yaml_text
+from agv_motion.files.text import read
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+VALUES = 'ros__parameters'
+SINGLE = '-p', '--param'
+
+
+def meant(name: str, choices: Sequence[str]) -> str:
+    """Return a question for what may have been meant, or nothing."""
+    close = difflib.get_close_matches(name, choices, n=1)
+    return f"; did you mean '{close[0]}'?" if close else ''
+
+
+def check_arguments(arguments: Sequence[str]) -> None:
+    """Read every parameter and parameter file of a command line.
+
+    Raises:
+        ConfigurationError: One is no ``name:=value``; or a file cannot be read, is no YAML, or
+            holds a value outside of any node.
+
+    """
+    for rule in _given(arguments, *SINGLE):
+        name, _, value = rule.partition(':=')
+        if not name or not value:
+            msg = f"-p '{rule}': write -p name:=value"
+            raise ConfigurationError(msg)
+    for path in _given(arguments, '--params-file'):
+        list(_sections(path, _content(path), ''))
+
+
+def passed_over(arguments: Sequence[str], node: str) -> Iterator[str]:
+    """Yield what of a command line has nothing for ``node``, a name with its namespace."""
+    for path in _given(arguments, '--params-file'):
+        keys = list(_sections(path, _content(path), ''))
+        if keys and not any(_is_for(key, node) for key in keys):
+            yield (
+                f"parameter file '{path}' has nothing for {node}: it is for "
+                f'{", ".join(keys)}{meant(node, keys)}'
+            )
+    for rule in _given(arguments, *SINGLE):
+        key, found, _ = rule.partition(':=')[0].partition(':')
+        if found and not _is_for(key, node):
+            yield f"-p {rule} is for the node '{key}', this one is {node}{meant(node, ['/' + key])}"
+
+
+def _given(arguments: Sequence[str], *options: str) -> Iterator[str]:
+    """Yield the values of an option of ROS."""
+    ours = False
+    for option, value in pairwise(arguments):
+        if option in {'--ros-args', '--'}:
+            ours = option == '--ros-args'
+        elif ours and option in options:
+            yield value
+
+
+def _content(path: str) -> Any:
+    content = yaml_text.parse(read(Path(path), 'the parameter file'), path)
+    return {} if content is None else content.value
+
+
+def _sections(path: str, content: Any, prefix: str) -> Iterator[str]:
+    """Yield the name of each node, with its namespace, that has parameters in a file."""
+    if not isinstance(content, dict):
+        where = f"'{prefix}' = {content!r} stands" if prefix else f'{content!r} stands'
+        msg = (
+            f'{path}: {where} outside of the parameters of any node; write, indented: '
+            f'name_of_the_node: {VALUES}: name: value'
+        )
+        raise ConfigurationError(msg)
+    for name, value in content.items():
+        if name != VALUES:
+            yield from _sections(path, value, f'{prefix}/{str(name).strip("/")}')
+        elif not prefix:
+            msg = f'{path}: {VALUES} stands at the top: write it below the name of a node, or /**'
+            raise ConfigurationError(msg)
+        else:
+            yield prefix
+
+
+def _is_for(key: str, node: str) -> bool:
+    """Return whether a name, where ``/**`` is any namespace and ``/*`` one word, is of a node."""
+    pattern = re.escape('/' + key.strip('/'))
+    pattern = pattern.replace(r'/\*\*', '(/[^/]+)*').replace(r'\*', '[^/]+')
+    return re.fullmatch(pattern, node) is not None
