@@ -206,6 +206,7 @@ def test_late_and_disordered_messages_do_no_harm(tester):
     robot.fix.publish(robot.sight(robot.time + 500.0, robot.truth))
     tester.graph.spin_until(lambda: robot.values().get('fixes early') == '1')
     assert robot.values()['fixes duplicate'] == robot.values()['fixes late'] == '1'
+    assert 'odom is at' in robot.node.complaint
     count = len(robot.filtered)
     robot.odom.publish(robot.odometry(robot.time - 0.3, Pose(0.0, 0.0, 0.0)))
     tester.graph.spin_for(0.1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import count
-from math import inf, nan, pi, sqrt
+from math import asin, inf, nan, pi, sqrt
 
 import pytest
 
@@ -182,6 +182,19 @@ def test_rates_alone_will_do(tester):
     for stamp in (1.0, 1.1, 1.2):
         odometry = robot.tell(state([], stamp, rates=[2.0, 2.0, 2.0]))
     assert odometry.twist.twist.angular.z == pytest.approx(-2.0 * RADIUS / DISTANCE)
+
+
+def test_whichever_field_is_of_use_carries_the_odometry_on(tester):
+    """At 2 rad/s of all wheels: positions of use, then rates alone, then positions again."""
+    robot = Robot(tester, **PATIENT)
+    fields = [('both', 1.0), ('position', 1.1), ('rate', 1.2), ('rate', 1.3), ('position', 1.4)]
+    for field, stamp in fields:
+        angles = [nan if field == 'rate' else 50.0 + 2.0 * (stamp - 1.0)] * 3
+        rates = [nan if field == 'position' else 2.0] * 3
+        odometry = robot.tell(state(angles, stamp, rates=rates))
+    turned = -2.0 * 0.4 * RADIUS / DISTANCE
+    assert 2.0 * asin(odometry.pose.pose.orientation.z) == pytest.approx(turned, abs=1e-6)
+    assert 'velocities must be finite' in robot.node.complaint
 
 
 def test_stamps_and_encoders_that_jump(tester):
