@@ -207,6 +207,11 @@ class PoseFusion:
         """Return whether the robot may be anywhere: only a search can find it again."""
         if self._buffer is None:
             return False
+        (x, y, _), noise, known = waypoint.pose, waypoint.noise, self._buffer.belief.covariance
+        # more than there is anywhere within the way to the origin: the usual case costs little
+        most = noise.xx + noise.yy + known.xx + known.yy + (x * x + y * y) * (noise.tt + known.tt)
+        if most < 0.1 * MAX_DEVIATION:
+            return False
         xx, _, _, yy, _, tt = covariance_at(self._buffer.belief, waypoint, self._drift)
         return max(xx, yy) > MAX_DEVIATION**2 or tt > MAX_TURN_DEVIATION**2
 
