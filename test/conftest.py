@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import os
 import random
 import socket
@@ -157,6 +158,9 @@ def graph():
     graph.executor.shutdown()
     for node in graph.nodes:
         node.destroy_node()
+    # a node that the collector finds later takes the log of a new one of its name with it
+    graph.nodes.clear()
+    gc.collect()
     rclpy.shutdown(context=context)
 
 
