@@ -81,6 +81,12 @@ class DifferentialDrive:
         """Return two."""
         return 2
 
+    @property
+    def matrix(self) -> tuple[tuple[float, float, float], ...]:
+        """(2, 3) rim speeds [m/s] of unit vx, vy and wz."""
+        half = 0.5 * self.track
+        return (1.0, 0.0, -half), (1.0, 0.0, half)
+
     def command(self, twist: Twist, max_wheel_speed: float = float_info.max) -> DifferentialCommand:
         """Return the rim speeds for ``twist`` by equation (1).
 
