@@ -23,6 +23,9 @@ MOST_TURNS = 10.0
 """[turns] beyond its limit that a turret can be: it is unwound from there. More is no angle of a
 turret, and nobody knows how far its cables are turned."""
 
+SHARE_ROUNDING = 1.0 - 1e-9
+"""A wheel that gains more than it may by less than this share does not."""
+
 QUARTER = pi / 2.0
 """[rad] A turret turned further from straight, either way, can be unwound by half turns."""
 
@@ -54,6 +57,8 @@ class SteeringDrive:
         self._wanted = REST
         self._rested = 0.0
         self._planned_at: float | None = None
+        self._rolled = [0.0] * len(turrets)  # (n,) speeds commanded last, without sign [m/s]
+        self._most_share = 1.0
 
     def see(self, angles: list[float]) -> None:
         """Take up the angles as they are, (n,) [rad], finite.
@@ -99,6 +104,7 @@ class SteeringDrive:
     def stop(self) -> None:
         """Stop all wheels at once, and hold the angles."""
         self._wanted, self.unwinding = REST, False
+        self._rolled = [0.0] * self._turrets
         if self.plan is not None:
             self.planner.stop(self.plan)
 
@@ -140,6 +146,7 @@ class SteeringDrive:
             self.unwinding = plan.speed > 0.0 or not self.planner.unwind(plan, elapsed)
         if plan.speed > 0.0 or not self.unwinding:
             self.planner.step(plan, self._wanted, elapsed)
+        self._hold_acceleration(plan, self.planner.limits.wheel_acceleration * elapsed)
         return True
 
     def share(self) -> float:
@@ -147,7 +154,19 @@ class SteeringDrive:
         plan, measured = self.plan, self.measured
         if plan is None or measured is None or not plan.speed:
             return 1.0
-        return alignment(plan.angles, measured)
+        return min(alignment(plan.angles, measured), self._most_share)
+
+    def _hold_acceleration(self, plan: SteeringState, change: float) -> None:
+        """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step.
+
+        It may fall at once: turrets that went astray must not be pulled along.
+        """
+        self._most_share = 1.0
+        for speed, before in zip(plan.speeds, self._rolled, strict=True):
+            if abs(speed) * SHARE_ROUNDING > before + change:
+                self._most_share = min(self._most_share, (before + change) / abs(speed))
+        share = self.share()
+        self._rolled = [share * abs(speed) for speed in plan.speeds]
 
     def _seen(self, plan: SteeringState) -> list[float]:
         """Return the measured angles, the turns of encoders that wrap counted on [rad]."""

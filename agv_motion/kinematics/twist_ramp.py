@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     from agv_motion.kinematics.wheel_limits import WheelLimits
 
-    Row = tuple[float, float, float]
 
 THERE = 1.0 - 1e-12
 """Share of the way to the target that is all of it."""
@@ -39,7 +38,7 @@ NOTHING = 1e-12
 class TwistRamp:
     """The twist of one base; it holds the limits of the wheels at every update."""
 
-    def __init__(self, rows: Sequence[Row], limits: WheelLimits) -> None:
+    def __init__(self, rows: Sequence[Sequence[float]], limits: WheelLimits) -> None:
         """Stand still.
 
         Args:
@@ -47,7 +46,7 @@ class TwistRamp:
             limits: Of every wheel.
 
         """
-        self._rows = [tuple(map(float, row)) for row in rows]
+        self._rows = [(float(a), float(b), float(c)) for a, b, c in rows]
         self._top = limits.max_wheel_speed
         self._up = limits.max_wheel_acceleration or inf
         self._down = limits.max_wheel_deceleration or inf

@@ -25,9 +25,14 @@ if TYPE_CHECKING:
 class DifferentialKinematicsParameters(WheelsParameters, DifferentialBaseParameters):
     """The base, its limits, what makes it stop, and how far its encoders are trusted."""
 
+    def __post_init__(self) -> None:
+        """Check the limits and the base."""
+        WheelsParameters.__post_init__(self)
+        DifferentialBaseParameters.__post_init__(self)
+
 
 class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
-    """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`."""
+    """`cmd_vel` -> `wheels/command`, `cmd_vel/limited`; `wheels/state` -> `odom`."""
 
     def __init__(self, **kwargs: Any) -> None:
         """Declare the parameters."""
@@ -39,7 +44,7 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         self._wheels = given.drive()
         base = DifferentialBase(self._wheels.track)
         self._odometry = WheelOdometry(base, given.wheel_radii, given.odometry)
-        self.open_wheels(given.joint_names, given.wheel_radii, self._odometry)
+        self.open_wheels(given.joint_names, given.wheel_radii, self._odometry, self._wheels.matrix)
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop and of silence."""

@@ -34,9 +34,14 @@ class OmniKinematicsParameters(WheelsParameters, OmniBaseParameters):
         float, Spec('wheels slip against each other: warn above', 'm/s', (0.0, 50.0), dynamic=True)
     ] = 0.1
 
+    def __post_init__(self) -> None:
+        """Check the limits and the base."""
+        WheelsParameters.__post_init__(self)
+        OmniBaseParameters.__post_init__(self)
+
 
 class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
-    """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`, `wheels/free_speed`.
+    """`cmd_vel` -> `wheels/command`, `cmd_vel/limited`; `wheels/state` -> `odom`, ...
 
     Odometry does without a wheel that is missing or, of four or more, faulty, and says so.
     """
@@ -54,7 +59,12 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         self._diagnosis: WheelDiagnosis = SOUND
         self._free = self.publisher(JointState, 'wheels/free_speed', SENSOR)
         self._slip = self.publisher(Float64, 'wheels/residual', SENSOR)
-        self.open_wheels(given.joint_names, given.wheel_radii, self._odometry.reckoning)
+        self.open_wheels(
+            given.joint_names,
+            given.wheel_radii,
+            self._odometry.reckoning,
+            self._wheels.matrix.tolist(),
+        )
         self.every(1.0, self._look_for_faults)
 
     def diagnose(self) -> Diagnosis:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
@@ -19,7 +19,7 @@ from agv_motion.kinematics.steering_state import Limiter
 from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_reckoning import TurretReckoning
-from agv_motion.planar import REST
+from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import (
@@ -34,16 +34,13 @@ from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 
-if TYPE_CHECKING:
-    from agv_motion.planar import Twist
-
 SOONEST = 0.4
 """[-] A step shorter than this share of the last one waits: limits of acceleration want even steps.
 """
 
 
 class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
-    """`cmd_vel` -> `turrets/command`; `turrets/state` -> `turrets/residual`, `odom`.
+    """`cmd_vel` -> `turrets/command`, `cmd_vel/limited`; `turrets/state` -> `odom`, ...
 
     The steering planner brings the wheels to the wanted twist with one centre of rotation at every
     step. Where `turrets/state` tells how far the turrets have turned, the wheels roll no faster
@@ -81,6 +78,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._odometry_message = Odometry(child_frame_id=given.base_frame)
         self._odometry_message.header.frame_id = given.odom_frame
         self._command = self.publisher(JointState, 'turrets/command', COMMAND, sole=True)
+        self._limited_message = TwistStamped()
+        self._limited = self.publisher(TwistStamped, 'cmd_vel/limited', COMMAND)
         self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
         self._limits = self.publisher(String, 'turrets/limiter', LATCHED)
@@ -184,10 +183,13 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         plan = self._driving.plan
         if plan is None:
             return
-        factor = self._driving.share() / self.parameters.wheel_radius
+        share = self._driving.share()
+        factor = share / self.parameters.wheel_radius
         rates = [factor * speed for speed in plan.speeds]
         angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
         self._tell_turrets(angles, rates)
+        vx, vy, wz = plan.twist(self._driving.planner.turrets)
+        self._tell_limited(Twist(share * vx, share * vy, share * wz))
         if self._arrays_wanted:
             self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
@@ -195,6 +197,12 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _tell_turrets(self, angles: list[float], rates: list[float]) -> None:
         self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)
+
+    def _tell_limited(self, twist: Twist) -> None:
+        """Tell what twist is commanded in truth, after all limits."""
+        self._limited_message.header = self._message.header
+        fill_twist(self._limited_message.twist, twist)
+        self._limited.publish(self._limited_message)
 
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent; say so before."""
@@ -213,6 +221,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             message.header.frame_id = self.parameters.base_frame
             self.stamp(message)
             self._command.publish(message)
+            self._message.header.stamp = message.header.stamp
+            self._tell_limited(REST)
         else:
             self.stamp(self._message)
             self._send()

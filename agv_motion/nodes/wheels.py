@@ -1,13 +1,17 @@
 """What nodes share that drive fixed wheels: `cmd_vel` and encoders in, motors and `odom` out.
 
-Silence of `cmd_vel`, silence of the encoders once they have spoken, `~/stop` and the end of the
-node all end in an explicit zero.
+A change of the twist is ramped within the limits of the wheels, a zero too: it brakes as hard as
+the wheels may. Silence of `cmd_vel`, silence of the encoders once they have spoken, `~/stop` and
+the end of the node are another matter: an explicit zero at once. Nobody then knows what lies ahead,
+a node that ends cannot ramp, and a limit that somebody has set too low must not lengthen the stop;
+how hard the wheels can brake their motors know best.
 """
 
 from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from geometry_msgs.msg import Twist as TwistMessage
@@ -20,6 +24,8 @@ from std_srvs.srv import SetBool
 
 from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import SignalError
+from agv_motion.kinematics.twist_ramp import TwistRamp
+from agv_motion.kinematics.wheel_limits import WheelLimits
 from agv_motion.motion.watchdog import Silence
 from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
@@ -57,12 +63,12 @@ LONGEST_STEP = 0.2
 
 
 @dataclass(frozen=True)
-class WheelsParameters:
+class WheelsParameters(WheelLimits):
     """The limits of the wheels, what makes them stop, and how far their encoders are trusted."""
 
-    max_wheel_speed: Annotated[
-        float, Spec('limit of every rim; above it the whole twist is scaled', 'm/s', (1e-4, 50.0))
-    ] = 1.0
+    rate: Annotated[
+        float, Spec('commands per second while the speed changes', 'Hz', (1.0, 1000.0))
+    ] = 50.0
     report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 0.3
     stop_after: Annotated[
         float, Spec('silence of cmd_vel, or of wheels/state, to stop', 's', (0.01, 3600))
@@ -84,13 +90,14 @@ P = TypeVar('P', bound=WheelsParameters)
 class WheelsNode(ManagedNode[P]):
     """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`.
 
-    A node opens with `open_wheels`, and overrides `rates` and `carry`.
+    A node opens with `open_wheels`, and overrides `rates` and `carry`. `cmd_vel/limited` tells what
+    is commanded in truth.
     """
 
     # What a node overrides
 
     def rates(self, twist: Twist) -> Sequence[float]:
-        """Return the rate of each wheel [rad/s] for ``twist``, within the limit of the wheels."""
+        """Return the rate of each wheel [rad/s] for ``twist``; raise where they cannot make it."""
         raise NotImplementedError
 
     def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
@@ -110,10 +117,26 @@ class WheelsNode(ManagedNode[P]):
     # What a node uses
 
     def open_wheels(
-        self, joint_names: Sequence[str], wheel_radii: Sequence[float], reckoning: WheelOdometry
+        self,
+        joint_names: Sequence[str],
+        wheel_radii: Sequence[float],
+        reckoning: WheelOdometry,
+        rows: Sequence[Sequence[float]],
     ) -> None:
-        """Open the topics and services of wheels with these names, whose odometry this is."""
+        """Open the topics and services of the wheels.
+
+        Args:
+            joint_names: (n,) of the wheels.
+            wheel_radii: (n,) [m].
+            reckoning: Their odometry.
+            rows: (n, 3) rim speeds [m/s] of unit vx, vy and wz.
+
+        """
         given = self.parameters
+        self._ramp = TwistRamp(rows, given)
+        self._ramped_at, self._settled = -inf, True
+        self._limited_message = TwistStamped()
+        self._limited_message.header.frame_id = given.base_frame
         self.joints = WheelJoints(joint_names)
         self.stopped = self.blind = False
         self.last_step = Step.FIRST
@@ -131,6 +154,7 @@ class WheelsNode(ManagedNode[P]):
         self._sent, self._looked_at = REST, self.seconds()
         self._command = self.publisher(JointState, 'wheels/command', COMMAND, sole=True)
         self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
+        self._limited = self.publisher(TwistStamped, 'cmd_vel/limited', COMMAND)
         self._odom = self.publisher(Odometry, 'odom', SENSOR, sole=True)
         if given.stamped:
             self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
@@ -139,6 +163,7 @@ class WheelsNode(ManagedNode[P]):
         self.listen(JointState, 'wheels/state', self._on_state, SENSOR)
         self.serve(SetBool, '~/stop', self._on_stop)
         self.serve(SetMap, '~/set_odometry', self._on_set_odometry)
+        self.every(1.0 / given.rate, self._go_on)
         self.watch_inputs(given.stop_after, self._watch)
 
     def begin(self) -> None:
@@ -148,7 +173,7 @@ class WheelsNode(ManagedNode[P]):
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
-        self._send(REST)
+        self._stand()
 
     def silence(self) -> Silence:
         """Return how silent `cmd_vel` is; no more than a fact where the robot was told to stand."""
@@ -166,7 +191,7 @@ class WheelsNode(ManagedNode[P]):
         twist, header = twist_of(message.twist), message.header
         if twist == REST and not self.standing:  # a stop is obeyed however old it is
             self.standing = True
-            self._send(REST)
+            self._follow(REST)
         require_frame(header.frame_id, self.parameters.base_frame)
         if self.command_watch.is_news(header.stamp):
             self._drive(twist)
@@ -180,17 +205,51 @@ class WheelsNode(ManagedNode[P]):
             return
         if twist == REST:
             self._guard.release()
-        self._send(REST if self.stopped or self.blind or self._guard.reason else twist)
+        if self.stopped or self.blind or self._guard.reason:
+            self._stand()
+        else:
+            self._follow(twist)
         self.command_watch.note()
         self.standing = twist == REST
 
+    def _follow(self, twist: Twist) -> None:
+        """Go over to ``twist`` as fast as the wheels may, and answer with a command at once."""
+        self.rates(twist)  # refuses what the wheels cannot make
+        self._ramp.set_target(twist)
+        self._advance()
+
+    def _go_on(self) -> None:
+        """Command the next step of a ramp, however seldom `cmd_vel` comes."""
+        if not self._ramp.settled:
+            self._advance()
+
+    def _advance(self) -> None:
+        """Command what the ramp has come to; a step counts for no more than its period, or two.
+
+        After a rest one period has passed, however long it was.
+        """
+        now = self.stamp(self._limited_message)  # of what is commanded for this instant
+        period, ramp = 1.0 / self.parameters.rate, self._ramp
+        longest = period if self._settled else 2.0 * period
+        ramp.update(min(max(now - self._ramped_at, 0.0), longest))
+        self._settled, self._ramped_at = ramp.settled, now
+        self._send(ramp.twist)
+
+    def _stand(self) -> None:
+        """Stop all wheels at once, for safety."""
+        self.stamp(self._limited_message)
+        self._ramp.stop()
+        self._settled = True
+        self._send(REST)
+
     def _send(self, twist: Twist) -> None:
         """Command the wheels; the plain array only where someone listens."""
-        rates, self._sent = self.rates(twist), twist
+        rates, limited, self._sent = self.rates(twist), self._limited_message, twist
         message = self.joints.message(rates)
-        self.stamp(message)
-        message.header.frame_id = self.parameters.base_frame
+        message.header = limited.header
         self._command.publish(message)
+        fill_twist(limited.twist, twist)
+        self._limited.publish(limited)
         if self._extras_wanted:
             self._rates.publish(Float64MultiArray(data=array('d', rates)))
 
@@ -201,12 +260,12 @@ class WheelsNode(ManagedNode[P]):
         command = self.command_watch
         silence = command.silence() if self.standing else command.tell()
         if self.blind or silence is Silence.LOST:
-            self._send(REST)
+            self._stand()
 
     def _on_stop(self, request: Any) -> str:
         self.stopped = request.data
         if request.data:
-            self._send(REST)
+            self._stand()
             return 'stopped; call again with data: false to drive on'
         return 'free to drive'
 
@@ -244,7 +303,7 @@ class WheelsNode(ManagedNode[P]):
         guard.watch.parameters = self.parameters.blocked
         if guard.update(dt, self._reckoning.pose, self._sent):
             self.get_logger().error(guard.reason)
-            self._send(REST)
+            self._stand()
 
     def _tell_ignored(self, stamp: float) -> None:
         """Tell of readings that cannot be; one that comes late or twice is no news."""

@@ -213,3 +213,21 @@ def test_whatever_the_turrets_tell_the_wheels_keep_their_limits(events):
                 assert abs(speed) <= LIMITS.max_wheel_speed + 1e-9
                 assert abs(abs(speed) - abs(last)) <= LIMITS.wheel_acceleration * 0.1 + 1e-9
             before = list(one.plan.speeds)
+
+
+def test_turrets_that_are_seen_to_have_turned_let_the_wheels_speed_up_no_faster_than_they_may():
+    """A reading that leaps from a quarter turn off to where it should be is no step of speed."""
+    one, rolled = drive(), 0.0
+    one.see([0.0, 0.0])
+    one.want(AHEAD)
+    now = steps(one, 20)
+    one.see([0.0, pi / 2])
+    now = steps(one, 1, now)
+    assert one.share() == pytest.approx(0.0, abs=1e-12)
+    one.see([0.0, 0.0])
+    for _ in range(5):
+        now = steps(one, 1, now)
+        speed = one.share() * one.plan.speeds[1]
+        assert rolled <= speed <= rolled + LIMITS.wheel_acceleration * 0.1 + 1e-9
+        rolled = speed
+    assert rolled == pytest.approx(0.3)

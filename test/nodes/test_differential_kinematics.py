@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import nan, pi
 
 import pytest
@@ -20,6 +21,8 @@ from agv_motion.ros.node import ERROR, OK, WARN
 from agv_motion.ros.qos import SENSOR
 
 BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0, 'max_age': 1e10}
+UNRAMPED = {'max_wheel_acceleration': 0.0, 'max_wheel_deceleration': 0.0}
+PATIENT = {'report_after': 20.0, 'stop_after': 30.0, 'max_age': 100.0}
 NAMES = ['left_wheel', 'right_wheel']
 
 
@@ -66,15 +69,84 @@ class Robot:
 
 def test_a_twist_becomes_the_rates_of_both_wheels(tester):
     """0.5 m/s and 1 rad/s, track 0.4 m: 0.3 and 0.7 m/s; radii 5 and 4 cm: 6 and 17.5 rad/s."""
-    command = Robot(tester).drive(vx=0.5, wz=1.0)
+    command = Robot(tester, **UNRAMPED).drive(vx=0.5, wz=1.0)
     assert list(command.name) == NAMES
     assert list(command.velocity) == pytest.approx([6.0, 17.5])
     assert command.header.frame_id == 'base_link'
 
 
 def test_beyond_the_limit_the_arc_stays(tester):
-    command = Robot(tester, max_wheel_speed=0.35).drive(vx=0.5, wz=1.0)
+    command = Robot(tester, max_wheel_speed=0.35, **UNRAMPED).drive(vx=0.5, wz=1.0)
     assert list(command.velocity) == pytest.approx([3.0, 8.75])
+
+
+def speeds(commands):
+    """Return for each command its time [s] and the rim speeds [m/s]."""
+    return [
+        (nanoseconds(m.header) * 1e-9, (0.05 * m.velocity[0], 0.04 * m.velocity[1]))
+        for m in commands
+    ]
+
+
+def test_a_step_of_the_twist_told_once_becomes_a_ramp_to_its_end_and_so_does_a_zero(tester):
+    """Up with 0.5 m/s2 on one arc, down with 2 m/s2; `cmd_vel/limited` tells what is commanded."""
+    robot = Robot(tester, max_wheel_acceleration=0.5, max_wheel_deceleration=2.0, **PATIENT)
+    limited = tester.listen(TwistStamped, 'cmd_vel/limited')
+    tester.graph.spin_until(lambda: robot.node.count_subscribers('cmd_vel/limited') > 0)
+    robot.drive(vx=0.4, wz=0.5)
+    tester.wait(robot.commands, lambda m: 0.04 * m.velocity[1] == pytest.approx(0.5))
+    for steps, limit in ((speeds(robot.commands), 0.5), (None, 2.0)):
+        if steps is None:
+            robot.commands.clear()
+            robot.cmd_vel.publish(robot.twist())
+            tester.wait(robot.commands, lambda m: not any(m.velocity))
+            steps = speeds(robot.commands)  # noqa: PLW2901 - of the second ramp
+        assert len(steps) > 5
+        for (before, first), (after, second) in pairwise(steps):
+            assert abs(second[1] - first[1]) <= limit * (after - before) + 1e-6
+            assert second[0] == pytest.approx(0.6 * second[1], abs=1e-9)
+    tester.wait(limited, lambda m: m.twist.linear.x == pytest.approx(0.4))
+    tester.wait(limited, lambda m: not m.twist.linear.x and m.header.stamp.sec > 0)
+    by_time = {nanoseconds(m.header): m.twist for m in limited}
+    for time, (left, right) in zip(
+        map(nanoseconds, (m.header for m in robot.commands)),
+        [pair for _, pair in speeds(robot.commands)],
+        strict=True,
+    ):
+        if time in by_time:
+            assert by_time[time].linear.x == pytest.approx(0.5 * (left + right))
+            assert by_time[time].angular.z == pytest.approx((right - left) / 0.4)
+
+
+def test_commands_that_come_often_do_not_add_up_to_more_than_the_limit(tester):
+    """Each small step of a swift publisher is within the limit; all together must be too."""
+    robot = Robot(tester, max_wheel_acceleration=0.5, max_wheel_deceleration=0.5, **PATIENT)
+    robot.commands.clear()
+    for k in range(1, 60):
+        robot.cmd_vel.publish(robot.twist(vx=0.008 * k))
+        tester.graph.executor.spin_once(timeout_sec=0.002)
+    tester.wait(robot.commands, lambda m: 0.05 * m.velocity[0] == pytest.approx(0.472))
+    for (before, (first, _)), (after, (second, _)) in pairwise(speeds(robot.commands)):
+        assert second - first <= 0.5 * (after - before) + 1e-6
+
+
+def test_a_stop_for_safety_is_at_once_and_the_next_start_is_ramped(tester):
+    robot = Robot(tester, max_wheel_acceleration=0.5, max_wheel_deceleration=0.5, **PATIENT)
+    robot.drive(vx=0.4)
+    tester.wait(robot.commands, lambda m: 0.05 * m.velocity[0] == pytest.approx(0.4))
+    robot.commands.clear()
+    assert tester.ask(SetBool, 'differential_kinematics/stop', SetBool.Request(data=True)).success
+    ((stopped, _),) = speeds([tester.wait(robot.commands)])
+    assert list(robot.commands[0].velocity) == [0.0, 0.0]
+    tester.ask(SetBool, 'differential_kinematics/stop', SetBool.Request(data=False))
+    robot.drive(vx=0.4)
+    tester.wait(robot.commands, lambda m: 0.05 * m.velocity[0] == pytest.approx(0.4))
+    assert all(left <= 0.5 * (time - stopped) + 1e-6 for time, (left, _) in speeds(robot.commands))
+
+
+def test_a_robot_that_could_not_brake_is_refused(tester):
+    with pytest.raises(ConfigurationError, match='brake at least as hard'):
+        tester.start(DifferentialKinematics, max_wheel_deceleration=0.1)
 
 
 def test_a_quarter_circle_is_told_exactly(tester):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import count
+from itertools import count, pairwise
 from math import asin, inf, nan, pi, sqrt
 
 import pytest
@@ -18,6 +18,7 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.nodes.omni_kinematics import OmniKinematics
+from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.node import OK, WARN
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import StartError
@@ -31,6 +32,7 @@ MECANUM = {
     'wheel_radii': [RADIUS] * 4,
     'joint_names': ['a', 'b', 'c', 'd'],
 }
+UNRAMPED = {'max_wheel_acceleration': 0.0, 'max_wheel_deceleration': 0.0}
 PATIENT = {'report_after': 20.0, 'stop_after': 20.0}
 
 
@@ -85,7 +87,7 @@ class Robot:
 
 def test_the_wheels_of_the_seed(tester):
     """Hand calculation: V = sin(a) vx - cos(a) vy - d wz at 30, 150 and 270 degrees."""
-    robot = Robot(tester, **PATIENT)
+    robot = Robot(tester, **PATIENT, **UNRAMPED)
     command = robot.drive(vx=0.3, vy=0.1, wz=0.5)
     half, root = 0.5, sqrt(3.0) / 2.0
     expected = [
@@ -99,12 +101,27 @@ def test_the_wheels_of_the_seed(tester):
 
 def test_beyond_the_limit_all_wheels_are_scaled(tester):
     plain = tester.listen(Float64MultiArray, 'wheels/velocity_commands')
-    robot = Robot(tester, max_wheel_speed=0.5, **PATIENT)
+    robot = Robot(tester, max_wheel_speed=0.5, **PATIENT, **UNRAMPED)
     tester.graph.spin_for(0.2)
     command = robot.drive(vx=2.0)
     assert list(command.velocity) == pytest.approx([5.0, 5.0, -10.0])
     told = tester.wait(plain, lambda m: any(m.data))
     assert list(told.data) == pytest.approx([5.0, 5.0, -10.0])
+
+
+def test_a_step_told_once_is_ramped_in_its_own_direction(tester):
+    """The third wheel is the fastest, and speeds up with 0.5 m/s2; the others keep their share."""
+    robot = Robot(tester, max_wheel_acceleration=0.5, **PATIENT)
+    robot.drive(vx=0.3, vy=0.1, wz=0.5)
+    tester.wait(robot.commands, lambda m: m.velocity[2] * RADIUS == pytest.approx(-0.4))
+    ramp = [[rate * RADIUS for rate in m.velocity] for m in robot.commands]
+    assert len(ramp) > 10
+    times = [seconds_of(m.header.stamp) for m in robot.commands]
+    for (before, first), (after, second) in pairwise(zip(times, ramp, strict=True)):
+        assert abs(second[2] - first[2]) <= 0.5 * (after - before) + 1e-6
+    for first, second, third in ramp:
+        assert first == pytest.approx(third * 0.036603 / 0.4, abs=1e-6)
+        assert second == pytest.approx(-third * 0.136603 / 0.4, abs=1e-6)
 
 
 @pytest.mark.parametrize('bad', [nan, inf])

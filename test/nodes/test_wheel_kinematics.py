@@ -445,3 +445,12 @@ def test_activated_again_it_stands_until_a_twist_comes(tester, drive):
     assert not any(any(rates(command)) for command in commands)
     cmd_vel.publish(twist(vx=1.0))
     tester.wait(commands, lambda m: any(rates(m)))
+
+
+def test_what_is_commanded_after_all_limits_is_told(drive, tester):
+    limited = tester.listen(TwistStamped, 'cmd_vel/limited')
+    _, _, cmd_vel = drive(**QUICK, max_wheel_speed=0.5)
+    cmd_vel.publish(twist(vx=2.0))
+    told = tester.wait(limited, lambda m: m.twist.linear.x == pytest.approx(0.5))
+    assert told.header.frame_id == 'base_link'
+    assert told.header.stamp.sec > 0
