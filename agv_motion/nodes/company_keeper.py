@@ -162,9 +162,9 @@ class CompanyKeeper:
         except SignalError as error:
             right.alarm(f'a claim was refused: {error}', now)
             raise
-        if claim.name != self._name and claim.name not in self._roster.names:
+        right.hear(claim, now)
+        if claim.name != self._name:
             try:  # before this tree tells it that it was heard
                 self._roster.add(claim.name)
             except ConfigurationError as error:
                 self._node.refuse(str(error))
-        right.hear(claim, now)

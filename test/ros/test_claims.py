@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
-from math import nan
+import random
+from math import inf, nan
 
 import pytest
 
 pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import Point
+from visualization_msgs.msg import Marker
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.traffic.claim import Claim, Word
+from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.traffic.right_of_way import RightOfWay
 from agv_motion.ros.claims import claim_message, claim_of
 
 CLAIM = Claim(
@@ -81,3 +85,50 @@ def test_what_is_no_claim_is_refused(change, word):
     change(message)
     with pytest.raises(SignalError, match=word):
         claim_of(message, 'map')
+
+
+NUMBERS = (nan, inf, -inf, 0.0, -1.0, 1e-300, 1e9, 1e300, 2.5)
+TEXTS = ('', ' ', 'oak', 'x' * 300, '\x00', 'null', '[[', '{"run": 1}', '1e999')
+
+
+def _spoilt(chance):
+    """Return the message of a sound claim with one to three things in it changed."""
+    message = claim_message(CLAIM, 'map', 1.5)
+    for _ in range(chance.randint(1, 3)):
+        marker = chance.choice(message.markers) if message.markers else Marker()
+        told = json.loads(CLAIM_TEXT)
+        key = chance.choice([*told, 'other'])
+        told[key] = chance.choice([*NUMBERS, *TEXTS, None, [], {}, -1, 2**64, 2**63, True, [1, 2],
+                                   {'ash': [1, 2]}, {'ash': [nan, 2]}, {'': [1, 1]}])  # fmt: skip
+        point = Point(x=chance.choice(NUMBERS), y=chance.choice(NUMBERS))
+        chance.choice([
+            lambda m=marker, t=told: setattr(m, 'text', json.dumps(t)),
+            lambda m=marker: setattr(m, 'text', chance.choice(TEXTS)),
+            lambda m=marker: setattr(m, 'ns', chance.choice(TEXTS)),
+            lambda m=marker: setattr(m, 'id', chance.randint(-1, 3)),
+            lambda m=marker, p=point: setattr(m, 'points', [p] * chance.choice((0, 1, 2, 5000))),
+            lambda m=marker: setattr(m.scale, 'x', chance.choice(NUMBERS)),
+            lambda m=marker: setattr(m.header, 'frame_id', chance.choice(TEXTS)),
+            lambda m=marker: message.markers.append(m),
+            lambda: message.markers.pop() if message.markers else None,
+        ])()  # fmt: skip
+    return message
+
+
+CLAIM_TEXT = claim_message(CLAIM, 'map', 1.5).markers[0].text
+
+
+def test_whatever_a_message_says_it_is_refused_or_leaves_the_tree_sound():
+    chance = random.Random(1)  # noqa: S311 - seeded, no secret
+    ash = RightOfWay('ash', (20.0, 0.0), TrafficParameters(listen=0.0), 42)
+    refused = 0
+    for number in range(3000):
+        try:
+            ash.hear(claim_of(_spoilt(chance), 'map'), float(number))
+        except SignalError:
+            refused += 1
+        if not ash.asked:
+            ash.ask((ash.held[-1], (20.0, 5.0)))
+        ash.settle(float(number))
+        claim_of(claim_message(ash.claim(float(number)), 'map', 1.5), 'map')
+    assert 500 < refused < 3000

@@ -81,6 +81,9 @@ class Verdict(NamedTuple):
 
 GRANTED = Verdict(Answer.GRANTED)
 
+MOST_PEERS = 100
+"""[1] other trees in one zone"""
+
 MOST_WISHED = 500
 """[1] corners of the rest of a way that are told"""
 
@@ -127,9 +130,14 @@ class RightOfWay:
         """Take up the message of another tree.
 
         Raises:
-            SignalError: It bears the name of this tree, but this run of it did not send it.
+            SignalError: It bears the name of this tree, but this run of it did not send it, or
+                there are more trees than any zone holds.
 
         """
+        if claim.name not in self.peers and len(self.peers) >= MOST_PEERS:
+            msg = f"'{claim.name:.40}' is one tree more than {MOST_PEERS}: who speaks there?"
+            self.alarm(msg, now)
+            raise SignalError(msg)
         if claim.name != self.name:
             self.peers.hear(claim, now, self._number + 1)
         elif claim.word.run != self.run:

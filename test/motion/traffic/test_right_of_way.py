@@ -242,6 +242,17 @@ def test_after_a_claim_that_was_refused_nobody_moves_for_a_while():
     assert oak.settle(35.1).answer is Answer.GRANTED
 
 
+def test_more_trees_than_a_zone_holds_are_told_and_nobody_moves():
+    oak = tree('oak', 0.0)
+    for i in range(100):
+        oak.hear(tree(f'tree_{i}', 50.0).claim(0.0), 0.0)
+    with pytest.raises(SignalError, match="'pine' is one tree more than 100"):
+        oak.hear(tree('pine', 50.0).claim(0.0), 0.0)
+    assert len(oak.peers) == 100
+    assert 'one tree more' in oak.obstacle(1.0)
+    assert len(oak.claim(1.0).heard) == 100
+
+
 # Runs: a tree that starts again knows nothing
 
 
