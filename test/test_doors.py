@@ -20,7 +20,7 @@ FILES, NODES = 150, 60
 
 
 @pytest.mark.filterwarnings('ignore::RuntimeWarning')  # shapely, on what it then refuses
-@pytest.mark.parametrize('kind', ['file', 'text', 'messages', 'services', 'parameters'])
+@pytest.mark.parametrize('kind', ['file', 'text', 'line', 'messages', 'services', 'parameters'])
 def test_whatever_comes_is_used_or_refused(kind, capsys):
     inputs = NODES if kind in {'messages', 'services', 'parameters'} else FILES
     assert fuzz_doors.main([str(inputs), '7', kind]) == 0, capsys.readouterr().out

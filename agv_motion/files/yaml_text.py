@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 _TAGS = {f'tag:yaml.org,2002:{name}': name for name in ('str', 'int', 'float', 'bool', 'null')}
-_FLOAT = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z', re.ASCII)
+_FLOAT = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+\Z', re.ASCII)
 _UNPRINTABLE = re.compile('[^\t\n\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]')
 _CONSTRUCTOR = yaml.constructor.SafeConstructor()
 

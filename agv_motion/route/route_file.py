@@ -12,7 +12,7 @@ from agv_motion.files.marked import quoted
 from agv_motion.route.route import Route
 
 KEYS = ('waypoints', 'laps')
-_NUMBER = re.compile(r'[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?')
+_NUMBER = re.compile(r'[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?')
 
 
 def load_route(path: str | Path, laps: int = 1) -> Route:

@@ -37,6 +37,13 @@ def test_what_plain_scalars_mean():
     assert yaml_text.plain('# nothing\n', 'f') is None
 
 
+def test_a_long_scalar_is_looked_at_once():
+    begun = time.process_time()
+    text = '9' * 200_000 + 'x'
+    assert yaml_text.plain(text, 'f') == text
+    assert time.process_time() - begun < 1.0
+
+
 def test_an_alias_repeats_what_came_before():
     assert yaml_text.plain('a: &x [1, 2]\nb: *x', 'f') == {'a': [1, 2], 'b': [1, 2]}
 

@@ -47,6 +47,7 @@ def test_laps_of_the_file_and_of_the_caller(tmp_path):
         ('r.csv', 'x,y\n0,0\n1,nan\n', 'line 3, column 3: .*must be finite'),
         ('r.csv', 'x,y\r\n0,0\r\n1, inf\r\n', 'line 3, column 4: .*must be finite'),
         ('r.csv', '0,0\n1,' + '9' * 400, 'line 2, column 3: .*must be finite'),
+        ('r.csv', '0,0\n1,' + '9' * 100_000 + 'x', 'line 2, column 3: '),
         ('r.csv', '0,0\n1,1_0', 'line 2, column 3: '),
         ('r.csv', '0 0\n1  \u0663', 'line 2, column 4: '),
         ('r.csv', '', '0 waypoints'),
