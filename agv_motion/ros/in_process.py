@@ -12,6 +12,7 @@ from rclpy.lifecycle import LifecycleNode
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.graph_guard import NoGraph
+from agv_motion.ros.parameters import OF_THE_PLATFORM
 from agv_motion.ros.world import Clock, Listener, Logger, Publisher, Timer, World, require_success
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def add(
 
     """
     node: Any = in_process(kind)(setup=Setup(world, dict(parameters), dict(remap)))
-    unknown = set(parameters) - node.declared - OF_RCLPY
+    unknown = set(parameters) - node.declared - OF_RCLPY - OF_THE_PLATFORM
     if unknown:
         msg = f'{node.get_name()} has no parameter {", ".join(sorted(unknown))}'
         raise ConfigurationError(msg)

@@ -13,6 +13,7 @@ from rcl_interfaces.msg import (
 )
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.parameters import nested, rows
 from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.parameter_types import wrong_type
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
 
 OF_EVERY_NODE = 'use_sim_time', 'start_type_description_service', 'autostart', 'executor'
 """Parameters that nodes have beside their own"""
+
+OF_THE_PLATFORM = frozenset(name for name, _, _ in rows(PlatformParameters))
+"""Parameters that a file tells once for all nodes, under ``/**``; not every node needs them."""
 
 T = TypeVar('T', bound='DataclassInstance')
 
@@ -62,7 +66,11 @@ class DeclaredParameters(Generic[T]):
             if wrong:
                 raise ConfigurationError(wrong)
         self.values: T = _declare(node, kind, '')
-        self.unknown = tuple(self._no_parameter(name) for name in given if not self._is_known(name))
+        self.unknown = tuple(
+            self._no_parameter(name)
+            for name in given
+            if not self._is_known(name) and name not in OF_THE_PLATFORM
+        )
         """what was given and is no parameter of the node, with what may have been meant"""
         self.given = frozenset(_texts(self.values))
         """texts that whoever started the node gave, names of files among them"""
