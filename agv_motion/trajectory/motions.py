@@ -5,8 +5,7 @@ A motion is immutable; where it stands at a time depends on that time alone.
 
 from __future__ import annotations
 
-from cmath import phase
-from math import pi
+from math import atan2, pi
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from agv_motion.planar import Pose, wrap
@@ -177,7 +176,8 @@ class Drive:
     def at_way(self, way: float) -> Pose:
         """Return the pose at ``way`` [m] from the start."""
         curve, u = self.course.locate(max(0.0, way))
-        point, heading = curve.point(u), phase(self._sense * curve.velocity(u))
+        point, along = curve.point(u), self._sense * curve.velocity(u)
+        heading = atan2(along.imag, along.real)  # cmath.phase raises where the angle underflows
         return Pose(point.real, point.imag, heading if heading < pi else -pi)
 
     def speeds(self, time: float) -> Speeds:

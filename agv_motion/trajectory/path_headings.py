@@ -6,8 +6,8 @@ the goal. Taken for headings they would have the robot look along the x axis at 
 
 from __future__ import annotations
 
-from cmath import phase
-from math import pi
+from itertools import pairwise
+from math import atan2, dist, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.planar import Pose, wrap
@@ -39,21 +39,17 @@ def with_headings(start: Pose, places: Sequence[Pose], *, backward: bool) -> lis
         backward: Whether the robot drives backwards, and so looks against the path.
 
     """
-    points = [complex(places[0].x, places[0].y)]
-    for place in places[1:]:
-        point = complex(place.x, place.y)
-        if abs(point - points[-1]) > APART:
-            points.append(point)
-    here = complex(start.x, start.y)
-    if len(points) > 1 and abs(here - points[0]) < 0.5 * abs(points[1] - points[0]):
+    points = [places[0][:2]]
+    points += [b[:2] for a, b in pairwise(places) if dist(a[:2], b[:2]) > APART]
+    here = start[:2]
+    if len(points) > 1 and dist(here, points[0]) < 0.5 * dist(points[0], points[1]):
         del points[0]
     befores, afters = [here, *points[:-1]], [*points[1:], points[-1]]
     poses = []
     for before, point, after in zip(befores, points, afters, strict=True):
-        along = after - before
-        if abs(along) <= APART:  # straight there and back
-            along = point - before
-        poses.append(Pose(point.real, point.imag, wrap(phase(along) + pi * backward)))
+        there = point if dist(before, after) <= APART else after  # straight there and back
+        line = atan2(there[1] - before[1], there[0] - before[0])
+        poses.append(Pose(*point, wrap(line + pi * backward)))
     if places[-1].theta != 0.0:
         poses[-1] = places[-1]
     return poses

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cmath import phase
 from itertools import pairwise
-from math import copysign, hypot
+from math import atan2, copysign, hypot, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -198,7 +197,7 @@ class Planner:
         line = _point(there) - _point(here)
         if abs(line) <= NOTHING:
             return self._turn(here, there, corner, present)
-        heading = wrap(phase(-line if request.backward else line))
+        heading = wrap(atan2(line.imag, line.real) + pi * request.backward)
         ends = here._replace(theta=heading), there._replace(theta=heading)
         motions = self._turn(here, ends[0], corner, present)
         course = Line(_point(here), _point(there))

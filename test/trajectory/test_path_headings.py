@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin
+from itertools import pairwise
+from math import cos, hypot, isfinite, pi, sin
 
 import pytest
 from hypothesis import given
@@ -73,3 +74,12 @@ def test_each_place_is_kept_once_with_a_heading_along(places):
             assert cos(pose.theta) == pytest.approx(dx / length, abs=1e-9)
             assert sin(pose.theta) == pytest.approx(dy / length, abs=1e-9)
         before = pose[:2]
+
+
+@given(
+    st.lists(st.sampled_from([0.0, 5e-324, 1.0, 1e17, 1.7e308, -1.7e308]), min_size=4, max_size=8)
+)
+def test_places_at_the_edge_of_all_numbers_have_headings_too(numbers):
+    path = [Pose(x, y, 0.0) for x, y in pairwise(numbers)]
+    for pose in with_headings(Pose(0.0, 0.0, 0.0), path, backward=True):
+        assert all(map(isfinite, pose))

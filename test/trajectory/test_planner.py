@@ -121,3 +121,12 @@ def test_no_ramp_by_name_is_at_full_speed_at_once(order):
     ghost.abort()
     assert ghost.finished
     assert ghost.speeds == (0.0, 0.0)
+
+
+@pytest.mark.parametrize('delta', [0.0, 0.4])
+@pytest.mark.parametrize('aside', [5e-324, -5e-324, 1e-310])
+def test_a_goal_aside_by_less_than_any_angle_lies_straight_ahead(delta, aside):
+    ghost = Ghost(ORIGIN)
+    trajectory = ghost.compute_trajectory(Pose(900.0, aside, 0.0), delta, *PACE)
+    assert trajectory.pose(100.0).theta == pytest.approx(0.0, abs=1e-12)
+    assert trajectory.pose(100.0).y == pytest.approx(0.0, abs=1e-9)
