@@ -309,6 +309,19 @@ def test_a_late_word_of_a_run_never_heard_before_is_not_taken_for_the_present_on
     assert [len(peer.floors()) for peer in oak.peers] == [1]
 
 
+def test_the_answer_of_a_run_that_may_have_ended_is_not_relied_upon():
+    """The first run had heard the request; it came late, after a word of the second."""
+    oak, first = tree('oak', 0.0), tree('pine', 20.0)
+    asks(oak, (5.0, 0.0))
+    first.hear(oak.claim(0.0), 0.0)
+    late, again = first.claim(0.0), tree('pine', 20.0)
+    oak.hear(again.claim(1.0), 1.0)
+    oak.hear(late, 2.0)
+    assert oak.settle(2.0).answer is Answer.PENDING
+    talk([oak, again], 3.0, rounds=2)
+    assert oak.settle(3.0).answer is Answer.GRANTED
+
+
 def test_it_waits_for_all_that_an_earlier_run_knew():
     oak = RightOfWay('oak', (0.0, 0.0), PARAMETERS, known=('pine',))
     asks(oak, (5.0, 0.0))

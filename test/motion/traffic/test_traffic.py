@@ -195,3 +195,17 @@ def test_two_with_fixed_goals_in_a_t_both_get_there(starts):
         if len(reached) == 2:
             return
     pytest.fail(f'{[one.right.name for one in trees if one not in reached]} never got there')
+
+
+def test_who_goes_first_waits_from_when_it_heard_of_the_other_journey_whatever_clocks_say():
+    """Ash stood there idle and sets out after 200 s: from then on it has twice the patience."""
+    oak = tree('oak', 10.0, 1.25, CORRIDOR)
+
+    def ash(now):
+        journey = 2 if now >= 10_200 else IDLE
+        return other(now, (6.0, 1.25), journey=journey, wish=((6.0, 1.25), (14.0, 1.25)))
+
+    walk(oak, (2.0, 1.25), 430, ash, start=10_000)
+    assert oak.right.journey == 1
+    walk(oak, (2.0, 1.25), 20, ash, start=10_430)
+    assert oak.right.journey > 2
