@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 import shutil
+from filecmp import cmp
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import zstandard
 
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.file_kind import COMPRESSED, SUFFIXES, kind
 from agv_motion.bag.metadata import ENTRIES, FILE_NAME, SIZE
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.files import text, yaml_text
@@ -17,11 +19,11 @@ from agv_motion.files import text, yaml_text
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-SUFFIXES = ('.mcap', '.db3')
-COMPRESSED = '.zstd'
 _PIECE = 1 << 20
 _SPARE = 1 << 28
 """[bytes] Disk left free when a compressed file is unpacked."""
+_MOST_NAMED = 5
+"""Names that an error tells."""
 
 
 class BagFiles(NamedTuple):
@@ -31,11 +33,8 @@ class BagFiles(NamedTuple):
     messages_compressed: bool = False
     """each message is compressed by itself"""
     problems: Sequence[DamagedBagError] = ()
-
-    @property
-    def files_compressed(self) -> bool:
-        """Whether the files are compressed as a whole."""
-        return any(path.suffix == COMPRESSED for path in self.paths)
+    messages: int = 0
+    """that the metadata tells of; 0 where it does not"""
 
 
 def find(path: Path) -> BagFiles:
@@ -45,8 +44,12 @@ def find(path: Path) -> BagFiles:
         SourceError: There is no bag.
 
     """
-    if path.is_dir():
-        return _in_folder(path)
+    try:
+        if path.is_dir():
+            return _in_folder(path)
+    except PermissionError as error:
+        msg = f'{path} cannot be read: {error.strerror}'
+        raise SourceError(msg) from error
     if not path.exists():
         msg = f'bag {path} does not exist: give the folder of a bag, or its .mcap or .db3 file'
         raise SourceError(msg)
@@ -62,7 +65,7 @@ def unpack_file(path: Path, folder: Path) -> Path:
         DamagedBagError: It is damaged, or would fill the disk.
 
     """
-    target = folder / path.stem
+    target = folder / path.stem if path.suffix in COMPRESSED else folder / path.name
     unpacker = zstandard.ZstdDecompressor(max_window_size=1 << 27)
     with path.open('rb') as packed, target.open('wb') as file:
         try:
@@ -79,24 +82,95 @@ def unpack_file(path: Path, folder: Path) -> Path:
 
 
 def _in_folder(folder: Path) -> BagFiles:
-    described = _described(folder / FILE_NAME)
-    problems = []
+    described, problems = _described(folder / FILE_NAME), []
     if described is None:
-        problems.append(DamagedBagError(folder / FILE_NAME, 0, 'no metadata that can be read'))
-    named = [folder / PurePath(str(name)).name for name in _names(described or {})]
+        finding = 'no metadata that can be read'
+        problems.append(_problem(folder, finding, 'what lies in the folder is read'))
+        described = {}
+    named = [folder / PurePath(str(name)).name for name in _names(described)]
+    there = [path for path in named if _is_there(path)]
+    unnamed, notes = _unnamed(folder, named, there)
+    problems += notes
+    lost = len(named) - len(there) > len(unnamed)
     problems += [
-        DamagedBagError(folder / FILE_NAME, 0, f'it names {path.name:.200}, which is not there')
+        _problem(folder, f'it names {path.name:.200}, which is not there', harmless=not lost)
         for path in named
-        if not _is_there(path)
+        if path not in there
     ]
-    paths = [path for path in named if _is_there(path)] or sorted(
-        (p for p in folder.iterdir() if p.name.removesuffix(COMPRESSED).endswith(SUFFIXES)),
-        key=_number,
-    )
+    if named:
+        problems += [
+            _problem(folder, f'it does not name {path.name:.200}, which lies there', 'it is read')
+            for path in unnamed
+        ]
+    paths = [*there, *unnamed]
     if not paths:
-        msg = f'{folder} is no bag: it has no .mcap and no .db3 file'
-        raise SourceError(msg)
-    return BagFiles(paths, _mode(described or {}) == 'message', problems)
+        raise _no_bag(folder)
+    return BagFiles(paths, _mode(described) == 'message', problems, _count(described))
+
+
+def _problem(folder: Path, finding: str, remedy: str = '', *, harmless: bool = True) -> Any:
+    """Return what is amiss in the metadata; ``harmless`` where all messages can be read."""
+    remedy = remedy or 'bring it back beside the others'
+    return DamagedBagError(folder / FILE_NAME, 0, finding, remedy, harmless=harmless)
+
+
+def _unnamed(
+    folder: Path, named: Sequence[Path], there: Sequence[Path]
+) -> tuple[list[Path], list[DamagedBagError]]:
+    """Return files that belong to the bag though its metadata does not name them, and notes.
+
+    A recording that was killed leaves such a file; so does who renames files. Copies, and files of
+    another format than the named ones, are left out.
+    """
+    kinds = {_bare(path).suffix for path in there}
+    chosen: list[Path] = []
+    notes: list[DamagedBagError] = []
+    for path in sorted(folder.iterdir(), key=_number):
+        if path in named or _bare(path).suffix not in SUFFIXES or not _is_there(path):
+            continue
+        known = [*there, *chosen]
+        copy = next((other for other in known if _is_copy(path, other)), None)
+        if copy is not None:
+            finding = f'{path.name:.200} is a copy of {copy.name:.200}'
+            notes.append(_problem(folder, finding, 'it is read once'))
+        elif kinds and _bare(path).suffix not in kinds:
+            finding = f'it does not name {path.name:.200}, which is of another format'
+            notes.append(_problem(folder, finding, f'agv bag info {path} looks into it'))
+        else:
+            chosen.append(path)
+    return chosen, notes
+
+
+def _is_copy(path: Path, other: Path) -> bool:
+    """Return whether two files hold the same: byte by byte, or one is the other compressed."""
+    if path != other and _bare(path) == _bare(other):
+        return True
+    same = path.stat().st_size == other.stat().st_size > 0
+    return same and cmp(path, other, shallow=False)
+
+
+def _bare(path: Path) -> Path:
+    """Return the name of a file without the suffix of its compression."""
+    return path.with_suffix('') if path.suffix in COMPRESSED else path
+
+
+def _no_bag(folder: Path) -> SourceError:
+    """Return an error that tells what lies in a folder in place of a bag."""
+    inner = sorted(p.parent for p in folder.glob(f'*/{FILE_NAME}'))
+    if inner:
+        names = ', '.join(str(path) for path in inner[:_MOST_NAMED])
+        return SourceError(f'{folder} is no bag, but has bags in it: give one of them, as {names}')
+    others = sorted(p for p in folder.iterdir() if p.is_file() and p.name != FILE_NAME)
+    known = next(filter(None, map(_known, others)), '')
+    return SourceError(f'{folder} is no bag: it has no .mcap and no .db3 file{known}')
+
+
+def _known(path: Path) -> str:
+    """Return what a file is, if that is known, as the end of an error."""
+    try:
+        return f'; {path} is {kind(path)}: give it'
+    except SourceError as error:
+        return '' if ' is no bag in ' in str(error) else f'; {error}'
 
 
 def _is_there(path: Path) -> bool:
@@ -122,11 +196,16 @@ def _names(described: dict[str, Any]) -> list[Any]:
     return names if isinstance(names, list) else []
 
 
+def _count(described: dict[str, Any]) -> int:
+    count = described.get('message_count')
+    return count if isinstance(count, int) else 0
+
+
 def _mode(described: dict[str, Any]) -> str:
     return str(described.get('compression_mode') or '').lower()
 
 
-def _number(path: Path) -> tuple[str, int]:
+def _number(path: Path) -> tuple[str, int, str]:
     """Return what sorts the files of a split bag: bag_2 before bag_10."""
     match = re.search(r'(.*?)(\d+)\.', path.name)
-    return (match[1], int(match[2])) if match else (path.name, 0)
+    return (match[1], int(match[2]), path.name) if match else (path.name, 0, '')

@@ -13,7 +13,15 @@ if TYPE_CHECKING:
 class DamagedBagError(SourceError):
     """A bag is damaged, or hostile, at a byte of a file."""
 
-    def __init__(self, path: Path | str, offset: int, finding: str, remedy: str = '') -> None:
+    def __init__(
+        self,
+        path: Path | str,
+        offset: int,
+        finding: str,
+        remedy: str = '',
+        *,
+        harmless: bool = False,
+    ) -> None:
         """Keep where and what.
 
         Args:
@@ -21,8 +29,9 @@ class DamagedBagError(SourceError):
             offset: [bytes] from its beginning.
             finding: What stands there, and what was expected.
             remedy: What a person can do; by default, ``agv bag recover``.
+            harmless: Whether everything can be read all the same.
 
         """
-        self.path, self.offset, self.finding = path, offset, finding
+        self.path, self.offset, self.finding, self.harmless = path, offset, finding, harmless
         remedy = remedy or 'agv bag recover saves what can be read'
         super().__init__(f'{path}, byte {offset}: {finding}; {remedy}')

@@ -90,6 +90,11 @@ class McapFile:
             return None
         return min(chunk.start for chunk in filled), max(chunk.end for chunk in filled)
 
+    @property
+    def counted(self) -> bool:
+        """Whether the number of messages is known without a walk through the file."""
+        return self.statistics is not None
+
     def counts(self) -> dict[int, int]:
         """Return the number of messages of each channel."""
         if self.statistics is not None and self.statistics.channel_messages:

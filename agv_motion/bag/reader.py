@@ -16,9 +16,12 @@ from typing import TYPE_CHECKING, final
 
 from agv_motion.bag.bag_files import find, unpack_file
 from agv_motion.bag.batch import unpack_message
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.file_kind import MCAP, SQLITE, ZSTD, kind
 from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.metadata import FILE_NAME
 from agv_motion.bag.sqlite_file import SqliteFile
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -49,11 +52,11 @@ class BagReader:
         self.path = Path(path)
         found = find(self.path)
         self._found = found
-        self._unpacked = TemporaryDirectory() if found.files_compressed else None
+        self._unpacked: TemporaryDirectory[str] | None = None
         self.files: list[File] = []
         try:
             for file in found.paths:
-                self.files.append(self._open(file, validate=validate))
+                self.files.append(self._open(file, kind(file), validate=validate))
         except BaseException:
             self.close()
             raise
@@ -67,6 +70,14 @@ class BagReader:
         """the first connection of each topic, by name"""
         for connection in self.connections:
             self.topics.setdefault(connection.topic, connection)
+        if all(file.counted for file in self.files) and self.message_count < found.messages:
+            finding = f'it tells of {found.messages} messages, where {self.message_count} are'
+            self.problems.append(DamagedBagError(self.path / FILE_NAME, 0, finding))
+
+    @property
+    def lossy(self) -> bool:
+        """Whether something that the bag should hold cannot be read."""
+        return not all(getattr(problem, 'harmless', False) for problem in self.problems)
 
     @property
     def messages_compressed(self) -> bool:
@@ -154,10 +165,17 @@ class BagReader:
         """Close the bag."""
         self.close()
 
-    def _open(self, path: Path, *, validate: bool) -> File:
-        if self._unpacked:
-            path = unpack_file(path, Path(self._unpacked.name))
-        return SqliteFile(path) if path.suffix == '.db3' else McapFile(path, validate=validate)
+    def _open(self, path: Path, found: str, *, validate: bool) -> File:
+        if found == SQLITE:
+            return SqliteFile(path)
+        if found == MCAP:
+            return McapFile(path, validate=validate)
+        self._unpacked = self._unpacked or TemporaryDirectory()
+        inside = unpack_file(path, Path(self._unpacked.name))
+        if kind(inside) == ZSTD:
+            msg = f'{path} is compressed by zstd twice: unpack it first'
+            raise SourceError(msg)
+        return self._open(inside, kind(inside), validate=validate)
 
     def _messages(self, topics: frozenset[str] | None, start: int, stop: int) -> Iterator[Message]:
         for group in _overlapping(self.files):

@@ -225,17 +225,16 @@ class Recording:
                 raise OSError(0, reason)
 
     def _split(self) -> None:
-        """Go on in a new file; where old ones are dropped, with the latched messages again."""
+        """Go on in a new file, with the latched messages again: each file stands alone."""
         self._writer.flush(sync=self._given.sync)
         self._writer.split()
         self._split_at = inf
         while 0 < self._given.keep_files < self._writer.finished_files:
             self._writer.drop_oldest()
-        if self._given.keep_files or self._given.when_full == 'drop_oldest':
-            for topic in self._topics:
-                for handle, _, data, sent, sequence in topic.latest:
-                    number = sequence & 0xFFFFFFFF
-                    self._writer.write(handle, self._newest, data, sent, number)
+        for topic in self._topics:
+            for handle, _, data, sent, sequence in topic.latest:
+                number = sequence & 0xFFFFFFFF
+                self._writer.write(handle, self._newest, data, sent, number)
 
     def _drop_oldest(self) -> bool:
         return self._given.when_full == 'drop_oldest' and self._writer.drop_oldest()

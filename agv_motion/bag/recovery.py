@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from agv_motion.bag.bag_files import find
 from agv_motion.bag.batch import unpack_message
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.file_kind import SQLITE, kind
 from agv_motion.bag.mcap_file import McapFile
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
@@ -56,8 +57,8 @@ class Recovery:
         for number, file in enumerate(found.paths):
             with self._noting(SourceError), TemporaryDirectory() as folder:
                 readable = file
-                if file.suffix == '.db3':
-                    readable = Path(folder) / file.name
+                if kind(file) == SQLITE:
+                    readable = Path(folder) / 'readable.db3'
                     self.problems += copy_readable(file, readable)
                 with BagReader(readable) as bag:
                     self.problems += bag.problems

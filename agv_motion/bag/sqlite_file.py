@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from sqlite3 import DatabaseError
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from rosbags.rosbag2 import Reader, ReaderError
@@ -9,13 +12,15 @@ from rosbags.rosbag2 import Reader, ReaderError
 from agv_motion.bag import definitions
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.quality_of_service import OfferedQos, nanoseconds
+from agv_motion.bag.sqlite_aside import set_aside
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
-    from pathlib import Path
 
     from agv_motion.bag.damage import DamagedBagError
+
+_UNREADABLE = (ReaderError, OSError, ValueError, KeyError, TypeError, DatabaseError)
 
 
 class SqliteFile:
@@ -30,12 +35,17 @@ class SqliteFile:
         """
         self.path = path
         self.problems: list[DamagedBagError] = []
-        self.indexed = True
-        self._reader = Reader(path)
+        self.indexed = self.counted = True
+        self._folder = TemporaryDirectory()
         try:
+            self._reader = Reader(set_aside(path, Path(self._folder.name)))
             self._reader.open()
-        except (ReaderError, OSError, ValueError, KeyError, TypeError) as error:
-            msg = f'{path} cannot be read as a bag in sqlite3: {error}; agv bag recover may help'
+        except _UNREADABLE as error:
+            self._folder.cleanup()
+            if isinstance(error, SourceError):
+                raise
+            reason = str(error).replace(self._folder.name, str(path.parent))
+            msg = f'{path} cannot be read as a bag in sqlite3: {reason}; agv bag recover may help'
             raise SourceError(msg) from error
         self._by_id = {c.id: c for c in self._reader.connections}
         self.channels = {c.id: _connection(c) for c in self._reader.connections}
@@ -70,6 +80,7 @@ class SqliteFile:
     def close(self) -> None:
         """Let go of the file."""
         self._reader.close()
+        self._folder.cleanup()
 
 
 def _connection(found: Any) -> Connection:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import sqlite3
 from contextlib import closing
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from agv_motion.bag.sqlite_aside import set_aside
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
-    from pathlib import Path
 
 FARTHEST = 1 << 40
 """Rows: nothing is sought so far beyond the last that can be read."""
@@ -35,7 +37,8 @@ def copy_readable(damaged: Path, copy: Path) -> list[SourceError]:
     """
     problems: list[str] = []
     with (
-        closing(sqlite3.connect(f'{damaged.resolve().as_uri()}?mode=ro', uri=True)) as source,
+        TemporaryDirectory() as folder,
+        closing(_opened(damaged, Path(folder))) as source,
         closing(sqlite3.connect(copy)) as target,
     ):
         source.execute('pragma writable_schema = on')  # else a file that was cut off is refused
@@ -50,6 +53,15 @@ def copy_readable(damaged: Path, copy: Path) -> list[SourceError]:
             problems += _copy_table(source, target, name, statement)
         target.commit()
     return [SourceError(f'{damaged}, {problem}') for problem in problems]
+
+
+def _opened(damaged: Path, folder: Path) -> sqlite3.Connection:
+    """Return a file opened, with its write-ahead log if that can be used."""
+    try:
+        aside = set_aside(damaged, folder)
+    except sqlite3.DatabaseError:
+        aside = damaged
+    return sqlite3.connect(f'{aside.absolute().as_uri()}?mode=ro&immutable=1', uri=True)
 
 
 def _copy_table(

@@ -105,6 +105,22 @@ def test_a_ring_keeps_the_newest_files_and_what_was_latched(tmp_path):
         assert reader.start_time == 30 * SECOND
 
 
+def test_every_file_of_a_split_recording_has_what_was_latched(tmp_path):
+    one = recording(tmp_path / 'bag', max_bag_duration=10.0)
+    latched = one.add_topic('/map', TEXT, LATCHED)
+    topic = one.add_topic('/text', TEXT, VOLATILE)
+    one.put(latched, 0, text(9999), 0)
+    for i in range(25):
+        one.put(topic, i * SECOND, text(i), i * SECOND)
+    one.close()
+    files = sorted((tmp_path / 'bag').glob('*.mcap'))
+    found = []
+    for file in files:
+        with Reader(file) as reader:
+            found.append([c.topic for c, _, _ in reader.messages()].count('/map'))
+    assert found == [1, 1, 1]
+
+
 def test_split_on_demand(tmp_path):
     one = recording(tmp_path / 'bag')
     topic = one.add_topic('/text', TEXT, VOLATILE)

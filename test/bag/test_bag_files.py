@@ -1,0 +1,198 @@
+"""Which files make a bag: what lies in the folder counts, and what is no bag is told."""
+
+from __future__ import annotations
+
+import gzip
+import shutil
+import sqlite3
+import tarfile
+from contextlib import closing
+
+import pytest
+import yaml
+import zstandard
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from agv_motion.bag.bag_files import find
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.recovery import Recovery
+from agv_motion.bag.writer import BagWriter
+from agv_motion.errors import SourceError
+
+TEXT = 'std_msgs/msg/String'
+DATA = b'\x00\x01\x00\x00\x01\x00\x00\x00\x00'
+
+
+def split_bag(path, files=4):
+    """Write a bag of some files with a message each; return its folder."""
+    with BagWriter(path) as writer:
+        topic = writer.add_topic('/a', TEXT, 'string data', type_hash='')
+        for i in range(files):
+            writer.write(topic, i, DATA)
+            if i < files - 1:
+                writer.split()
+    return path
+
+
+def told(path):
+    """Return stamps of a bag, what is amiss, and whether something is lost."""
+    with BagReader(path) as bag:
+        return [m.stamp for m in bag.messages()], ' '.join(map(str, bag.problems)), bag.lossy
+
+
+def forget(bag, count):
+    """Let the metadata name only the first files, as when a recording is killed."""
+    path = bag / 'metadata.yaml'
+    description = yaml.safe_load(path.read_text())
+    entries = description['rosbag2_bagfile_information']
+    entries['relative_file_paths'] = entries['relative_file_paths'][:count]
+    entries['message_count'] = count
+    path.write_text(yaml.safe_dump(description))
+
+
+def test_a_file_that_the_metadata_does_not_name_is_read_and_told(tmp_path):
+    bag = split_bag(tmp_path / 'bag')
+    forget(bag, 3)
+    stamps, problems, lossy = told(bag)
+    assert stamps == [0, 1, 2, 3]
+    assert 'does not name bag_3.mcap, which lies there; it is read' in problems
+    assert not lossy
+    with BagWriter(tmp_path / 'saved') as writer:
+        recovery = Recovery(writer)
+        recovery.save(bag)
+    assert recovery.messages == 4
+
+
+def test_a_file_that_is_gone_is_a_loss(tmp_path):
+    bag = split_bag(tmp_path / 'bag')
+    (bag / 'bag_1.mcap').unlink()
+    stamps, problems, lossy = told(bag)
+    assert stamps == [0, 2, 3]
+    assert 'it names bag_1.mcap, which is not there' in problems
+    assert 'it tells of 4 messages, where 3 are' in problems
+    assert lossy
+
+
+def test_renamed_files_are_read_and_told(tmp_path):
+    bag = split_bag(tmp_path / 'bag', 3)
+    for number in range(3):
+        (bag / f'bag_{number}.mcap').rename(bag / f'walk_{number}.mcap')
+    stamps, problems, lossy = told(bag)
+    assert stamps == [0, 1, 2]
+    assert 'names bag_2.mcap, which is not there' in problems
+    assert 'does not name walk_2.mcap, which lies there' in problems
+    assert not lossy
+
+
+def test_copies_are_read_once(tmp_path):
+    bag = split_bag(tmp_path / 'bag', 2)
+    shutil.copy(bag / 'bag_1.mcap', bag / 'bag_1 (copy).mcap')
+    (bag / 'bag_0.mcap.zstd').write_bytes(zstandard.compress((bag / 'bag_0.mcap').read_bytes()))
+    stamps, problems, lossy = told(bag)
+    assert stamps == [0, 1]
+    assert 'bag_1 (copy).mcap is a copy of bag_1.mcap' in problems
+    assert not lossy
+
+
+@pytest.mark.parametrize('suffix', ['.mcap.zstd', '.mcap.zst', '.mcap'])
+def test_files_compressed_as_a_whole_are_known_by_their_bytes(tmp_path, suffix):
+    bag = split_bag(tmp_path / 'bag', 1)
+    packed = zstandard.compress((bag / 'bag_0.mcap').read_bytes())
+    (tmp_path / 'folder').mkdir()
+    file = tmp_path / 'folder' / f'bag_0{suffix}'
+    file.write_bytes(packed)
+    assert told(file)[0] == [0]
+    assert told(tmp_path / 'folder')[0] == [0]
+
+
+FOREIGN = {
+    b'#ROSBAG V2.0\n': 'is a bag of ROS 1: rosbags-convert',
+    b'version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n': 'git lfs pull',
+    gzip.compress(b'abc'): 'compressed by gzip',
+    b'PK\x03\x04': 'a zip archive',
+    b'rosbag2_bagfile_information:\n': 'give the folder',
+    b'time,x\n1,2\n': 'is no',
+}
+
+
+@pytest.mark.parametrize('name', ['bag_0.mcap', 'bag.db3', 'walk.bag'])
+@pytest.mark.parametrize('content', FOREIGN, ids=lambda content: str(content[:8]))
+def test_what_is_no_bag_is_told_what_it_is(tmp_path, content, name):
+    file = tmp_path / name
+    file.write_bytes(content.ljust(100, b'\n'))
+    expected = FOREIGN[content]
+    if name == 'bag.db3' and expected == 'is no':
+        expected = 'cannot be read as a bag in sqlite3'
+    with pytest.raises(SourceError, match=expected) as caught:
+        BagReader(file)
+    assert str(file) in str(caught.value)
+    with pytest.raises(SourceError) as caught:
+        BagReader(tmp_path)
+    assert expected == 'is no' or expected in str(caught.value)
+
+
+def test_an_archive_and_a_folder_of_bags_are_told(tmp_path):
+    bag = split_bag(tmp_path / 'walks' / 'monday', 1)
+    with tarfile.open(tmp_path / 'bag.mcap', 'w') as archive:
+        archive.add(bag)
+    with pytest.raises(SourceError, match='is a tar archive'):
+        BagReader(tmp_path / 'bag.mcap')
+    with pytest.raises(SourceError, match='has bags in it: give one of them, as '):
+        find(tmp_path / 'walks')
+
+
+def sqlite_bag(path):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        topic = writer.add_connection('/a', TEXT, typestore=store)
+        for i in range(10):
+            writer.write(topic, i, DATA)
+    return path / f'{path.name}.db3'
+
+
+def killed_while_writing(file, rows):
+    """Append rows that stay in the write-ahead log, as of a recorder that was killed."""
+    copies = file.parent / 'copies'
+    copies.mkdir()
+    with closing(sqlite3.connect(file)) as database:
+        database.execute('pragma journal_mode = wal')
+        database.execute('pragma wal_autocheckpoint = 0')
+        for i in range(rows):
+            values = (1, 10 + i, DATA)
+            database.execute(
+                'insert into messages (topic_id, timestamp, data) values (?, ?, ?)', values
+            )
+        database.commit()
+        for part in (file, file.with_name(f'{file.name}-wal')):
+            shutil.copy(part, copies)
+    for part in copies.iterdir():
+        shutil.move(part, file.parent / part.name)
+    copies.rmdir()
+
+
+def test_the_log_of_a_sqlite_file_is_read_and_the_folder_left_as_it_is(tmp_path):
+    file = sqlite_bag(tmp_path / 'bag')
+    killed_while_writing(file, 7)
+    before = {path: path.read_bytes() for path in file.parent.iterdir()}
+    assert told(file.parent)[0] == list(range(17))
+    assert told(file)[0] == list(range(17))
+    with BagWriter(tmp_path / 'saved') as writer:
+        recovery = Recovery(writer)
+        recovery.save(file)
+    assert recovery.messages == 17
+    assert not recovery.problems
+    assert {path: path.read_bytes() for path in file.parent.iterdir()} == before
+
+
+@pytest.mark.parametrize('name', ['a#b', 'why?', '50%25', 'a b%', 'ä&c=d'])
+def test_names_that_mean_something_in_a_uri(tmp_path, name):
+    file = sqlite_bag(tmp_path / 'bag')
+    folder = tmp_path / name
+    file.parent.rename(folder)
+    file = (folder / file.name).rename(folder / f'{name}.db3')
+    assert told(file)[0] == list(range(10))
+    with BagWriter(tmp_path / 'saved') as writer:
+        recovery = Recovery(writer)
+        recovery.save(file)
+    assert recovery.messages == 10
