@@ -12,7 +12,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.exceptions import InvalidParameterValueException
 from rclpy.lifecycle import TransitionCallbackReturn
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, String
@@ -214,7 +214,7 @@ def test_a_radius_out_of_range_is_refused(tester, radius):
 
 
 def test_an_integer_for_a_number_is_refused(tester):
-    with pytest.raises(InvalidParameterTypeException):
+    with pytest.raises(ConfigurationError, match=r'wheel_radius = 1: .*write 1\.0'):
         tester.start(WheelKinematics, wheel_radius=1)
 
 
