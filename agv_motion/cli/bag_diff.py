@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +11,7 @@ from rich.progress import track
 from rich.table import Table
 
 from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -33,17 +35,34 @@ def diff(
     relative: Annotated[
         float, typer.Option(min=0, help='... plus this share of the larger number.')
     ] = 0.0,
+    within: Annotated[
+        float | None,
+        typer.Option(
+            min=0, help='Pair the nearest, up to so many seconds apart, not equal stamps.'
+        ),
+    ] = None,
+    by_place: Annotated[
+        bool, typer.Option('--by-place', help='Pair first with first, whatever their stamps.')
+    ] = False,
 ) -> None:
     """Compare two bags topic by topic; the exit status is 0 if they are the same, 1 if not.
 
-    Messages are paired by the stamp in their header, else by their place. Of each field that
-    differs, the two values furthest apart are told. Examples:
+    Messages are paired by equal stamps in their headers, those without header by their place; with
+    --within by the nearest time (of the header, or of arrival), and times in them may differ by as
+    much. Of each field that differs, the two values furthest apart are told. Examples:
     agv bag diff before after
     agv bag diff before after --topics /cmd_vel -t 1e-9
+    agv bag diff live reprocessed --common --within 0.05
     """
     from agv_motion.bag import diff as comparison
+    from agv_motion.bag.pairing import Pairing
     from agv_motion.bag.reader import BagReader
 
+    for option, value in (('tolerance', tolerance), ('relative', relative), ('within', within)):
+        if value is not None and not isfinite(value):
+            msg = f'--{option} {value}: give a finite number'
+            raise ConfigurationError(msg)
+    pairing = Pairing(by_place, None if within is None else round(within * 1e9))
     console = terminal()
     with BagReader(first) as one, BagReader(second) as other:
         chosen = topics or sorted(
@@ -53,12 +72,18 @@ def diff(
         found = [
             topic
             for name in track(chosen, 'Comparing', console=terminal(stderr=True), transient=True)
-            for topic in comparison.diff(one, other, [name], limits)
+            for topic in comparison.diff(one, other, [name], limits, pairing)
         ]
         start = one.start
     console.print(_overview(found))
     for topic in found:
         _details(console, topic, start)
+    unpaired = sum(topic.unpaired for topic in found)
+    if unpaired and pairing == Pairing():
+        console.print(
+            f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs the '
+            'nearest, --by-place the first with the first'
+        )
     if not all(topic.same for topic in found):
         raise typer.Exit(1)
 
@@ -73,6 +98,8 @@ def _overview(found: list[TopicDiff]) -> Table:
         )
     for topic in found:
         verdict = 'same' if topic.same else topic.note or 'DIFFERENT'
+        if topic.apart:
+            verdict += f', times up to {topic.apart * 1e-9:.9g} s apart'
         table.add_row(
             topic.topic, *map(str, topic.counts), str(topic.differing), str(topic.unpaired),
             verdict, style='' if topic.same else 'red',

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import inf, nan
 
 import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag.diff import Tolerance, diff
+from agv_motion.bag.diff import BY_STAMP, Tolerance, diff
+from agv_motion.bag.pairing import Pairing
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import ConfigurationError, SourceError
@@ -18,9 +19,9 @@ JOINTS, NUMBER = 'sensor_msgs/msg/JointState', 'std_msgs/msg/Float64'
 SECOND = 1_000_000_000
 
 
-def joints(i, values, name='wheel'):
+def joints(i, values, name='wheel', nanosec=0):
     types = STORE.types
-    header = types['std_msgs/msg/Header'](types['builtin_interfaces/msg/Time'](i, 0), 'base')
+    header = types['std_msgs/msg/Header'](types['builtin_interfaces/msg/Time'](i, nanosec), 'base')
     array = np.array(values, dtype=float)
     none = np.zeros(0)
     message = types[JOINTS](header, [name] * len(values), array, none, none)
@@ -46,9 +47,11 @@ def compare(tmp_path):
                 writer.write(handles[topic], stamp, data)
         return tmp_path / name
 
-    def run(first, second, topics=None, **tolerance):
-        with BagReader(write('a', first)) as one, BagReader(write('b', second)) as other:
-            found = list(diff(one, other, topics, Tolerance(**tolerance)))
+    def run(first, second, topics=None, pairing=BY_STAMP, **tolerance):
+        folder = f'{len(list(tmp_path.iterdir()))}'
+        bags = write(f'{folder}a', first), write(f'{folder}b', second)
+        with BagReader(bags[0]) as one, BagReader(bags[1]) as other:
+            found = list(diff(one, other, topics, Tolerance(**tolerance), pairing))
         return {topic.topic: topic for topic in found}
 
     return run
@@ -161,3 +164,111 @@ def test_a_message_that_is_not_of_its_type_is_told_with_its_time(tmp_path):
         pytest.raises(SourceError, match='/made: the message at 1 ns is no made/msg/Pair'),
     ):
         list(diff(one, other, None, Tolerance()))
+
+
+ARRAYS = [
+    ('int8[]', np.int8, 127, -1, 128),
+    ('int8[]', np.int8, -128, 127, 255),
+    ('uint8[]', np.uint8, 0, 255, 255),
+    ('char[]', np.uint8, 1, 254, 253),
+    ('int16[2]', np.int16, 32767, -32768, 65535),
+    ('uint16[]', np.uint16, 65535, 1, 65534),
+    ('int32[]', np.int32, -(2**31), 2**31 - 1, 2**32 - 1),
+    ('uint32[<=9]', np.uint32, 0, 2**32 - 1, 2**32 - 1),
+    ('int64[]', np.int64, 2**63 - 1, -(2**63), 2**64 - 1),
+    ('int64[]', np.int64, 2**63 - 1, 2**63 - 2, 1),
+    ('uint64[]', np.uint64, 2**64 - 1, 0, 2**64 - 1),
+    ('bool[]', np.bool_, True, False, 1),
+    ('float32[]', np.float32, inf, -inf, inf),
+    ('float64[]', np.float64, 1.0, inf, inf),
+    ('float64[]', np.float64, nan, 1.0, inf),
+]
+
+
+@pytest.mark.parametrize('case', ARRAYS, ids=str)
+@pytest.mark.parametrize('array', [True, False])
+def test_extreme_numbers_are_as_far_apart_as_they_are(tmp_path, case, array):
+    """In arrays and by themselves; a tolerance just below the distance, and one at it."""
+    kind, dtype, *values, apart = case
+    form, path = (kind, 'a[0]') if array else (kind.partition('[')[0], 'a')
+    prefix = b'\0\1\0\0'
+    if array and kind[-2] != '2':
+        prefix += (2).to_bytes(4, 'little') + bytes(4 if np.dtype(dtype).itemsize == 8 else 0)
+    data = [prefix + np.array([value] * (1 + array), dtype).tobytes() for value in values]
+    with (
+        BagReader(_made(tmp_path / 'a', f'{form} a', data[0])) as one,
+        BagReader(_made(tmp_path / 'b', f'{form} a', data[1])) as other,
+    ):
+        for absolute, relative in ((0.0, 0.0), (0.99 * min(apart, 1e300), 0.0)):
+            (found,) = diff(one, other, None, Tolerance(absolute, relative))
+            assert found.differing == 1
+            np.testing.assert_equal(found.worst[path][2:], values)
+        (found,) = diff(one, other, None, Tolerance(float(apart), 0.0 if apart < inf else 1.0))
+        assert found.same is (apart < inf and dtype is not np.bool_)
+
+
+def shifted(shift, keep=lambda i: True):
+    """Return ten messages with header, whose stamps are some nanoseconds later."""
+    return [
+        ('/joints', i, joints(i, [float(i)], nanosec=500_000_000 + shift(i)))
+        for i in range(10)
+        if keep(i)
+    ]
+
+
+MILLISECOND = 1_000_000
+
+
+def test_messages_pair_within_a_tolerance_of_time(compare):
+    first, second = shifted(lambda _: 0), shifted(lambda i: (i % 3 - 1) * MILLISECOND)
+    found = compare(first, second, pairing=Pairing(within=MILLISECOND))['/joints']
+    assert (found.same, found.compared, found.apart) == (True, 10, MILLISECOND)
+    found = compare(first, second, pairing=Pairing(within=MILLISECOND - 1))['/joints']
+    assert (found.compared, found.unpaired) == (3, 14)
+    found = compare(first, second)['/joints']
+    assert (found.compared, found.unpaired) == (3, 14)
+
+
+def test_within_a_tolerance_the_nearest_pair_and_none_is_shifted(compare):
+    first = shifted(lambda _: 0)
+    second = shifted(lambda _: -400 * MILLISECOND, keep=lambda i: i not in {0, 4})
+    found = compare(first, second, pairing=Pairing(within=700 * MILLISECOND))['/joints']
+    assert (found.compared, found.differing, found.unpaired) == (8, 0, 2)
+    assert found.apart == 400 * MILLISECOND
+
+
+def test_a_time_is_one_number(compare):
+    """0.999999999 and 1 s are a nanosecond apart, though no part of them is near the other."""
+    first = [('/joints', 0, joints(0, [1.0], nanosec=999_999_999))]
+    second = [('/joints', 0, joints(1, [1.0], nanosec=0))]
+    assert compare(first, second, pairing=Pairing(within=1))['/joints'].same
+    placed = compare(first, second, pairing=Pairing(by_place=True, within=0))['/joints']
+    assert placed.worst['header.stamp [ns]'][2:] == (999_999_999, 1_000_000_000)
+
+
+def test_messages_pair_by_place_whatever_their_stamps(compare):
+    first, second = shifted(lambda _: 0), shifted(lambda i: i * MILLISECOND)
+    found = compare(first, second, pairing=Pairing(by_place=True))['/joints']
+    assert (found.same, found.apart) == (True, 9 * MILLISECOND)
+    found = compare(first, second[:-1], pairing=Pairing(by_place=True))['/joints']
+    assert (found.compared, found.unpaired, found.since) == (9, 1, 9)
+
+
+def test_without_header_messages_pair_by_arrival_within_a_tolerance(compare):
+    first = [('/number', i * SECOND, number(float(i))) for i in range(5)]
+    second = [('/number', i * SECOND + 7, number(float(i))) for i in range(5) if i != 1]
+    found = compare(first, second, pairing=Pairing(within=7))['/number']
+    assert (found.compared, found.differing, found.unpaired) == (4, 0, 1)
+    assert compare(first, second)['/number'].differing == 3
+
+
+def test_a_message_without_room_for_its_header_is_told(compare):
+    whole = [('/joints', 0, joints(0, [1.0]))]
+    with pytest.raises(SourceError, match='/joints: the message at 5 ns has 3 bytes'):
+        compare(whole, [('/joints', 5, b'\0\1\0')])
+
+
+def test_numbers_beyond_the_reach_of_a_tolerance(compare):
+    """A share of infinity is infinity, and everything was near it."""
+    first, second = [('/number', 0, number(inf))], [('/number', 0, number(5.0))]
+    assert compare(first, second, relative=0.1)['/number'].differing == 1
