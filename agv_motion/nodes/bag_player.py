@@ -18,9 +18,10 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 from agv_motion.parameters import Spec
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offering
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
             msg = 'which bag? give bag, the path of a folder or file'
             raise ConfigurationError(msg)
         self._bag = BagReader(given.bag)
-        self._entities.append(self._bag.close)
+        self.close_later(self._bag.close)
         for problem in self._bag.problems:
             self.get_logger().warning(str(problem))
         self._publish = self._open_topics(Playback(self._bag, given, self._send).topics)

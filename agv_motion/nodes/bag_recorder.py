@@ -15,8 +15,9 @@ from agv_motion.bag.selection import Selection
 from agv_motion.bag.storage import StorageParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offered
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.run import run
 from agv_motion.ros.tap import Tap, ears
 

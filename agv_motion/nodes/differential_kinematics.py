@@ -11,7 +11,7 @@ from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
 from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
 from agv_motion.odometry.base import DifferentialBase
 from agv_motion.odometry.wheel_odometry import WheelOdometry
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:

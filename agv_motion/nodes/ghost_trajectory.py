@@ -13,8 +13,8 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
 from agv_motion.trajectory.follower import Follower

@@ -18,8 +18,9 @@ from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import seconds_of
-from agv_motion.ros.node import OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.simulation.shade import LUX_PER_WATT, irradiance

@@ -24,9 +24,10 @@ from agv_motion.odometry.gates import require_within
 from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
 from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.ros.covariances import covariance_of, fill_covariance
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import SECOND, Freshness, InputWatch, require_near
 from agv_motion.ros.messages import fill_pose, pose_of, require_frame, seconds_of, twist_of
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.transforms import Transforms

@@ -21,9 +21,10 @@ from agv_motion.nodes.memory_keeper import MemoryKeeper
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.planar import REST, Pose, Twist
 from agv_motion.ros.config import find_config
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.twist_publisher import TwistPublisher

@@ -14,7 +14,7 @@ from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.wheel_monitor import SOUND, WheelMonitor
 from agv_motion.parameters import Spec
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import run
 

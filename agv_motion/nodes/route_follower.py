@@ -16,8 +16,8 @@ from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
 from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_path, points_of
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.route.follower import Limits, RouteFollower

@@ -15,8 +15,8 @@ from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
 from agv_motion.ros.config import find_config
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_path
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.route.parameters import FollowParameters

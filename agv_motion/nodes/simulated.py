@@ -16,8 +16,9 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import SENSOR
 
 if TYPE_CHECKING:

@@ -21,6 +21,7 @@ from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_reckoning import TurretReckoning
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import fill_covariance
+from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import (
     TurretJoints,
@@ -30,7 +31,7 @@ from agv_motion.ros.messages import (
     seconds_of,
     twist_of,
 )
-from agv_motion.ros.node import ERROR, OK, WARN, Diagnosis, ManagedNode
+from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 

@@ -17,7 +17,7 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
-from agv_motion.ros.node import ERROR, OK, WARN
+from agv_motion.ros.diagnosis import ERROR, OK, WARN
 from agv_motion.ros.qos import SENSOR
 
 BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.04], 'max_wheel_speed': 2.0, 'max_age': 1e10}

@@ -22,8 +22,8 @@ from agv_motion.nodes.route_follower import RouteFollowerNode
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.planar import Pose
+from agv_motion.ros.diagnosis import ERROR
 from agv_motion.ros.messages import TurretJoints, fill_path, seconds_of, stamp_of
-from agv_motion.ros.node import ERROR
 from agv_motion.ros.qos import SENSOR
 
 SECOND = 1_000_000_000

@@ -25,8 +25,8 @@ from agv_motion.nodes.route_follower import RouteFollowerNode
 from agv_motion.nodes.sequence import SequenceNode
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.diagnosis import ERROR, OK, WARN
 from agv_motion.ros.graph_watch import IN_TURN
-from agv_motion.ros.node import ERROR, OK, WARN
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 BASE = {'track': 0.4, 'wheel_radii': [0.05, 0.05]}

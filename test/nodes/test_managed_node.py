@@ -13,7 +13,7 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
-from agv_motion.ros.node import ERROR
+from agv_motion.ros.diagnosis import ERROR
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import start
 
@@ -109,7 +109,7 @@ def test_a_defect_at_a_service_is_answered(robot):
 def test_a_flood_of_foreign_joints_fills_no_log(robot):
     """Names that differ at every message, each 10 kB: a handful of short lines."""
     robot.log.clear()
-    before = robot.node._refused  # noqa: SLF001
+    before = robot.node._complaints.count  # noqa: SLF001
     numbers = iter(range(10**6))
 
     def flooded():
@@ -117,7 +117,7 @@ def test_a_flood_of_foreign_joints_fills_no_log(robot):
         names = [f'{chr(97 + number % 26)}{number}_' + 'x' * 200 for _ in range(50)]
         robot.encoders.publish(JointState(name=names, position=[0.0] * 50))
         robot.tester.graph.spin_for(0.0)
-        return robot.node._refused >= before + 300  # noqa: SLF001
+        return robot.node._complaints.count >= before + 300  # noqa: SLF001
 
     robot.tester.graph.spin_until(flooded)
     robot.tester.graph.spin_until(lambda: robot.log)

@@ -18,8 +18,8 @@ from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.nodes.omni_kinematics import OmniKinematics
+from agv_motion.ros.diagnosis import OK, WARN
 from agv_motion.ros.messages import seconds_of
-from agv_motion.ros.node import OK, WARN
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import StartError
 

@@ -1,0 +1,94 @@
+"""What a node does about its clock: while it has a fault, every input is lost, and that is told."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from agv_motion.motion.watchdog import Watchdog
+    from agv_motion.ros.timed_node import TimedNode
+
+LOOK_PERIOD = 0.1
+"""[s] between two looks at the node's clock."""
+
+CLOCK_TOPIC = '/clock'
+
+SELDOM = 5.0
+"""[s] between two words in the log on what is wrong with the clock."""
+
+PATIENCE = 2.0
+"""[s] for which a node that has just begun waits for the first /clock without a word."""
+
+
+class ClockGuard:
+    """Looks at the clock of one node by the steady clock, and acts upon what it finds."""
+
+    def __init__(self, node: TimedNode) -> None:
+        """Look not yet."""
+        self.watch = ClockWatch()
+        self._node = node
+        self._inputs: list[Watchdog] = []
+        self._acts: list[Callable[[], None]] = []
+        self._told, self._told_at = False, node.steady_seconds() + PATIENCE - SELDOM
+
+    def add(self, watchdog: Watchdog) -> None:
+        """Take an input for lost until it comes again, whenever the clock has a fault.
+
+        A clock that stands is found before the most impatient of the inputs is lost.
+        """
+        self._inputs.append(watchdog)
+        limit = min(each.stop_after for each in self._inputs)
+        self.watch.stands_after = max(limit - LOOK_PERIOD, 0.5 * limit)
+
+    def on_fault(self, act: Callable[[], None]) -> None:
+        """Call ``act`` at every look at which the clock has a fault, while the node is active."""
+        self._acts.append(act)
+
+    def clear(self) -> None:
+        """Forget inputs and acts."""
+        self._inputs.clear()
+        self._acts.clear()
+        self.watch.stands_after = STANDS_AFTER
+
+    def forget_inputs(self) -> None:
+        """Take all inputs for lost until they come again."""
+        for watchdog in self._inputs:
+            watchdog.forget()
+
+    def look(self) -> None:
+        """Take all inputs for lost while the clock has a fault, and tell of it."""
+        node, watch = self._node, self.watch
+        watch.look(node.seconds(), node.steady_seconds())
+        if watch.fault:
+            self.forget_inputs()
+            for act in self._acts if node.active else ():
+                act()
+        self._tell(node.steady_seconds())
+
+    def _tell(self, steady: float) -> None:
+        """Log that a fault has begun or ended."""
+        fault, node = self.watch.fault, self._node
+        if fault and not self._told and steady - self._told_at >= SELDOM:
+            self._told = True
+            node.get_logger().error(f'{fault}: standing still until it runs well')
+        elif self._told and not fault:
+            self._told, self._told_at = False, steady
+            node.get_logger().info('the clock runs well: going on')
+
+
+def if_possible(node: TimedNode, callback: Callable[[Any], None]) -> Callable[[Any], None]:
+    """Return ``callback`` of /clock for times that can be; a negative one raises in rclpy's own."""
+
+    def guarded(message: Any) -> None:
+        if message.clock.sec >= 0:
+            callback(message)
+            return
+        fault = f'{CLOCK_TOPIC} told {message.clock.sec} s, and no time is negative'
+        node.clock.distrust(fault, node.steady_seconds())
+        node.refuse(f'{fault}: look at who publishes it')
+
+    return guarded

@@ -1,0 +1,21 @@
+"""How a node is, in a level, words and numbers."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticStatus
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+class Diagnosis(NamedTuple):
+    """How a node is, in words and numbers, for ``/diagnostics``."""
+
+    level: bytes
+    message: str
+    values: dict[str, str]
+
+    def worsened(self, level: bytes, message: str) -> Diagnosis:
+        """Return this with what is wrong, where nothing was."""
+        return Diagnosis(level, message, self.values) if self.level == OK else self
