@@ -55,6 +55,7 @@ class SearchParameters:
     restarted: Annotated[
         bool, Spec('the first has just started again; its old words are on the way')
     ] = False
+    asked: Annotated[bool, Spec('all ask for a cell beside them before the search')] = False
     events: Annotated[tuple[str, ...], Spec('that may happen', choices=EVENTS)] = EVENTS[:4]
 
     def __post_init__(self) -> None:
@@ -117,6 +118,10 @@ class Search:
         if given.restarted:
             again = self._new(self._names[0], start.trees[0].held[0], 2)
             start = self._put(start, 0, again)
+        for i, tree in enumerate(start.trees if given.asked else ()):
+            x = tree.held[0][0]
+            piece = ((x, 0.0), (x + (1.0 if i == 0 else -1.0), 0.0))
+            start = self._act(start, i, partial(RightOfWay.ask, piece=piece))
         self._start = start
         self._before = {tree.name: tree._number for tree in start.trees}  # noqa: SLF001
 

@@ -26,7 +26,7 @@ PARKED = {'parked': True, 'events': ()}
         {'cells': (0, 2), **MUTUAL},
         {'cells': (0, 2), **PARKED},
         {'cells': (0, 2), **RESTARTED},
-        {'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'events': ()},
+        {'cells': (0, 2, 4), 'rounds': 2, 'asked': True, 'events': ()},
         {'cells': (0, 2, 4), **PARKED},
     ],
 )
@@ -36,9 +36,14 @@ def test_no_order_of_events_lets_two_hold_the_same_floor(given):
     assert found.complete or found.states == 1500
 
 
-def test_floor_is_taken_in_what_was_searched():
+@pytest.mark.parametrize(
+    ('cells', 'asked', 'states'), [((0, 2), False, 1500), ((0, 2, 4), True, 9000)]
+)
+def test_floor_is_taken_in_what_was_searched(cells, asked, states):
     """A search in which nobody may move proves nothing."""
-    assert Search(SearchParameters(states=1500, cells=(0, 2), **MUTUAL)).run().granted > 10
+    found = Search(SearchParameters(states=states, cells=cells, asked=asked, **MUTUAL)).run()
+    assert found.granted > 10
+    assert found.breach == ()
 
 
 def answers_to_any_run(peers, claim):
