@@ -16,7 +16,7 @@ from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.probe.sources.csv_file import parse_time
+from agv_motion.probe.sources.recorded_time import parse_time
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.qos import COMMAND
 from agv_motion.ros.run import overrides, spin, start

@@ -14,6 +14,7 @@ from agv_motion.cli.demo_folder import results
 from agv_motion.cli.demo_omni import omni
 from agv_motion.cli.demo_trees import trees
 from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
 from agv_motion.ros.stop import end_at_once
 
 app = typer.Typer()
@@ -56,6 +57,9 @@ def demo(
     from agv_motion.cli.demo_graph import DemoGraph
 
     given: dict[str, Any] = {'simulated__seed': seed}
+    if probes is None and (start or columns or unit):
+        msg = '--start, --columns and --unit are of a recording: give its file by --probes'
+        raise ConfigurationError(msg)
     if probes is not None:
         from agv_motion.cli.demo_probes import recorded
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.probe.sources.csv_file import CsvParameters, iso, load, rows_of
+from agv_motion.probe.sources.csv_file import CsvParameters, load, start_of
+from agv_motion.probe.sources.csv_table import rows_of
+from agv_motion.probe.sources.recorded_time import iso
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from agv_motion.probe.sources.csv_file import Recording
 
 DAY = 86400.0
 PROBE_WORDS = ('probe', 'delta', 'dt', 'granier', 'sap', 'mv', 'volt')
@@ -32,11 +37,11 @@ def recorded(
         seconds: Simulated time in which to play it [s].
 
     Raises:
-        SourceError: The file cannot be read.
+        SourceError: The file cannot be read, or the start is not in it.
         ConfigurationError: No column can be taken for a probe.
 
     """
-    header = [name.strip() for name in next(rows_of(path), (1, []))[1]]
+    header = [name.strip() for row in islice(rows_of(path), 1) for name in row.cells]
     time_column = next((n for n in header if any(w in n.lower() for w in TIME_WORDS)), '')
     columns = columns or [
         n for n in header if n != time_column and any(w in n.lower() for w in PROBE_WORDS)
@@ -54,8 +59,10 @@ def recorded(
         start=start,
         speed=days * DAY / seconds,
     )
+    recording = load(given)
     if not start:
-        given = replace(given, start=_first_complete(given, days))
+        given = replace(given, start=_first_complete(recording, days))
+    start_of(given.start, recording, given.file)
     values = {f'csv__{name}': value for name, value in asdict(given).items()}
     return {'source': 'csv'} | {
         name: list(value) if isinstance(value, tuple) else value for name, value in values.items()
@@ -68,11 +75,10 @@ def _unit(column: str) -> str:
     return {'uv': 'uV', 'v': 'V', 'k': 'K', 'c': 'K', 'degc': 'K'}.get(word, 'mV')
 
 
-def _first_complete(parameters: CsvParameters, days: float) -> str:
+def _first_complete(recording: Recording, days: float) -> str:
     """Return the first midnight from which on all probes are there, with a week before it."""
-    times, values, _ = load(parameters)
-    good = np.asarray((values > 1.0).all(axis=1))
-    stamps = np.array(times)
+    good = np.asarray((recording.values > 1.0).all(axis=1))
+    stamps = np.array(recording.times)
     step = float(np.median(np.diff(stamps))) if len(stamps) > 1 else 900.0
     midnights = np.arange(np.ceil(stamps[0] / DAY) + 1, np.floor(stamps[-1] / DAY)) * DAY
     for history in (8.0, 2.0):

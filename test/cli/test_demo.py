@@ -43,6 +43,21 @@ def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
     assert 'top wheel speed' in out
 
 
+def test_a_start_outside_the_recording_is_refused(alone, tmp_path):
+    path = tmp_path / 'probes.csv'
+    path.write_text('time,probe\n2013-06-10,0.5\n2013-06-11,0.5\n')
+    asked = '--output', tmp_path / 'walk', '--start', '2014-06-10'
+    status, _, errors = alone('demo', '--probes', path, *asked)
+    assert status == 1
+    assert 'ends at 2013-06-11T00:00:00+00:00 (line 3), before the start' in errors.replace(
+        '\n', ''
+    )
+    status, _, errors = alone('demo', *asked)
+    assert status == 1
+    assert 'give its file by --probes' in errors
+    assert not (tmp_path / 'walk').exists()
+
+
 def test_a_recording_without_probes_is_refused(alone, tmp_path):
     path = tmp_path / 'weather.csv'
     path.write_text('time,rain\n0,1\n')

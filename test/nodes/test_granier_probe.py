@@ -20,6 +20,8 @@ from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import StartError
 from agv_motion.saved_state import load
 
+DAWN = 1_370_822_400
+"""[s] since 1970: the tenth of June 2013"""
 QUICK = {'rate': 20.0, 'simulated__period': 0.1}
 
 
@@ -51,7 +53,7 @@ def table(tmp_path, rows):
 def clear_week(tmp_path, extra=''):
     """Readings every 15 min for three days, then ``extra``."""
     rows = ''.join(
-        f'{900 * k},{v},{v},{v}\n'
+        f'{DAWN + 900 * k},{v},{v},{v}\n'
         for k in range(288)
         for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
     )
@@ -61,17 +63,17 @@ def clear_week(tmp_path, extra=''):
 def test_a_recording_plays_with_its_past_learnt(tester, tmp_path):
     flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
     file = clear_week(tmp_path)
-    start = '1970-01-03T13:00:00'
+    start = '2013-06-12T13:00:00'
     tester.start(GranierProbe, source='csv', rate=20.0, csv__file=file, csv__start=start)
     assert tester.wait(flows).vector.x > 0.5
 
 
 def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
     valid = tester.listen(Bool, 'granier/valid', LATCHED)
-    file = clear_week(tmp_path, '259200,0.8,0.001,0.8\n')
+    file = clear_week(tmp_path, f'{DAWN + 259200},0.8,0.001,0.8\n')
     node = tester.start(
         GranierProbe, source='csv', rate=20.0, csv__file=file, csv__speed=3600.0,
-        csv__start='1970-01-03T23:00:00',
+        csv__start='2013-06-12T23:00:00',
     )  # fmt: skip
     assert tester.wait(valid, lambda m: m.data)
     tester.wait(valid, lambda m: not m.data)
@@ -80,10 +82,10 @@ def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
 
 def test_a_gap_ends_the_sap_flow(tester, tmp_path):
     valid = tester.listen(Bool, 'granier/valid', LATCHED)
-    file = clear_week(tmp_path, '864000,0.8,0.8,0.8\n')
+    file = clear_week(tmp_path, f'{DAWN + 864000},0.8,0.8,0.8\n')
     node = tester.start(
         GranierProbe, source='csv', rate=20.0, csv__file=file, csv__speed=9000.0,
-        csv__start='1970-01-03T23:00:00',
+        csv__start='2013-06-12T23:00:00',
     )  # fmt: skip
     tester.wait(valid, lambda m: m.data)
     tester.wait(valid, lambda m: not m.data)
@@ -163,7 +165,7 @@ def test_parameters_that_make_no_sense_are_refused(tester, parameters, error, wo
 
 def test_a_missing_column_stops_the_start_and_names_those_there_are(tester, tmp_path, capfd):
     path = tmp_path / 'other.csv'
-    path.write_text('time,voltage\n0,1\n')
+    path.write_text('time,voltage\n2013-06-10,1\n')
     with pytest.raises(StartError):
         tester.start(GranierProbe, source='csv', csv__file=str(path))
     assert "no column 'probe_1': it has time, voltage" in capfd.readouterr().err

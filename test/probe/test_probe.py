@@ -179,9 +179,8 @@ def test_parameters_that_make_no_sense_are_refused(change, word):
 @pytest.fixture(scope='module')
 def summers(spruce):
     """Return (local hour, month, share, quality) of the whole recording."""
-    times, values, _ = load(
-        CsvParameters(file=str(spruce), columns=('delta_v_mv',), day_offsets=(0.0,))
-    )
+    recording = load(CsvParameters(file=str(spruce), columns=('delta_v_mv',), day_offsets=(0.0,)))
+    times, values = recording.times, recording.values
     probe = Probe(ProbeParameters(solar_offset=0.5))
     seen = [probe.update(t, float(v)) for t, v in zip(times, values[:, 0], strict=True)]
     hours = (np.array(times) / 3600.0 + 0.5) % 24.0

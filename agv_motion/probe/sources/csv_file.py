@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import csv
 from bisect import bisect_left
 from dataclasses import dataclass
-from datetime import datetime, timezone
 from math import inf, nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.files import text
 from agv_motion.parameters import Spec, check
+from agv_motion.probe.sources.csv_table import read_table
+from agv_motion.probe.sources.recorded_time import iso, parse_time
 from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, MOST, UNITS, Sample, kelvin_per
 
 if TYPE_CHECKING:
@@ -23,10 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 DAY = 86400.0
-EARLIEST, LATEST = 0.0, 2.0**32
-"""[s] since 1970, to 2106: what a stamp of ROS can hold"""
-LARGEST = 256 << 20
-"""[bytes] of a recording: a year of three probes every second"""
+ROUNDED = 1e-3
+"""[s] by which a start may lie outside the file, since a time in words is rounded"""
 
 
 @dataclass(frozen=True)
@@ -73,21 +70,17 @@ class CsvSource:
             warm_up_days: How much of what lies before the start to offer as history [d].
 
         Raises:
-            SourceError: The file cannot be read, holds no row, or ends before the start.
+            SourceError: The file cannot be read, holds no row that can, or the start is not in it.
             ConfigurationError: A column is not in the file.
 
         """
         self._given = parameters
         self._warm_up = warm_up_days * DAY
-        self._times, self._values, self._problem = load(parameters)
-        self._start = parse_time(parameters.start) if parameters.start else float(self._times[0])
+        recording = load(parameters)
+        self._times, self._values = recording.times, recording.values
+        self._problem = recording.problem
+        self._start = start_of(parameters.start, recording, parameters.file)
         self._row = bisect_left(self._times, self._start)
-        if self._row == len(self._times):
-            msg = (
-                f'{parameters.file} ends at {iso(self._times[-1])}, before the start '
-                f"'{parameters.start}': choose an earlier one"
-            )
-            raise SourceError(msg)
         steps = np.diff(self._times)
         self.period = float(np.median(steps)) / parameters.speed if len(steps) else inf
         self._began: float | None = None
@@ -122,13 +115,52 @@ class CsvSource:
         return Sample(self._times[row], tuple(self._values[row].tolist()))
 
 
-def load(parameters: CsvParameters) -> tuple[list[float], NDArray[np.float64], str]:
-    """Return times [s], values (n, probes) [K] and what was wrong with the file.
+class Recording(NamedTuple):
+    """What a file tells, in the order of time."""
+
+    times: list[float]
+    """[s] since 1970"""
+    lines: list[int]
+    """of the file, counted from 1, from which each comes"""
+    values: NDArray[np.float64]
+    """(n, probes) [K]"""
+    problem: str
+    """what was wrong with the file; empty if nothing"""
+
+
+def start_of(start: str, recording: Recording, file: str) -> float:
+    """Return where to start [s since 1970]: at a time in words, or at the first row.
+
+    Raises:
+        SourceError: It is no time, or not in the file.
+
+    """
+    times, lines = recording.times, recording.lines
+    if not start:
+        return times[0]
+    time = parse_time(start)
+    for row, outside, when in (
+        (0, time < times[0] - ROUNDED, 'begins'),
+        (-1, time > times[-1] + ROUNDED, 'ends'),
+    ):
+        if outside:
+            side = 'after' if when == 'begins' else 'before'
+            msg = (
+                f'{file} {when} at {iso(times[row])} (line {lines[row]}), {side} the start '
+                f"'{start}': choose one from {iso(times[0])} to {iso(times[-1])}"
+            )
+            raise SourceError(msg)
+    return min(max(time, times[0]), times[-1])
+
+
+def load(parameters: CsvParameters) -> Recording:
+    """Return what a file tells.
 
     A probe read with an offset takes the row nearest to its shifted time, and NaN where that is
     further away than half the usual step.
     """
-    times, columns, problem = _read_columns(parameters)
+    path = Path(parameters.file)
+    times, lines, columns, problem = read_table(path, parameters.time_column, parameters.columns)
     order = np.argsort(times, kind='stable')
     last_of_repeated = np.append(np.diff(times[order]) > 0.0, True)
     keep = order[last_of_repeated]
@@ -154,104 +186,4 @@ def load(parameters: CsvParameters) -> tuple[list[float], NDArray[np.float64], s
     if wild.any():
         problem = f'{problem}; {wild.sum()} values of more than {MOST:g} K are no temperature'
     values = np.where(wild, nan, values) * factor
-    return times.tolist(), values, problem.lstrip('; ')
-
-
-def _read_columns(
-    parameters: CsvParameters,
-) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], str]:
-    """Read the named columns; cells that are no numbers become NaN and are counted."""
-    path = Path(parameters.file)
-    numbered = rows_of(path)
-    header = [name.strip() for name in next(numbered, (1, []))[1]]
-    for name in (parameters.time_column, *parameters.columns):
-        if name not in header:
-            missing = f"no column '{name}'"
-            has = f'{missing}: it has {", ".join(header):.200}'
-            text.refuse((path, 1, 1), has, missing)
-    time_index = header.index(parameters.time_column)
-    found = [
-        (line, row) for line, row in numbered if len(row) > time_index and row[time_index].strip()
-    ]
-    if not found:
-        msg = f'{path} has no row with a time: give at least one'
-        raise SourceError(msg)
-    times = np.array([_time(row, time_index, path, line) for line, row in found])
-    rows = [row for _, row in found]
-    columns, unreadable = {}, 0
-    for name in set(parameters.columns):
-        index = header.index(name)
-        numbers = [_number(row[index]) if index < len(row) else nan for row in rows]
-        unreadable += sum(number is None for number in numbers)
-        columns[name] = np.array([nan if n is None else n for n in numbers], dtype=float)
-    return times, columns, f'{unreadable} cells of {path} are no numbers' if unreadable else ''
-
-
-def rows_of(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the number of the line, counted from 1, and the cells of each row that has any.
-
-    Raises:
-        SourceError: It cannot be read, or is no CSV.
-
-    """
-    try:
-        content = text.read(path, 'the probe file', LARGEST)
-    except ConfigurationError as error:
-        raise text.as_kind(error, SourceError) from error
-    reader = csv.reader(content.split('\n'))
-    try:
-        for row in reader:
-            if row:
-                yield reader.line_num, row
-    except csv.Error as error:
-        reason = f'no CSV: {error}'
-        text.refuse((path, reader.line_num, 1), reason, reason, SourceError)
-
-
-def _time(row: list[str], index: int, path: Path, line: int) -> float:
-    column = sum(len(cell) + 1 for cell in row[:index]) + 1
-    try:
-        return parse_time(row[index])
-    except SourceError as error:
-        reason = 'no time: give ISO 8601 such as 2013-06-10T00:00:00Z'
-        cell = str(error).partition(': ')[2]
-        text.refuse((path, line, column), cell, reason, SourceError)
-
-
-def _number(cell: str) -> float | None:
-    """Return the number of a cell, NaN where it is empty, None where it is something else."""
-    cell = cell.strip()
-    if cell.lower() in {'', 'na', 'nan', 'null', '-'}:
-        return nan
-    try:
-        number = float(cell)
-    except ValueError:
-        return None
-    return number if abs(number) < inf else None
-
-
-def parse_time(words: str, place: str = 'start') -> float:
-    """Return an ISO 8601 time, or a number of seconds, in seconds since 1970.
-
-    Raises:
-        SourceError: It is neither.
-
-    """
-    word = words.strip()
-    try:
-        if word.replace('.', '', 1).isdecimal():
-            time = float(word)
-        else:
-            moment = datetime.fromisoformat(word.replace('Z', '+00:00'))
-            time = moment.replace(tzinfo=moment.tzinfo or timezone.utc).timestamp()
-        if not EARLIEST <= time <= LATEST:
-            raise ValueError(time)  # noqa: TRY301 - as unusable as the rest
-    except (ValueError, OverflowError) as error:
-        msg = f"{place}: '{word:.80}' is no time: give ISO 8601 such as 2013-06-10T00:00:00Z"
-        raise SourceError(msg) from error
-    return time
-
-
-def iso(time: float) -> str:
-    """Return seconds since 1970 as ISO 8601."""
-    return datetime.fromtimestamp(time, timezone.utc).isoformat()
+    return Recording(times.tolist(), lines[keep].tolist(), values, problem.lstrip('; '))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import isnan
 
 import pytest
@@ -10,6 +11,8 @@ from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, load
 
 DAY = 86400.0
+DAWN = 1_370_822_400.0
+"""[s] since 1970: 2013-06-10, when all recordings here begin"""
 
 
 def source(tmp_path, text, warm_up_days=0.0, **parameters):
@@ -20,27 +23,34 @@ def source(tmp_path, text, warm_up_days=0.0, **parameters):
 
 
 TABLE = 'time,a,b\n' + ''.join(
-    f'1970-01-0{1 + d}T0{h}:00:00Z,{d}.{h},{h}\n' for d in range(3) for h in range(4)
+    f'2013-06-1{d}T0{h}:00:00Z,{d}.{h},{h}\n' for d in range(3) for h in range(4)
 )
+
+
+def seconds(*rows):
+    """Return a table whose times are seconds since dawn."""
+    return 'time,a,b\n' + ''.join(f'{DAWN + t:.0f},{a},{b}\n' for t, a, b in rows)
 
 
 def test_rows_fall_due_with_the_clock(tmp_path):
     played = source(tmp_path, TABLE, speed=3600.0)
     assert [s.values for s in played.read(50.0)] == [(0.0, 0.0)]
     assert [s.values for s in played.read(50.5)] == []
-    assert [s.time for s in played.read(52.0)] == [3600.0, 7200.0]
+    assert [s.time for s in played.read(52.0)] == [DAWN + 3600.0, DAWN + 7200.0]
     assert played.period == 1.0
 
 
 def test_what_lies_before_the_start_is_history(tmp_path):
-    played = source(tmp_path, TABLE, warm_up_days=1.0, start='1970-01-02T02:00:00')
-    assert [s.time for s in played.history(0.0)] == [7200.0, 10800.0, DAY, DAY + 3600.0]
-    assert played.read(0.0)[0].time == DAY + 7200.0
+    played = source(tmp_path, TABLE, warm_up_days=1.0, start='2013-06-11T02:00:00')
+    assert [s.time for s in played.history(0.0)] == [
+        DAWN + time for time in (7200.0, 10800.0, DAY, DAY + 3600.0)
+    ]
+    assert played.read(0.0)[0].time == DAWN + DAY + 7200.0
 
 
 @pytest.mark.parametrize(('unit', 'kelvin'), [('K', 0.8), ('mV', 20.0), ('V', 2e4), ('uV', 0.02)])
 def test_units(tmp_path, unit, kelvin):
-    played = source(tmp_path, 'time,a,b\n0,0.8,0.8\n', unit=unit)
+    played = source(tmp_path, 'time,a,b\n2013-06-10,0.8,0.8\n', unit=unit)
     assert played.read(0.0)[0].values == pytest.approx((kelvin, kelvin))
 
 
@@ -52,14 +62,14 @@ def test_one_column_serves_several_probes_at_other_days(tmp_path):
 
 
 def test_rows_out_of_order_and_repeated_are_mended_and_told(tmp_path):
-    played = source(tmp_path, 'time,a,b\n20,2,2\n10,1,1\n20,3,3\n30,4,4\n')
+    played = source(tmp_path, seconds((20, 2, 2), (10, 1, 1), (20, 3, 3), (30, 4, 4)))
     assert '1 repeated dropped' in played.complaint()
     samples = played.read(0.0) + played.read(15.0)
     assert [s.values for s in samples] == [(1.0, 1.0), (3.0, 3.0)]
 
 
 def test_cells_that_are_no_numbers_are_missing_and_told(tmp_path):
-    played = source(tmp_path, 'time,a,b\n0,?,1\n10,,inf\n20,NA,2\n')
+    played = source(tmp_path, seconds((0, '?', 1), (10, '', 'inf'), (20, 'NA', 2)))
     assert '2 cells' in played.complaint()
     values = [v for s in played.read(0.0) + played.read(20.0) for v in s.values]
     assert [isnan(v) for v in values] == [True, False, True, True, True, False]
@@ -91,21 +101,117 @@ def test_a_file_that_is_not_there_is_refused():
 
 
 def test_a_start_after_the_end_is_refused(tmp_path):
-    with pytest.raises(SourceError, match='ends at 1970-01-03T03:00:00'):
+    with pytest.raises(SourceError, match='ends at 2013-06-12T03:00:00'):
         source(tmp_path, TABLE, start='2020-01-01')
 
 
 def test_times_in_seconds_and_with_zones(tmp_path):
     path = tmp_path / 'zones.csv'
-    path.write_text('time,a\n1000.5,1\n1970-01-01T01:00:00+01:00,2\n1970-01-01 02:00:00,3\n')
-    times, _, problem = load(CsvParameters(file=str(path), columns=('a',), day_offsets=(0.0,)))
-    assert times == [0.0, 1000.5, 7200.0]
-    assert 'put into order' in problem
+    path.write_text(
+        f'time,a\n{DAWN + 1000.5},1\n2013-06-10T01:00:00+01:00,2\n2013-06-10 02:00:00,3\n'
+    )
+    found = load(CsvParameters(file=str(path), columns=('a',), day_offsets=(0.0,)))
+    assert found.times == [DAWN, DAWN + 1000.5, DAWN + 7200.0]
+    assert found.lines == [3, 2, 4]
+    assert 'put into order' in found.problem
 
 
 def test_no_number_of_a_file_becomes_infinite(tmp_path):
-    played = source(tmp_path, 'time,a,b\n0,1e308,0.8\n1,-1e308,0.8\n', unit='mV')
+    played = source(tmp_path, seconds((0, 1e308, 0.8), (1, -1e308, 0.8)), unit='mV')
     assert '2 values of more than 100000 K are no temperature' in played.complaint()
     for sample in (*played.read(0.0), *played.read(1.0)):
         assert isnan(sample.values[0])
         assert sample.values[1] == pytest.approx(20.0)
+
+
+def two_rows(first, second='2013-06-10 01:00'):
+    return f'time,a,b\n{first},1,2\n{second},3,4\n'
+
+
+@pytest.mark.parametrize(
+    ('word', 'reason'),
+    [
+        ('201306101200', 'no time from 1990 to 2100'),
+        ('20130610', '1970-08-21'),
+        ('2013161', 'no time from 1990 to 2100'),
+        ('41435.5', '1970-01-01'),
+        ('735395.5', '1970-01-09'),
+        ('1370863800000', 'never for .* milliseconds'),
+        ('1.3708224E9', 'no time: give ISO 8601'),
+        ('9' * 400, 'no time from 1990 to 2100'),
+        ('1989-12-31T23:59:59', 'no time from 1990 to 2100'),
+        ('2100-01-01', 'no time from 1990 to 2100'),
+        ('10/06/2013 00:00', 'no time: give ISO 8601'),
+        ('6/10/2013 12:30:00 AM', 'no time'),
+        ('00:30', 'no time'),
+    ],
+)
+def test_what_is_no_time_is_never_guessed_into_one(tmp_path, word, reason):
+    with pytest.raises(SourceError, match=rf'probes\.csv, line 2, column 1: .*{reason}'):
+        source(tmp_path, two_rows(word, word))
+    played = source(tmp_path, two_rows(word))
+    assert re.search(r'rows of .*probes\.csv left out: 1 \(line 2: no time', played.complaint())
+    assert [s.values for s in played.read(0.0)] == [(3.0, 4.0)]
+    with pytest.raises(SourceError, match=reason):
+        source(tmp_path, TABLE, start=word)
+
+
+@pytest.mark.parametrize(
+    ('words', 'form'),
+    [
+        (('2013061000', '2013061001'), 'YYYYMMDDHH'),
+        (('1306101200', '1306101230'), 'YYMMDDHHMM'),
+        (('1706202412', '1706202413'), 'DDMMYYYYHH'),
+        (('2013-06-10', '2013-06-10'), 'days alone'),
+    ],
+)
+def test_times_with_two_readings_are_refused(tmp_path, words, form):
+    with pytest.raises(SourceError, match=rf'probes\.csv, line 2.*{form}'):
+        source(tmp_path, two_rows(*words))
+
+
+def test_days_alone_are_midnights_where_each_is_there_once(tmp_path):
+    played = source(tmp_path, two_rows('2013-06-10', '2013-06-11'))
+    assert [s.time for s in played.read(0.0) + played.read(DAY)] == [DAWN, DAWN + DAY]
+
+
+@pytest.mark.parametrize(
+    ('row', 'reason'),
+    [
+        ('end of file,,', 'no time'),
+        (',3,4', 'no time'),
+        ('2013-06-10 00:30,3', '2 cells under 3 columns'),
+        ('2013-06-10 00:30,0,41,0,52', '5 cells under 3 columns: a comma in it may be decimal'),
+        ('2013-06-10 00:30,"3,4', 'no CSV'),
+        ('\0' * 20, '1 cells under 3 columns'),
+        ('2013-06-10 24:00,3,4', 'no time'),
+    ],
+)
+def test_one_bad_row_costs_one_row_and_is_told(tmp_path, row, reason):
+    good = '2013-06-10 00:00,1,2', '2013-06-10 01:00,5,6'
+    played = source(tmp_path, '\n'.join(('time,a,b', good[0], row, good[1], '')))
+    assert f'left out: 1 (line 3: {reason}' in played.complaint()
+    samples = played.read(0.0) + played.read(3600.0)
+    assert [(s.time, *s.values) for s in samples] == [(DAWN, 1, 2), (DAWN + 3600.0, 5, 6)]
+
+
+def test_many_bad_rows_are_counted_and_the_first_told(tmp_path):
+    played = source(tmp_path, two_rows('2013-06-10') + 'end,,\n' * 9)
+    assert 'left out: 9 (line 4: no time' in (told := played.complaint())
+    assert told.endswith('line 6: no time: give ISO 8601 such as 2013-06-10T00:00:00Z; and 6 more)')
+
+
+def test_a_column_that_is_there_twice_is_refused(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"line 1.*column 'a' is there 2 times"):
+        source(tmp_path, 'time,a,a,b\n2013-06-10,1,2,3\n')
+
+
+def test_what_loggers_write_for_a_missing_value_is_missing_in_every_unit(tmp_path):
+    played = source(tmp_path, two_rows('2013-06-10').replace('1,2', '-9999,-7999.0'), unit='uV')
+    assert all(map(isnan, played.read(0.0)[0].values))
+
+
+@pytest.mark.parametrize(('start', 'line'), [('2013-06-09T23:59', 2), ('2013-06-12T03:01', 13)])
+def test_a_start_outside_the_file_is_refused_with_line_and_remedy(tmp_path, start, line):
+    with pytest.raises(SourceError, match=rf'\(line {line}\).*choose one from 2013-06-10T'):
+        source(tmp_path, TABLE, start=start)
