@@ -27,7 +27,7 @@ BEGINNINGS = {
         'cells': (0, 2), 'restarted': True, 'rounds': 3, 'events': ('restart',), 'runs': 3,
     },
     'three, late and lost words': {
-        'cells': (0, 2, 4), 'rounds': 2, 'late': 2, 'asked': True, 'events': (),
+        'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'words': 4, 'asked': True, 'events': (),
     },
     'three, all parked': {'cells': (0, 2, 4), 'parked': True, 'events': ()},
 }  # fmt: skip

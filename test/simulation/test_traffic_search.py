@@ -14,6 +14,9 @@ from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameter
 
 RESTARTED = {'restarted': True, 'rounds': 3, 'words': 4, 'events': ()}
 MUTUAL = {'rounds': 2, 'events': ()}
+THREE = {
+    'cells': (0, 2, 4), 'rounds': 2, 'asked': True, 'late': 1, 'words': 4, 'events': (),
+}  # fmt: skip
 PARKED = {'parked': True, 'events': ()}
 
 
@@ -26,7 +29,7 @@ PARKED = {'parked': True, 'events': ()}
         {'cells': (0, 2), **MUTUAL},
         {'cells': (0, 2), **PARKED},
         {'cells': (0, 2), **RESTARTED},
-        {'cells': (0, 2, 4), 'rounds': 2, 'asked': True, 'events': ()},
+        THREE,
         {'cells': (0, 2, 4), **PARKED},
     ],
 )
@@ -36,12 +39,10 @@ def test_no_order_of_events_lets_two_hold_the_same_floor(given):
     assert found.complete or found.states == 1500
 
 
-@pytest.mark.parametrize(
-    ('cells', 'asked', 'states'), [((0, 2), False, 1500), ((0, 2, 4), True, 9000)]
-)
-def test_floor_is_taken_in_what_was_searched(cells, asked, states):
+@pytest.mark.parametrize(('given', 'states'), [({'cells': (0, 2), **MUTUAL}, 1500), (THREE, 9000)])
+def test_floor_is_taken_in_what_was_searched(given, states):
     """A search in which nobody may move proves nothing."""
-    found = Search(SearchParameters(states=states, cells=cells, asked=asked, **MUTUAL)).run()
+    found = Search(SearchParameters(states=states, **given)).run()
     assert found.granted > 10
     assert found.breach == ()
 
