@@ -26,6 +26,7 @@ ENCAPSULATION = 4
 """[bytes] before the content of a message: how it is written"""
 _TOGETHER = 2048
 """Messages that are taken together where there are no chunks."""
+_ALL = 2**64 - 1
 _MOST = 1 << 24
 """[bytes] ... and their size."""
 
@@ -115,7 +116,7 @@ def _joined(waiting: dict[int, list[Message]], path: Path) -> Iterator[Batch]:
         sizes = np.array([len(message.data) for message in messages], np.int64)
         starts = np.cumsum(sizes) - sizes
         forms = np.ndarray((len(data) - 1,), '>u2', data, strides=(1,))[starts]
-        stamps = np.array([message.stamp for message in messages], np.int64)
+        stamps = np.array([m.stamp & _ALL for m in messages], np.uint64).view(np.int64)
         contents = starts + ENCAPSULATION, sizes - ENCAPSULATION
         yield Batch(channel, data, *contents, forms, stamps, path, [(0, 0)])
         messages.clear()

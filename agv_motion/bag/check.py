@@ -159,12 +159,12 @@ def _wandering(topic: str, ordered: NDArray[np.int64], tolerance: float) -> Iter
 
 def _back(severity: str, topic: str, what: str, times: NDArray[np.int64]) -> Iterator[Finding]:
     """Yield stamps that are earlier than the one before."""
-    steps = np.diff(times)
-    back = np.flatnonzero(steps < 0)
+    back = np.flatnonzero(times[1:] < times[:-1])
     if len(back):
         first = int(back[0])
+        step = int(times[first]) - int(times[first + 1])
         text = (
-            f'{what} goes back {len(back)} times, first by {-steps[first] * 1e-9:.9f} s at message '
+            f'{what} goes back {len(back)} times, first by {step * 1e-9:.9f} s at message '
             f'{first + 1} ({times[first]} ns, then {times[first + 1]} ns)'
         )
         yield Finding(severity, topic, text)
@@ -173,7 +173,8 @@ def _back(severity: str, topic: str, what: str, times: NDArray[np.int64]) -> Ite
 def _values(bag: BagReader, topic: str) -> Iterator[Finding]:
     """Yield NaN, and stamps in headers that go back; bounded in memory."""
     size = sum(file.unpacked_size for file in bag.files if isinstance(file, McapFile))
-    edges = np.linspace(bag.start, bag.end + 1, size // _SLICE + 2).astype(np.int64).tolist()
+    parts, length = size // _SLICE + 1, bag.end + 1 - bag.start
+    edges = [bag.start + length * i // parts for i in range(parts + 1)]
     nan: dict[str, tuple[int, int]] = {}
     stamped = begins_with_header(bag.topics[topic].definition)
     headers: list[NDArray[np.int64]] = []

@@ -10,6 +10,7 @@ from agv_motion.bag import records
 from agv_motion.bag.batch import Batch, place_in_file
 from agv_motion.bag.chunk import HEAD, heads
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.time_order import inside
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -83,11 +84,10 @@ def batches(
     places = offsets + np.repeat(begins * len(channels), counts)
     limits = np.repeat(np.tile(ends, len(channels)), counts)
     numbers = np.repeat(np.array(channels), np.reshape(counts, (len(channels), -1)).sum(axis=1))
-    if start > 0 or stop < 1 << 63:
-        inside = stamps >= np.uint64(min(start, _LATEST))
-        inside &= stamps < np.uint64(min(stop, _LATEST))
-        stamps, places = stamps[inside], places[inside]
-        limits, numbers = limits[inside], numbers[inside]
+    if start > 0 or stop <= _LATEST:
+        wanted = inside(stamps, start, stop)
+        stamps, places = stamps[wanted], places[wanted]
+        limits, numbers = limits[wanted], numbers[wanted]
     if not len(places):
         return []
     try:

@@ -35,7 +35,7 @@ class Columns(NamedTuple):
 
     connection: Connection
     stamps: NDArray[np.int64]
-    """[ns] log time of each message"""
+    """[ns] log time of each message; uint64 where one lies beyond the year 2262"""
     fields: dict[str, Column]
     """values of each field by its path, such as ``pose.position.x``: an array of shape (messages,
     ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes; what is the
@@ -167,7 +167,9 @@ def _expected(
 
 def _columns(decoder: TopicDecoder) -> Columns:
     """Return what a decoder has read, in the order of time."""
-    stamps = decoder.stamps.finish()
+    stamps: NDArray[Any] = decoder.stamps.finish()
+    if len(stamps) and stamps.min() < 0:  # they wrapped: MCAP has 64 bits without a sign
+        stamps = stamps.view(np.uint64)
     order = None
     if (stamps[1:] < stamps[:-1]).any():
         order = np.argsort(stamps, kind='stable')

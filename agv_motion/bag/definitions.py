@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from agv_motion.bag.interface_parts import SECTIONS, base, following, sections
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import json_text
 
@@ -24,7 +25,7 @@ PRIMITIVES = {
 }
 _FIELD_TYPE = re.compile(r'[ \t]*([A-Za-z][\w/]*)(?:<=\d+)?(?:\[[^\]]*\])?[ \t]+[A-Za-z]')
 _HEADER_FIRST = re.compile(r'(?:[ \t]*(?:#.*)?\n)*[ \t]*std_msgs/(?:msg/)?Header[ \t]+header\b')
-_TYPE_NAME = re.compile(r'([A-Za-z]\w*)/(?:msg/)?([A-Za-z]\w*)')
+_TYPE_NAME = re.compile(r'([A-Za-z]\w*)/(?:(?:msg|srv|action)/)?([A-Za-z]\w*)')
 
 
 class Definition(NamedTuple):
@@ -62,8 +63,7 @@ def installed(message_type: str) -> Definition:
         package, name = split(wanted)
         short = f'{package}/{name}'
         if short not in texts:
-            path = _file(package, name, 'msg', for_type=message_type)
-            texts[short] = path.read_text(encoding='utf-8')
+            texts[short] = _text(package, name, for_type=message_type)
             waiting.extend(reversed(dependencies(texts[short], package)))
     (_, full), *used = texts.items()
     parts = [full, *(f'{SEPARATOR}\nMSG: {name}\n{text}' for name, text in used)]
@@ -91,29 +91,45 @@ def dependencies(text: str, package: str) -> list[str]:
     return [name if '/' in name else f'{package}/{name}' for name in names]
 
 
-def _file(package: str, name: str, suffix: str, *, for_type: str) -> Path:
-    prefixes = search_path()
-    for prefix in prefixes:
-        path = prefix / 'share' / package / 'msg' / f'{name}.{suffix}'
-        if path.is_file():
-            return path
+def _text(package: str, name: str, *, for_type: str) -> str:
+    """Return the .msg file of a type, or what stands for one of a service or an action."""
+    full, owner = f'{package}/{name}', base(name)
+    for folder, file in (('msg', name), *((folder, owner) for folder in SECTIONS)):
+        path = _found(package, folder, f'{file}.{folder}')
+        if path is None:
+            continue
+        text = path.read_text(encoding='utf-8')
+        if folder == 'msg':
+            return text
+        parts = dict(sections(f'{package}/{owner}', text.splitlines()))
+        lines = parts[full] if full in parts else following(full).splitlines()
+        return '\n'.join([*lines, ''])
+    prefixes = ', '.join(map(str, search_path()))
     msg = (
-        f'no {package}/msg/{name}.{suffix} (for {for_type}) under '
-        f'{", ".join(str(prefix) for prefix in prefixes)}: install {package}, or source the '
-        'workspace that has it'
+        f'no {package}/msg/{name}.msg (for {for_type}) under {prefixes}: install {package}, or '
+        'source the workspace that has it'
     )
     raise ConfigurationError(msg)
 
 
+def _found(package: str, folder: str, file: str) -> Path | None:
+    paths = (prefix / 'share' / package / folder / file for prefix in search_path())
+    return next((path for path in paths if path.is_file()), None)
+
+
 def _hash(message_type: str) -> str:
     package, name = split(message_type)
+    folders = (('msg', name), *((folder, base(name)) for folder in SECTIONS))
+    found = (_found(package, folder, f'{file}.json') for folder, file in folders)
+    path = next(filter(None, found), None)
+    if path is None:
+        return ''  # older distributions install no hash; rosbag2 writes '' as well
     try:
-        path = _file(package, name, 'json', for_type=message_type)
         hashes = json_text.load(path).value['type_hashes']
         return next(
             str(entry['hash_string'])
             for entry in hashes
-            if entry['type_name'] == f'{package}/msg/{name}'
+            if entry['type_name'] == f'{package}/{path.parent.name}/{name}'
         )
     except (ConfigurationError, ValueError, KeyError, TypeError, StopIteration):
-        return ''  # older distributions install no hash; rosbag2 writes '' as well
+        return ''

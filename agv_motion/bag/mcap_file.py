@@ -15,7 +15,7 @@ from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_o
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.successive import joined, successive
-from agv_motion.bag.time_order import Run, in_time_order
+from agv_motion.bag.time_order import Run, in_time_order, inside
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
@@ -293,8 +293,8 @@ class McapFile:
                 return None
             stamps = np.concatenate([e.stamps for e in found])
             offsets = np.concatenate([e.offsets for e in found])
-            inside = (stamps >= start) & (stamps < np.uint64(min(stop, 2**64 - 1)))
-            stamps, offsets = stamps[inside], offsets[inside]
+            wanted_ones = inside(stamps, start, stop)
+            stamps, offsets = stamps[wanted_ones], offsets[wanted_ones]
             order = np.lexsort((offsets, stamps))
             self._described(chunk, self.heads(chunk, self.content(chunk), offsets))
             places = offsets[order].tolist()

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.definitions import SEPARATOR
 from agv_motion.bag.idl_text import fields_from_idl
+from agv_motion.bag.interface_parts import following, sections
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
 SIZES = {
     **dict.fromkeys(('bool', 'byte', 'char', 'int8', 'uint8'), 1),
@@ -30,7 +31,7 @@ _FIELD = re.compile(
     r'(?P<array>\[(?:<=)?(?P<size>\d{0,18})\])?'
     r'[ \t]+(?P<name>[A-Za-z]\w*)[ \t]*(?P<constant>=)?'
 )
-_NAME = re.compile(r'MSG:[ \t]*([\w/]+)[ \t]*')
+_NAME = re.compile(r'(?:MSG|SRV|ACTION):[ \t]*([\w/]+)[ \t]*')
 
 
 class Field(NamedTuple):
@@ -72,24 +73,53 @@ def unfold(message_type: str, definition: str, encoding: str) -> Struct:
         ConfigurationError: The text cannot be understood, lacks a type, or is a trap.
 
     """
+    types = declared(message_type, definition, encoding)
+    return _Unfolding(types, message_type).struct(short(message_type), ())
+
+
+def declared(message_type: str, definition: str, encoding: str) -> dict[str, list[Field]]:
+    """Return the fields of a type and of all that it uses, by their names as PACKAGE/NAME.
+
+    Arguments and errors as of :func:`unfold`, which finds what is missing.
+    """
     if len(definition) > LONGEST_TEXT:
         msg = f'definition of {message_type}: {len(definition)} characters, at most {LONGEST_TEXT}'
         raise ConfigurationError(msg)
+    root = short(message_type)
     if encoding == 'ros2msg':
-        types = _from_msg(_short(message_type), definition)
+        types = _from_msg(root, definition)
     elif encoding == 'ros2idl':
         found = fields_from_idl(message_type, definition)
         types = {
-            _short(name): [Field(n, _short(t) if '/' in t else t, a, s) for n, t, a, s in fields]
+            short(name): [Field(n, short(t) if '/' in t else t, a, s) for n, t, a, s in fields]
             for name, fields in found.items()
         }
+    elif not definition:
+        msg = f'the bag has no definition of {message_type}'
+        raise ConfigurationError(msg)
     else:
         msg = f'definition of {message_type}: encoding {encoding!r}, expected ros2msg or ros2idl'
         raise ConfigurationError(msg)
-    return _Unfolding(types, message_type).struct(_short(message_type), ())
+    return _used(root, types)
 
 
-def _short(name: str) -> str:
+def _used(root: str, types: dict[str, list[Field]]) -> dict[str, list[Field]]:
+    """Return those types that ``root`` uses, and those that follow from them."""
+    used: dict[str, list[Field]] = {}
+    waiting = [root]
+    while waiting:
+        name = waiting.pop()
+        if name in used:
+            continue
+        if name not in types and (text := following(name)):
+            types = types | _from_msg(name, text)
+        if name in types:
+            used[name] = types[name]
+            waiting += [field.type for field in types[name] if '/' in field.type]
+    return used
+
+
+def short(name: str) -> str:
     """Return PACKAGE/NAME of PACKAGE/msg/NAME."""
     package, _, rest = name.partition('/')
     return f'{package}/{rest.rpartition("/")[2]}'
@@ -98,30 +128,46 @@ def _short(name: str) -> str:
 def _from_msg(root: str, text: str) -> dict[str, list[Field]]:
     """Return the fields of every type in a definition; the first one has the name ``root``."""
     types: dict[str, list[Field]] = {}
-    package, fields = root.partition('/')[0], types.setdefault(root, [])
-    named = True
-    for number, line in enumerate(text.splitlines(), 1):
+    for name, lines in _parts(root, text):
+        for part, content in sections(name, lines):
+            types[part] = _fields(root, part.partition('/')[0], content)
+    return types
+
+
+def _parts(root: str, text: str) -> Iterator[tuple[str, list[str]]]:
+    """Yield name and lines of each file in a definition."""
+    name, lines, named = root, [''], True
+    for line in text.splitlines():
         content = line.strip()
         if content.startswith(SEPARATOR[:3]) and not content.strip('='):
             named = False
         elif not named and (match := _NAME.fullmatch(content)):
-            name, named = _short(match[1]), True
-            package, fields = name.partition('/')[0], types.setdefault(name, [])
-            fields.clear()
-        elif content and content[0] not in '#@':
+            if any(lines):
+                yield name, lines
+            name, lines, named = short(match[1]), [''], True
+        else:
+            lines.append(content)
+    yield name, lines
+
+
+def _fields(root: str, package: str, lines: Sequence[str]) -> list[Field]:
+    """Return the fields that the lines of a file declare."""
+    fields = []
+    for number, content in enumerate(lines):
+        if content and content[0] not in '#@':
             match = _FIELD.match(content)
             if not match:
                 msg = f'definition of {root}, line {number}: {content[:80]!r} is no field'
                 raise ConfigurationError(msg)
             if not match['constant']:
                 fields.append(_field(match, package))
-    return types
+    return fields
 
 
 def _field(match: re.Match[str], package: str) -> Field:
     kind = match['type']
     if '/' in kind:
-        kind = _short(kind)
+        kind = short(kind)
     elif kind not in SIZES and kind not in ('string', 'wstring'):
         kind = f'{package}/{kind}'
     bounded = '<=' in (match['array'] or '')
@@ -129,7 +175,8 @@ def _field(match: re.Match[str], package: str) -> Field:
     return Field(match['name'], kind, bool(match['array']), size)
 
 
-_NOTHING = Member('structure_needs_at_least_one_member', 'uint8', array=False, size=None)
+NOTHING = 'structure_needs_at_least_one_member'
+_NOTHING = Member(NOTHING, 'uint8', array=False, size=None)
 """An empty struct has one byte, as in C; ROS gives it this name."""
 
 

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from agv_motion.bag.record_parsing import Buffer
     from agv_motion.bag.text_codes import TextCodes
 
-NUMPY = {'bool': 'u1', 'byte': 'i1', 'char': 'u1', 'length': 'u4', 'string': 'u4'}
+NUMPY = {'bool': 'u1', 'byte': 'u1', 'char': 'u1', 'length': 'u4', 'string': 'u4'}
 NUMPY |= {
     f'{kind}{bits}': f'{kind[0]}{bits // 8}' for kind in ('int', 'uint') for bits in (8, 16, 32, 64)
 }
 NUMPY |= {'float32': 'f4', 'float64': 'f8'}
-"""numpy's names of the primitives (``byte`` is signed, as in rosbags), texts and lengths"""
+"""numpy's names of the primitives (a ``byte`` is an octet: 0 to 255), texts and lengths"""
 _LENGTH = 4
 """[bytes] of a length"""
 _GAPS = (32, 8, 0)

@@ -20,7 +20,8 @@ class Selection:
     exclude_topics: tuple[str, ...] = ()
     exclude_regex: str = ''
     hidden: bool = False
-    """whether ``everything`` and ``regex`` mean topics with a _ before a part of the name too"""
+    """whether ``everything`` and ``regex`` mean topics with a _ before a part of the name too; they
+    mean those of services (``_service_event``) and actions (``_action``) in any case"""
 
     def __post_init__(self) -> None:
         """Check both expressions."""
@@ -36,7 +37,15 @@ class Selection:
         if topic in self.topics:
             return True
         matched = self.everything or bool(self.regex and re.search(self.regex, topic))
-        return matched and (self.hidden or '/_' not in topic)
+        return matched and (self.hidden or '/_' not in topic or _tells_of_others(topic))
+
+
+def _tells_of_others(topic: str) -> bool:
+    """Return whether a hidden topic tells of a service or an action, which is not hidden."""
+    shown, _, last = topic.rpartition('/')
+    if shown.endswith('/_action'):
+        shown, last = shown.removesuffix('/_action'), '_action'
+    return last in ('_service_event', '_action') and '/_' not in shown
 
 
 def _compile(name: str, pattern: str) -> None:

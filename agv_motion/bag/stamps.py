@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,7 +32,13 @@ def stamps(bag: BagReader, topics: Iterable[str] | None = None) -> dict[str, NDA
     for file in bag.files:
         for topic, times in _parts(file, frozenset(wanted)):
             found[topic].append(times)
-    return {t: np.concatenate(p) if p else np.empty(0, np.int64) for t, p in found.items()}
+    return {topic: _joined(parts) for topic, parts in found.items()}
+
+
+def _joined(parts: list[NDArray[np.int64]]) -> NDArray[Any]:
+    """Return all log times, without a sign where one lies beyond the year 2262."""
+    times = np.concatenate(parts) if parts else np.empty(0, np.int64)
+    return times.view(np.uint64) if len(times) and times.min() < 0 else times
 
 
 def _parts(file: File, wanted: frozenset[str]) -> Iterator[tuple[str, NDArray[np.int64]]]:

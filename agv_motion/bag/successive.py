@@ -9,7 +9,7 @@ import numpy as np
 from agv_motion.bag import records
 from agv_motion.bag.chunk import heads
 from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.time_order import Run
+from agv_motion.bag.time_order import Run, inside
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -81,8 +81,8 @@ def joined(
     beyond = places + size_of > np.repeat(np.array(ends, np.uint64), counts)
     if beyond.any() or not np.isin(lie['channel'], channels).all():
         return None
-    inside = (times >= span.start) & (times < np.uint64(min(span.stop, 2**64 - 1)))
-    times, places = times[inside], places[inside]
+    wanted = inside(times, span.start, span.stop)
+    times, places = times[wanted], places[wanted]
     order = np.lexsort((places, times))
     sorted_places = places[order].tolist()
     return Run(times[order].tolist(), lambda a, b: read(data, sorted_places[a:b]))

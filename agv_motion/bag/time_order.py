@@ -6,13 +6,18 @@ from bisect import bisect_left
 from heapq import heappop, heappush, heapreplace
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
+
+    from numpy.typing import NDArray
 
     from agv_motion.bag.connection import Message
 
 LONGEST = 4096
 """Messages handed out in one go, so that little is held at a time."""
+_LATEST = 2**64 - 1
 
 
 class Run(NamedTuple):
@@ -22,6 +27,14 @@ class Run(NamedTuple):
     """[ns]"""
     messages: Callable[[int, int], Iterator[Message]]
     """what yields those from one number up to another"""
+
+
+def inside(stamps: NDArray[np.uint64], start: int, stop: int) -> NDArray[np.bool_]:
+    """Return which stamps lie from ``start`` to before ``stop`` [ns]."""
+    if stop <= start:
+        return np.zeros(len(stamps), bool)
+    last = np.uint64(min(stop - 1, _LATEST))
+    return np.asarray((stamps >= np.uint64(min(start, _LATEST))) & (stamps <= last))
 
 
 def in_time_order(runs: Iterable[tuple[int, int, Callable[[], Run | None]]]) -> Iterator[Message]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.bag.message_decoder import MessageDecoder
+from agv_motion.bag.message_type import NOTHING
 
 if TYPE_CHECKING:
     from agv_motion.bag.connection import Connection
@@ -22,7 +23,8 @@ def decoder(connection: Connection) -> MessageDecoder:
     """
     decode = MessageDecoder(connection)
     for name, kind in decode.store.types.items():
-        types = {field: _type(found) for field, found in decode.store.fielddefs[name][1]}
+        fields = decode.store.fielddefs[name][1]
+        types = {field: _type(found) for field, found in fields if field != NOTHING}
         kind.get_fields_and_field_types = _constant(types)  # type: ignore[attr-defined] # as rclpy
     return decode
 

@@ -29,9 +29,10 @@ def message_class(name: str) -> Any:
         ConfigurationError: It is not installed.
 
     """
-    package, _, short = name.replace('/msg/', '/').partition('/')
+    package, _, rest = name.partition('/')
+    folder, _, short = rest.rpartition('/')
     try:
-        return getattr(importlib.import_module(f'{package}.msg'), short)
+        return getattr(importlib.import_module(f'{package}.{folder or "msg"}'), short)
     except (ImportError, AttributeError, ValueError) as error:
         msg = f"message type '{name}' is not installed: install {package}, or source its workspace"
         raise ConfigurationError(msg) from error

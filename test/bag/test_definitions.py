@@ -54,7 +54,7 @@ def test_a_type_that_uses_itself_ends(tmp_path, monkeypatch):
     assert 'MSG' not in definitions.installed('garden_msgs/msg/Loop').text
 
 
-@pytest.mark.parametrize('message_type', ['String', 'a/b/c/d', '../msg/passwd', 'std_msgs/srv/X'])
+@pytest.mark.parametrize('message_type', ['String', 'a/b/c/d', '../msg/passwd', 'std_msgs/idl/X'])
 def test_a_malformed_name_is_refused(message_type):
     with pytest.raises(ConfigurationError, match='PACKAGE/msg/NAME'):
         definitions.installed(message_type)
