@@ -1,7 +1,7 @@
 """Message types that belong to services and actions: what their topics carry.
 
 A service is defined by two messages with ``---`` between them, an action by three. From these
-follow the types of the hidden topics that rosbag2 records: ``_service_event``, ``_action/feedback``.
+follow the types of hidden topics that rosbag2 records: ``_service_event``, ``_action/feedback``.
 Source: REP-2012; https://design.ros2.org/articles/actions.html
 """
 

@@ -23,6 +23,9 @@ SAVE_PERIOD = 15.0
 CHECK_PERIOD = 0.5
 """[s] within which a disk that does not take the memory is told."""
 
+FIRST_PERIOD = 0.1
+"""[s] at which the first map is tried until there is a time to stamp it with."""
+
 PATIENCE = 5.0
 """[s] How long a stopping node waits for the disk."""
 
@@ -52,7 +55,9 @@ class MemoryKeeper:
         self._flow = node.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
         self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._shown = False
         node.every(node.parameters.map_period, self.publish, steady)
+        node.every(FIRST_PERIOD, self._publish_first, steady)
         self._writer: futures.ThreadPoolExecutor | None = None
         self._saved: float | None = None
         self._writing: futures.Future[None] | None = None
@@ -67,15 +72,23 @@ class MemoryKeeper:
 
     def begin(self) -> None:
         """Show both maps; and save at once, so that a full disk is told before it matters."""
+        self._shown = False
         self.publish()
         self.save()
 
     def publish(self) -> None:
         """Show both maps: 0 to 100, unknown -1."""
         memory, now = self._memory, self._node.seconds()
+        if now <= 0.0:
+            return  # no /clock yet: a map of 1970 would be latched
+        self._shown = True
         self._publish(self._flow, 100.0 * memory.remembered(now), memory.felt)
         hours = (now - memory.visited_at) / 3600.0
         self._publish(self._visit, 100.0 * hours / self._span, memory.visited)
+
+    def _publish_first(self) -> None:
+        if not self._shown:
+            self.publish()
 
     def save(self) -> None:
         """Let the thread write what is remembered now, if that is new and the last is written."""
