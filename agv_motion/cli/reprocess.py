@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -44,7 +45,8 @@ def reprocess(
     """Let the nodes decide again on what was recorded: without middleware, the same to the bit.
 
     Nodes hear from the bag what no other node says; everything that they say goes into a new bag,
-    stamped with the time of the recording. Examples:
+    stamped with the time of the recording. A result appears only when it is whole, and a rerun of
+    the same makes only what is not there yet. Examples:
     agv reprocess demo_output/bag before
     agv reprocess demo_output/bag after --config tuned.yaml
     agv bag diff before after
@@ -71,9 +73,10 @@ def reprocess(
         def show(share: float) -> None:
             progress.update(bar, completed=len(found) + share)
 
-        for outcome in outcomes(jobs, plan, workers, scheduler, show):
-            found.append(outcome)
-            show(0.0)
+        with closing(outcomes(jobs, plan, workers, scheduler, show)) as coming:
+            for outcome in coming:
+                found.append(outcome)
+                show(0.0)
     _tell(sorted(found))
     if any(one.failure for one in found):
         raise typer.Exit(1)
@@ -124,6 +127,9 @@ def _tell(found: list[Outcome]) -> None:
     for one in found:
         if one.failure:
             typer.echo(f'error: {one.source}: {one.failure}', err=True)
+            continue
+        if one.made_before:
+            table.add_row(one.source, '', 'there already', '', '')
             continue
         table.add_row(
             one.source, str(one.messages_in), str(one.messages_out), f'{one.seconds:.0f} s',

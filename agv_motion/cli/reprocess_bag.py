@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import shutil
 import time
 from contextlib import suppress
 from itertools import islice
@@ -13,7 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.unfinished import beside
 from agv_motion.bag.writer import BagWriter
+from agv_motion.cli import provenance
 from agv_motion.cli.nodes import require_node
 from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.errors import AgvMotionError, ConfigurationError
@@ -25,10 +26,13 @@ from agv_motion.ros.messages import type_name
 from agv_motion.ros.world import Publisher, World
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from agv_motion.bag.connection import Message
+
+
+NONE: dict[str, int] = {}
 
 
 class Plan(NamedTuple):
@@ -47,18 +51,24 @@ class Outcome(NamedTuple):
     """What came of one bag."""
 
     source: str
-    messages_in: int
-    messages_out: int
-    seconds: float
+    messages_in: int = 0
+    messages_out: int = 0
+    seconds: float = 0.0
     """time that passed in the bag [s]"""
-    took: float
+    took: float = 0.0
     """time that it took [s]"""
-    missing: tuple[str, ...]
+    missing: tuple[str, ...] = ()
     """inputs that the bag does not have"""
-    complaints: dict[str, int]
+    complaints: Mapping[str, int] = NONE
     """warnings of the nodes, and how often"""
-    failure: str
+    failure: str = ''
     """why there is no result; empty if there is"""
+    made_before: bool = False
+    """whether an earlier run has made the same"""
+
+
+class Abandoned(BaseException):
+    """Nobody waits for the result any more; like KeyboardInterrupt, no error of the bag."""
 
 
 class Transcript:
@@ -129,25 +139,27 @@ def reprocess(
     """
     begin = time.perf_counter()
     try:
-        return _run(source, target, plan, begin, tell)
+        return _run(source, target, plan, tell)._replace(took=time.perf_counter() - begin)
     except (AgvMotionError, OSError) as error:
         failure = str(error)
     except Exception as error:  # noqa: BLE001 - a defect in one bag must not stop the others
         failure = f'{type(error).__name__}: {error}'
-    return Outcome(str(source), 0, 0, 0.0, time.perf_counter() - begin, (), {}, failure)
+    return Outcome(str(source), took=time.perf_counter() - begin, failure=failure)
 
 
-def _run(
-    source: Path, target: Path, plan: Plan, begin: float, tell: Callable[[float], None] | None
-) -> Outcome:
-    with BagReader(source) as bag:
-        writer = BagWriter(target, compression=plan.compression, chunk_duration=inf)
-        try:
+def _run(source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None) -> Outcome:
+    given = {name: parameters(plan.config, name) for name in plan.nodes}
+    made_by = given, plan.nodes, plan.remap, plan.compression, _contents(given)
+    digest = provenance.fingerprint(source, made_by)
+    if provenance.is_made(target, digest):
+        return Outcome(str(source), made_before=True)
+    with BagReader(source) as bag, beside(target) as made:
+        with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
             transcript = Transcript(writer)
             world = World(transcript.record, bag.start)
             world.recorded = bag.topics
             for name in plan.nodes:
-                add(world, node_class(name), parameters(plan.config, name), dict(plan.remap))
+                add(world, node_class(name), given[name], dict(plan.remap))
             world.start()
             inputs, heard = world.inputs(), 0
             for count, now in _feed(world, bag.messages(sorted(inputs & set(bag.topics)))):
@@ -157,17 +169,22 @@ def _run(
             world.run(bag.end)
             world.stop()
             transcript.flush()
-            writer.close()
-        except BaseException:
-            with suppress(OSError):
-                writer.close()
-            shutil.rmtree(target)
-            raise
+        provenance.note(made, source, digest)
         missing = tuple(sorted(inputs - set(bag.topics)))
-        took = time.perf_counter() - begin
         span = (bag.end - bag.start) * 1e-9
-        counts = heard, transcript.messages
-        return Outcome(str(source), *counts, span, took, missing, world.complaints, '')
+        return Outcome(
+            str(source), heard, transcript.messages, span, 0.0, missing, world.complaints
+        )
+
+
+def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]:
+    """Return the content of every file that is named in parameters."""
+    found = []
+    for value in (value for values in given.values() for value in values.values()):
+        if isinstance(value, str) and value:
+            with suppress(AgvMotionError, OSError, ValueError):
+                found.append((value, find_config(value).read_bytes()))
+    return found
 
 
 def _feed(world: World, messages: Iterator[Message]) -> Iterator[tuple[int, int]]:

@@ -1,20 +1,34 @@
-"""Many bags at once: processes of this machine, or the workers of a Dask cluster."""
+"""Many bags at once: processes of this machine, or the workers of a Dask cluster.
+
+Whatever ends this process, no worker outlives it: at a signal they are killed at once and what they
+had begun is removed; each watches its parent, which may be killed too. A worker that dies takes one
+bag with it, and no other.
+"""
 
 from __future__ import annotations
 
 import multiprocessing
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from typing import TYPE_CHECKING
+import os
+import signal
+import threading
+from collections import deque
+from contextlib import suppress
+from multiprocessing.connection import wait
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from agv_motion.cli.reprocess_bag import Outcome, Plan, reprocess
+from agv_motion.bag.unfinished import sweep
+from agv_motion.cli.reprocess_bag import Abandoned, Outcome, Plan, reprocess
 from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.ros.stop import SIGNALS, end_no_more
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-    from concurrent.futures import Future
+    from collections.abc import Callable, Generator, Iterator, Sequence
+    from multiprocessing.connection import Connection
     from pathlib import Path
 
     Job = tuple[Path, Path]
+
+FRESH = multiprocessing.get_context('spawn')
 
 
 def outcomes(
@@ -23,8 +37,8 @@ def outcomes(
     workers: int,
     scheduler: str,
     tell: Callable[[float], None] | None = None,
-) -> Iterator[Outcome]:
-    """Yield what came of each bag, as soon as it is known.
+) -> Generator[Outcome, None, None]:
+    """Yield what came of each bag, as soon as it is known; close it, so that all workers end.
 
     Args:
         jobs: Each bag, and where its result goes; a cluster must see the same paths.
@@ -44,18 +58,86 @@ def outcomes(
         for source, target in jobs:
             yield reprocess(source, target, plan, tell)
     else:
-        yield from _in_processes(jobs, plan, workers)
+        yield from _in_processes(jobs, plan, min(workers, len(jobs)))
+
+
+class _Worker(NamedTuple):
+    """A process, and the line on which it takes bags and answers."""
+
+    process: Any
+    line: Connection
 
 
 def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Outcome]:
-    fresh = multiprocessing.get_context('spawn')
-    with ProcessPoolExecutor(min(workers, len(jobs)), mp_context=fresh) as pool:
-        waiting: dict[Future[Outcome], Job] = {
-            pool.submit(reprocess, *job, plan): job for job in jobs
-        }
-        for future in as_completed(waiting):
-            death = future.exception()
-            yield future.result() if death is None else _lost(waiting[future], death)
+    waiting = deque(jobs)
+    busy: dict[Any, tuple[_Worker, Job]] = {}
+    free: list[_Worker] = []
+    staff: list[_Worker] = []
+    try:
+        while waiting or busy:
+            while waiting and len(busy) < workers:
+                worker = free.pop() if free else _start(plan, staff)
+                job = waiting.popleft()
+                busy[worker.line] = worker, job
+                with suppress(OSError):  # it is dead: found when it does not answer
+                    worker.line.send(job)
+            for line in wait(list(busy)):
+                worker, job = busy.pop(line)
+                try:
+                    outcome = worker.line.recv()
+                except (EOFError, OSError):
+                    worker.process.join()
+                    sweep(job[1])
+                    outcome = _lost(job, f'exit status {worker.process.exitcode}')
+                else:
+                    free.append(worker)
+                yield outcome
+    except BaseException:
+        end_no_more()  # a second signal must not leave half of them
+        raise
+    finally:
+        for worker in staff:
+            worker.process.kill()
+        for worker in staff:
+            worker.process.join()
+        for _, (_, target) in busy.values():
+            sweep(target)
+
+
+def _start(plan: Plan, staff: list[_Worker]) -> _Worker:
+    """Start a process and add it to ``staff``, both or none, whatever signal comes meanwhile."""
+    line, end = FRESH.Pipe()
+    process = FRESH.Process(target=_work, args=(end, plan), daemon=True)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        process.start()
+        staff.append(_Worker(process, line))
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    end.close()
+    return staff[-1]
+
+
+def _work(line: Connection, plan: Plan) -> None:
+    """Reprocess what comes on the line, until its other end is gone.
+
+    Born with all signals blocked: Ctrl-C reaches all processes of a terminal, and is the parent's
+    to heed.
+    """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with suppress(EOFError, OSError):
+        while True:
+            source, target = line.recv()
+            line.send(reprocess(source, target, plan))
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Outcome]:
@@ -71,19 +153,38 @@ def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Out
         raise SourceError(msg) from error
     with client:
         waiting = {
-            client.submit(reprocess, source.resolve(), target.resolve(), plan, pure=False): (
+            client.submit(_on_worker, source.resolve(), target.absolute(), plan, pure=False): (
                 source,
                 target,
             )
             for source, target in jobs
         }
-        for future in distributed.as_completed(waiting):
-            death = future.exception()
-            outcome = future.result() if death is None else _lost(waiting[future], death)
-            yield outcome._replace(source=str(waiting[future][0]))
+        try:
+            for future in distributed.as_completed(waiting):
+                death = future.exception()
+                outcome = future.result() if death is None else _lost(waiting[future], death)
+                yield outcome._replace(source=str(waiting[future][0]))
+        finally:
+            client.cancel([future for future in waiting if not future.done()], force=True)
 
 
-def _lost(job: Job, error: BaseException) -> Outcome:
+def _on_worker(source: Path, target: Path, plan: Plan) -> Outcome:
+    """Reprocess a bag on a worker of the cluster, as long as somebody waits for it."""
+    from distributed import get_worker
+
+    worker = get_worker()
+    key = worker.get_current_task()
+
+    def look(_: float) -> None:
+        task = worker.state.tasks.get(key)
+        if task is None or task.state == 'cancelled':
+            raise Abandoned
+
+    return reprocess(source, target, plan, look)
+
+
+def _lost(job: Job, reason: object) -> Outcome:
     """Return the outcome of a bag whose worker died."""
-    failure = f'its worker ended: {type(error).__name__} {error}'
-    return Outcome(str(job[0]), 0, 0, 0.0, 0.0, (), {}, failure)
+    if isinstance(reason, BaseException):
+        reason = f'{type(reason).__name__} {reason}'
+    return Outcome(str(job[0]), failure=f'its worker ended: {reason}; run again to complete')

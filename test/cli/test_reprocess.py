@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from math import nan
@@ -186,6 +187,94 @@ def test_a_cluster_gives_the_same_bytes(alone, recorded, tmp_path, cluster):
     for name in ('a', 'c'):
         reprocess(recorded / name, tmp_path / 'near' / 'out' / name, PLAN)
     assert content(tmp_path / 'far') == content(tmp_path / 'near')
+
+
+def finished(folder):
+    """Return the whole results below a folder, by name, with their bytes."""
+    return {p.name: content(p) for p in sorted(folder.iterdir()) if not p.name.startswith('.')}
+
+
+def descendants(pid):
+    """Return the processes that ``pid`` has started, and those that these have."""
+    found = Path(f'/proc/{pid}/task/{pid}/children').read_text()
+    return [c for child in map(int, found.split()) for c in (child, *descendants(child))]
+
+
+def gone(pid):
+    """Return whether a process has ended."""
+    try:
+        return ') Z' in Path(f'/proc/{pid}/stat').read_text()
+    except OSError:
+        return True
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
+    alone, recorded, tmp_path, wait_until, number
+):
+    """Ctrl-C goes to all processes of a terminal; kill to the first one alone."""
+    sources = tmp_path / 'in'
+    sources.mkdir()
+    for name in 'abc':
+        shutil.copytree(recorded / 'c', sources / name)
+    out = tmp_path / 'out'
+    command = ('reprocess', sources, out, '-m', 'pose:=fix', '-j', 2)
+    process = alone.start(*command, start_new_session=True)
+    wait_until(lambda: len(list(out.glob('.*.unfinished-*/*/*.mcap'))) == 2)
+    started = descendants(process.pid)
+    assert len(started) >= 2
+    (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
+    _, errors = process.communicate(timeout=60)
+    wait_until(lambda: all(map(gone, started)), 10)
+    assert process.returncode == (-9 if number == signal.SIGKILL else 130)
+    assert 'Traceback' not in errors
+    before = finished(out)
+    assert len(before) < 3
+    if number != signal.SIGKILL:
+        assert not list(out.glob('.*'))
+    if number in {signal.SIGTERM, signal.SIGHUP}:
+        return  # as SIGINT
+    status, told, _ = alone(*command)
+    assert status == 0
+    assert told.count('there already') == len(before)
+    assert finished(out).keys() == set('abc')
+    sizes = {sum(map(len, files.values())) for files in finished(out).values()}
+    assert len(sizes) == 1
+    assert not list(out.glob('.*'))
+
+
+def test_a_killed_worker_takes_one_bag_with_it_and_no_other(alone, recorded, tmp_path, wait_until):
+    sources, out = tmp_path / 'in', tmp_path / 'out'
+    sources.mkdir()
+    for name in 'abc':
+        shutil.copytree(recorded / 'c', sources / name)
+    process = alone.start('reprocess', sources, out, '-m', 'pose:=fix', '-j', 2)
+    wait_until(lambda: list(out.glob('.a.unfinished-*/a/*.mcap')))
+    (lock,) = out.glob('.a.unfinished-*')
+    holder = next(
+        pid
+        for pid in descendants(process.pid)
+        if any(os.path.realpath(fd) == str(lock) for fd in Path(f'/proc/{pid}/fd').iterdir())
+    )
+    os.kill(holder, signal.SIGKILL)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert f'{sources / "a"}: its worker ended: exit status -9; run again' in errors
+    assert finished(out).keys() == {'b', 'c'}
+    assert not list(out.glob('.*'))
+
+
+def test_a_result_is_made_anew_for_another_configuration_only(recorded, tmp_path):
+    out = tmp_path / 'out'
+    assert not reprocess(recorded / 'c', out, PLAN).made_before
+    before = content(out)
+    assert reprocess(recorded / 'c', out, PLAN).made_before
+    tuned = tmp_path / 'tuned.yaml'
+    tuned.write_text('/**/wheel_kinematics:\n  ros__parameters: {wheel_radius: 0.2}\n')
+    for plan in (PLAN._replace(config=str(tuned)), PLAN._replace(remap=())):
+        assert 'File exists' in reprocess(recorded / 'c', out, plan).failure
+    assert 'File exists' in reprocess(recorded / 'a', out, PLAN).failure
+    assert content(out) == before
 
 
 def test_a_failure_leaves_no_half_result(recorded, tmp_path):
