@@ -11,6 +11,7 @@ from agv_motion.bag import records
 from agv_motion.bag.checksum import crc32
 from agv_motion.bag.compression import decompress, decompress_into, salvage
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.memory_limit import largest
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,11 +21,10 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.record_parsing import Buffer
 
-LARGEST = 1 << 28
-"""[bytes] Content of a chunk, uncompressed; no robot has a single message as large as that."""
-UNSUSPICIOUS = 1 << 26
-LARGEST_RATIO = 1000
-"""A chunk of more than ``UNSUSPICIOUS`` bytes that shrank further is a trap, not a recording."""
+LARGEST = largest()
+"""[bytes] Content of a chunk, uncompressed."""
+RATIOS = {'': 1, 'lz4': 256, 'zstd': 1 << 16}
+"""By how much a chunk can shrink at most, by its compression; who announces more lies."""
 
 HEAD = np.dtype(
     [
@@ -99,12 +99,15 @@ def content(
         return data[chunk.offset : end]
     body = chunk.offset + records.PREFIX.size
     head = parsing.chunk_head(parsing.Body(data[body:end], path, body), body)
-    if head.size > LARGEST or head.size > max(UNSUSPICIOUS, head.stored * LARGEST_RATIO):
+    ratio = RATIOS.get(head.compression, 1)
+    if head.size > min(LARGEST, head.stored * ratio):
         finding = (
             f'a chunk of {head.size} bytes out of {head.stored}, expected at most {LARGEST}, '
-            f'and {LARGEST_RATIO} times as many as are stored'
+            f'and {ratio} times as many as are stored'
         )
-        raise DamagedBagError(path, chunk.offset, finding)
+        remedy = 'a machine with more memory may read it' if head.size > LARGEST else ''
+        if not chunk.torn or remedy:
+            raise DamagedBagError(path, chunk.offset, finding, remedy)
     stored = data[head.content : head.content + head.stored]
     if chunk.torn:
         return salvage(head.compression, stored, head.size)

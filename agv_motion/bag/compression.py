@@ -20,6 +20,8 @@ _FAST = 1
 _WIDEST_WINDOW = 1 << 27
 """[bytes] Memory that a zstd frame may ask for; level 19 asks for 8 MiB."""
 _PIECE = 1 << 17
+_AT_ONCE = 1 << 26
+"""[bytes]"""
 _of_thread = threading.local()
 
 
@@ -107,9 +109,12 @@ def _zstd_decompressor() -> zstandard.ZstdDecompressor:
 
 def _zstd(stored: Buffer, size: int) -> bytes:
     try:
-        frame = zstandard.get_frame_parameters(stored)
-        if frame.content_size == size:
+        announced = zstandard.get_frame_parameters(stored).content_size
+        if announced == size:
             return _zstd_decompressor().decompress(stored, max_output_size=size)
+        if announced > size and announced != zstandard.CONTENTSIZE_UNKNOWN:
+            msg = f'zstd: a frame of {announced} bytes where {size} were announced'
+            raise ValueError(msg)
     except zstandard.ZstdError as error:
         msg = f'zstd: {error}'
         raise ValueError(msg) from None
@@ -134,6 +139,8 @@ def _zstd_by_piece(stored: Buffer, limit: int) -> bytes:
 
 
 def _lz4(stored: Buffer, size: int) -> bytes:
+    if size > _AT_ONCE:
+        return _lz4_by_piece(stored, size + 1)  # memory only for what really comes out
     try:
         data: bytes = lz4.frame.LZ4FrameDecompressor().decompress(stored, max_length=size + 1)
     except (RuntimeError, EOFError, MemoryError) as error:

@@ -19,7 +19,7 @@ class Connection(NamedTuple):
     type: str
     """such as ``geometry_msgs/msg/TwistStamped``"""
     definition: str
-    """full text of the type, '' where the bag has none"""
+    """full text of the type, '' where the bag has none; bytes that are no text, as surrogates"""
     definition_encoding: str
     """``ros2msg`` or ``ros2idl``, '' where the bag has none"""
     encoding: str
@@ -28,6 +28,8 @@ class Connection(NamedTuple):
     """``RIHS01_...``, or '' where unknown"""
     qos: Sequence[OfferedQos]
     """of each publisher"""
+    notes: tuple[tuple[str, str], ...] = ()
+    """what else an MCAP file says of the channel"""
 
     @property
     def latched(self) -> bool:
@@ -55,9 +57,10 @@ def from_channel(channel: Channel, schemas: Mapping[int, Schema]) -> Connection:
     return Connection(
         channel.topic,
         schema.name if schema else '',
-        schema.data.decode(errors='replace') if schema else '',
+        schema.data.decode(errors='surrogateescape') if schema else '',
         schema.encoding if schema else '',
         channel.encoding,
         channel.metadata.get('topic_type_hash', ''),
         OfferedQos.from_yaml(channel.metadata.get('offered_qos_profiles', '')),
+        tuple(channel.metadata.items()),
     )

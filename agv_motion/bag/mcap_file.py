@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.bag import connection as connections
-from agv_motion.bag import mcap_scan, mcap_summary, message_index, records
+from agv_motion.bag import mcap_scan, mcap_summary, message_index, record_parsing, records
 from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import DamagedBagError
@@ -250,6 +250,20 @@ class McapFile:
         known = np.isin(found['channel'], list(self.channels))
         yield from self._messages(unpacked, offsets[known].tolist())
         self._described(chunk, found)
+
+    def extras(self) -> Iterator[records.Attachment | records.Metadata | DamagedBagError]:
+        """Yield the attachments and named strings that are whole, and what is wrong with others."""
+        for opcode, at, end in record_parsing.walk(self._data, len(records.MAGIC), len(self._data)):
+            if opcode == records.DATA_END:
+                return
+            body = record_parsing.Body(self._data[at:end], self.path, at)
+            try:
+                if opcode == records.ATTACHMENT:
+                    yield record_parsing.attachment(body)
+                elif opcode == records.METADATA:
+                    yield record_parsing.metadata(body)
+            except DamagedBagError as error:
+                yield error
 
     def release(self, begin: int, end: int) -> None:
         """Take a part of the file [bytes] out of the memory of this process; it stays readable."""

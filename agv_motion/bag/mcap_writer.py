@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from array import array
 from struct import error as StructError  # noqa: N812 - the module names it in lower case
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,15 @@ if TYPE_CHECKING:
 
 _MESSAGE_BODY = records.MESSAGE_HEAD.size - records.PREFIX.size
 _MESSAGE_PREFIX = records.MESSAGE_HEAD.pack
+
+
+class _Extra(NamedTuple):
+    """An attachment, or named strings, in the file."""
+
+    offset: int
+    attached: bool
+    entry: bytes
+    """its record in the summary"""
 
 
 class McapWriter:
@@ -55,7 +64,8 @@ class McapWriter:
         """[ns] log time of the first message in it"""
         self._compression, self._compress = compression, compressor(compression)
         self._file = path.open('xb', buffering=0)
-        self._schemas: dict[tuple[str, str], records.Schema] = {}
+        self._schemas: dict[tuple[str, str, str], records.Schema] = {}
+        self._extras: list[_Extra] = []
         self._channels: list[records.Channel] = []
         self._chunks: list[records.ChunkIndex] = []
         self._chunk_counts: list[dict[int, int]] = []
@@ -67,22 +77,40 @@ class McapWriter:
 
     def add_channel(self, topic: Topic) -> int:
         """Return the id of a new channel for ``topic``."""
-        key = topic.type, topic.definition
-        if key not in self._schemas:
-            number = len(self._schemas) + 1
-            definition = topic.definition.encode()
-            schema = records.Schema(number, topic.type, topic.definition_encoding, definition)
-            self._schemas[key] = schema
-            self._put(records.schema(schema))
         number = len(self._channels) + 1
         notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
-        schema_id = self._schemas[key].id
-        channel = records.Channel(number, schema_id, topic.name, 'cdr', notes)
+        notes = dict(topic.notes) or notes
+        channel = records.Channel(number, self._schema(topic), topic.name, topic.encoding, notes)
         self._channels.append(channel)
         self._indexes.append(array('Q'))
         self.counts.append(0)
         self._put(records.channel(channel))
         return number
+
+    def _schema(self, topic: Topic) -> int:
+        """Return the id of the schema of a topic; 0 for a topic without type."""
+        key = topic.type, topic.definition, topic.definition_encoding
+        if not (topic.type or topic.definition):
+            return 0
+        if key not in self._schemas:
+            number = len(self._schemas) + 1
+            definition = topic.definition.encode(errors='surrogateescape')
+            schema = records.Schema(number, topic.type, topic.definition_encoding, definition)
+            self._schemas[key] = schema
+            self._put(records.schema(schema))
+        return self._schemas[key].id
+
+    def keep(self, extra: records.Attachment | records.Metadata) -> None:
+        """Append an attachment or named strings."""
+        offset = self.size
+        if isinstance(extra, records.Attachment):
+            data = records.attachment(extra)
+            entry = records.attachment_index(extra, offset, len(data))
+        else:
+            data = records.metadata(extra)
+            entry = records.metadata_index(offset, len(data), extra.name)
+        self._put(data)
+        self._extras.append(_Extra(offset, isinstance(extra, records.Attachment), entry))
 
     def write(self, channel: int, stamp: int, data: bytes, publish: int, sequence: int) -> None:
         """Append a message to the chunk being filled.
@@ -174,6 +202,7 @@ class McapWriter:
             self.counts[channel - 1] -= count
         self.start = min((chunk.start_time for chunk in self._chunks), default=2**64 - 1)
         self.end = max((chunk.end_time for chunk in self._chunks), default=0)
+        self._extras = [extra for extra in self._extras if extra.offset < self.size]
         self._cut()
         return True
 
@@ -198,10 +227,11 @@ class McapWriter:
             OSError: The disk is full or failed; the file is as it was before, and still open.
 
         """
-        noted = records.metadata('rosbag2', notes)
+        noted = records.metadata(records.Metadata('rosbag2', notes))
         index = records.metadata_index(self.size, len(noted), 'rosbag2')
+        own = _Extra(self.size, attached=False, entry=index)
         data = noted + records.data_end()
-        self._put(data + self._summary(index, self.size + len(data)))
+        self._put(data + self._summary([*self._extras, own], self.size + len(data)))
         self.sync()
         self._file.close()
 
@@ -209,18 +239,22 @@ class McapWriter:
         """Close without a summary: what was flushed stays, and can be recovered."""
         self._file.close()
 
-    def _summary(self, metadata_index: bytes, begin: int) -> bytes:
+    def _summary(self, extras: Sequence[_Extra], begin: int) -> bytes:
         """Return the summary, its offsets and the footer; ``begin`` is where it will stand."""
         counts = {i: count for i, count in enumerate(self.counts, 1) if count}
         start, end = (self.start, self.end) if counts else (0, 0)
-        numbers = (sum(self.counts), len(self._schemas), len(self._channels), 0, 1)
+        attached = [extra.entry for extra in extras if extra.attached]
+        noted = [extra.entry for extra in extras if not extra.attached]
+        messages, schemas, channels = sum(self.counts), len(self._schemas), len(self._channels)
+        numbers = messages, schemas, channels, len(attached), len(noted)
         totals = records.Statistics(*numbers, len(self._chunks), start, end, counts)
         groups = {
             records.SCHEMA: b''.join(map(records.schema, self._schemas.values())),
             records.CHANNEL: b''.join(map(records.channel, self._channels)),
             records.STATISTICS: records.statistics(totals),
             records.CHUNK_INDEX: b''.join(map(records.chunk_index, self._chunks)),
-            records.METADATA_INDEX: metadata_index,
+            records.ATTACHMENT_INDEX: b''.join(attached),
+            records.METADATA_INDEX: b''.join(noted),
         }
         offsets, position = [], begin
         for opcode, group in groups.items():

@@ -35,6 +35,10 @@ class Topic(NamedTuple):
     qos: Sequence[OfferedQos]
     definition_encoding: str = 'ros2msg'
     """or ``ros2idl``"""
+    encoding: str = 'cdr'
+    """of the messages"""
+    notes: tuple[tuple[str, str], ...] = ()
+    """what else an MCAP file is to say of the channel"""
 
 
 class FileSummary(NamedTuple):
@@ -116,7 +120,7 @@ def _topic(topic: Topic, messages: int) -> dict[str, Any]:
         'topic_metadata': {
             'name': topic.name,
             'type': topic.type,
-            'serialization_format': 'cdr',
+            'serialization_format': topic.encoding,
             'offered_qos_profiles': [profile.entries() for profile in topic.qos],
             'type_description_hash': topic.hash,
         },

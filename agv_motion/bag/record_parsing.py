@@ -9,6 +9,7 @@ from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag import records
+from agv_motion.bag.checksum import crc32
 from agv_motion.bag.damage import DamagedBagError
 
 if TYPE_CHECKING:
@@ -71,6 +72,15 @@ class Body:
     def blob(self) -> Buffer:
         """Return bytes that have their length (four bytes) before them."""
         return self._take(self.number(U32))
+
+    def bytes(self, size: int) -> Buffer:
+        """Return so many bytes."""
+        return self._take(size)
+
+    @property
+    def so_far(self) -> Buffer:
+        """What was read."""
+        return self._data[: self.position]
 
     def text(self) -> str:
         """Return a string."""
@@ -158,6 +168,29 @@ def statistics(body: Body) -> records.Statistics:
     messages, schemas, channels, attachments, metadata, chunks, start, end = body.unpack(_TOTALS)
     totals = messages, schemas, channels, attachments, metadata, chunks, start, end
     return records.Statistics(*totals, body.pairs())
+
+
+def attachment(body: Body) -> records.Attachment:
+    """Return an attachment.
+
+    Raises:
+        DamagedBagError: Its CRC is not that of its bytes.
+
+    """
+    log_time, create_time = body.unpack(_PAIR64)
+    name, media_type = body.text(), body.text()
+    data = bytes(body.bytes(body.number(U64)))
+    found = crc32(body.so_far)
+    crc = body.number(U32)
+    if crc and crc != found:
+        finding = f'the attachment {name:.100} with CRC {found:08x}, expected {crc:08x}'
+        raise body.damaged(finding)
+    return records.Attachment(log_time, create_time, name, media_type, data)
+
+
+def metadata(body: Body) -> records.Metadata:
+    """Return named strings."""
+    return records.Metadata(body.text(), body.strings())
 
 
 def message_index(body: Body) -> tuple[int, Buffer]:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.bag.checksum import crc32
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -26,6 +28,7 @@ FOOTER_LENGTH = PREFIX.size + 20
 
 _U16, _U32, _U64 = Struct('<H'), Struct('<I'), Struct('<Q')
 _PAIR16, _PAIR64, _CHUNK_TIMES = Struct('<HQ'), Struct('<QQ'), Struct('<QQQI')
+_WHERE = Struct('<QQQQQ')
 _SPAN, _TOTALS, _FOOT = Struct('<QQQQ'), Struct('<QHIIIIQQ'), Struct('<BQQQ')
 
 
@@ -60,6 +63,23 @@ class ChunkIndex(NamedTuple):
     compression: str
     compressed_size: int
     uncompressed_size: int
+
+
+class Attachment(NamedTuple):
+    """A file within the file, such as a calibration."""
+
+    log_time: int
+    create_time: int
+    name: str
+    media_type: str
+    data: bytes
+
+
+class Metadata(NamedTuple):
+    """Named strings."""
+
+    name: str
+    entries: Mapping[str, str]
 
 
 class Statistics(NamedTuple):
@@ -147,9 +167,22 @@ def statistics(value: Statistics) -> bytes:
     return record(STATISTICS, _TOTALS.pack(*value[:8]), blob(pairs))
 
 
-def metadata(name: str, entries: Mapping[str, str]) -> bytes:
-    """Return named strings."""
-    return record(METADATA, text(name), blob(_strings(entries)))
+def attachment(value: Attachment) -> bytes:
+    """Return an attachment with its CRC."""
+    head = _PAIR64.pack(value.log_time, value.create_time), text(value.name), text(value.media_type)
+    body = b''.join((*head, _U64.pack(len(value.data)), value.data))
+    return record(ATTACHMENT, body, _U32.pack(crc32(body)))
+
+
+def attachment_index(value: Attachment, offset: int, length: int) -> bytes:
+    """Return where an attachment lies, and what it is."""
+    where = offset, length, value.log_time, value.create_time, len(value.data)
+    return record(ATTACHMENT_INDEX, _WHERE.pack(*where), text(value.name), text(value.media_type))
+
+
+def metadata(value: Metadata) -> bytes:
+    """Return named strings as a record."""
+    return record(METADATA, text(value.name), blob(_strings(value.entries)))
 
 
 def metadata_index(offset: int, length: int, name: str) -> bytes:

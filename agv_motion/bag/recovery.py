@@ -14,6 +14,7 @@ from agv_motion.bag.file_kind import SQLITE, kind
 from agv_motion.bag.mcap_file import McapFile
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.records import Attachment
 from agv_motion.bag.sqlite_recovery import copy_readable
 from agv_motion.errors import SourceError
 
@@ -35,9 +36,11 @@ class Recovery:
     def __init__(self, writer: BagWriter) -> None:
         """Keep the new bag, which stays open."""
         self._writer = writer
-        self._handles: dict[tuple[str, str, str], int] = {}
+        self._handles: dict[tuple[str, ...], int] = {}
         self.messages = 0
         """that were saved"""
+        self.missing = 0
+        """messages of which the old bag tells, and that could not be saved"""
         self.problems: list[SourceError] = []
         """what is amiss in the old bag, each with file and byte"""
 
@@ -78,6 +81,8 @@ class Recovery:
         for connection in bag.connections:
             self._handle(connection)
         for file in bag.files:
+            before = self.messages
+            self._keep(file)
             for message, share in self._messages(file):
                 with self._noting(DamagedBagError):
                     whole = unpack_message(message, file.path) if packed else message
@@ -88,19 +93,34 @@ class Recovery:
                     self.messages += 1
                 if not self.messages % 1000:
                     yield share
+            if file.counted:
+                told = sum(file.counts().values())
+                self.missing += max(told - (self.messages - before), 0)
+
+    def _keep(self, file: File) -> None:
+        """Save attachments and named strings; those of rosbag2 are written anew."""
+        for extra in file.extras() if isinstance(file, McapFile) else ():
+            if isinstance(extra, DamagedBagError):
+                self.problems.append(extra)
+            elif isinstance(extra, Attachment) or extra.name != 'rosbag2':
+                self._writer.keep(extra)
 
     def _handle(self, connection: Connection) -> int:
         """Return the topic in the new bag."""
-        key = connection.topic, connection.type, connection.definition
+        kind = connection.type, connection.definition, connection.definition_encoding
+        key = connection.topic, connection.encoding, *kind
         if key not in self._handles:
-            before = sum(topic == connection.topic for topic, _, _ in self._handles)
+            before = sum(topic == connection.topic for topic, *_ in self._handles)
+            foreign = connection.encoding != 'cdr'
             topic = Topic(
                 f'{connection.topic}_{before + 1}' if before else connection.topic,
                 connection.type,
                 connection.definition,
                 connection.hash,
                 connection.qos,
-                connection.definition_encoding or 'ros2msg',
+                connection.definition_encoding or ('' if foreign else 'ros2msg'),
+                connection.encoding,
+                connection.notes,
             )
             self._handles[key] = self._writer.add(topic)
         return self._handles[key]

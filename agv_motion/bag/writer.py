@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import TracebackType
 
+    from agv_motion.bag.records import Attachment, Metadata
+
 DEFAULT_QOS = (OfferedQos(),)
 
 
@@ -182,6 +184,15 @@ class BagWriter:
             if ends:
                 self._file.flush()
             first = last
+
+    def keep(self, extra: Attachment | Metadata) -> None:
+        """Put an attachment, or named strings, into the present file.
+
+        Raises:
+            OSError: The disk is full or failed; the file is as it was before.
+
+        """
+        self._file.keep(extra)
 
     def flush(self, *, sync: bool = True) -> None:
         """Hand all messages to the system and, with ``sync``, to the disk: no power cut takes them.

@@ -14,6 +14,7 @@ from struct import pack
 import pytest
 import zstandard
 
+from agv_motion.bag import chunk as chunk_module
 from agv_motion.bag import records
 from agv_motion.bag.columns import read
 from agv_motion.bag.damage import DamagedBagError
@@ -21,7 +22,7 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError, ConfigurationError
 
-MOST = 64 << 20
+MOST = 80 << 20
 """[bytes] that refusing a hostile file may take"""
 TOPIC = records.Channel(1, 1, '/a', 'cdr', {})
 
@@ -74,13 +75,43 @@ def test_lengths_that_cannot_be_anywhere_in_a_file(fuzz_bags, tmp_path, length):
 
 
 @pytest.mark.parametrize('announced', [1 << 27, 1 << 30, 2**63])
-def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, announced):
+def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, announced, monkeypatch):
+    monkeypatch.setattr(chunk_module, 'LARGEST', 1 << 26)  # a machine of 256 MiB
     packed = zstandard.compress(bytes(1 << 27))
     chunk = records.chunk_head((0, 1), (len(packed), announced), 0, 'zstd') + packed
     error = refused(by_hand(tmp_path / 'bomb.mcap', 'int32 x', chunk))
     assert isinstance(error, DamagedBagError)
     assert f'a chunk of {announced} bytes out of {len(packed)}' in str(error)
     assert error.offset > len(records.MAGIC)
+
+
+@pytest.mark.parametrize('compression', ['', 'lz4', 'zstd'])
+def test_a_size_that_no_compression_reaches_is_refused(tmp_path, compression):
+    packed = zstandard.compress(bytes(1 << 20))
+    chunk = records.chunk_head((0, 1), (len(packed), 1 << 31), 0, compression) + packed
+    assert f'a chunk of {1 << 31} bytes' in str(
+        refused(by_hand(tmp_path / 'a.mcap', 'int32 x', chunk))
+    )
+
+
+BYTES = 'uint8[] data'
+
+
+def large(path, size, compression='zstd'):
+    """Write a message of zeros, as a camera in the dark does; return the bag."""
+    with BagWriter(path, compression=compression) as writer:
+        topic = writer.add_topic('/a', 'a_msgs/msg/A', BYTES, type_hash='')
+        writer.write(topic, 5, b'\0\1\0\0' + size.to_bytes(4, 'little') + bytes(size))
+    return path
+
+
+@pytest.mark.parametrize(('size', 'compression'), [(100_000_000, 'lz4'), (300_000_000, 'zstd')])
+def test_what_shrinks_well_or_is_large_is_read(tmp_path, size, compression):
+    with BagReader(large(tmp_path / 'bag', size, compression)) as bag:
+        (message,) = bag.messages()
+        assert len(message.data) == size + 8
+        assert read(bag)['/a'].fields['data'].shape == (1, size)
+        assert not bag.problems
 
 
 def test_a_bomb_that_announces_little_is_stopped_there(tmp_path):

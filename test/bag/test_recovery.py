@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from mcap.reader import make_reader
+from mcap.writer import Writer as McapLibraryWriter
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
@@ -198,3 +199,57 @@ def test_a_sqlite_file_without_its_first_page_is_told(tmp_path):
     recovery = recovered(tmp_path / 'bag', tmp_path / 'saved')
     assert recovery.messages == 0
     assert 'cannot be read as a bag in sqlite3' in str(recovery.problems[0])
+
+
+def test_what_is_not_of_ros_keeps_its_encoding_its_schema_and_what_lies_beside(tmp_path):
+    foreign = bytes(range(256))
+    with (tmp_path / 'a.mcap').open('wb') as stream:
+        writer = McapLibraryWriter(stream, chunk_size=100)
+        writer.start('', 'test')
+        schemas = [
+            writer.register_schema('pose', 'protobuf', foreign),
+            writer.register_schema('thing', 'jsonschema', b'{}'),
+            0,
+        ]
+        kinds = zip(('protobuf', 'json', 'text'), schemas, strict=True)
+        channels = [writer.register_channel(f'/{k}', k, s, {'who': k}) for k, s in kinds]
+        writer.add_attachment(3, 4, 'calib.txt', 'text/plain', b'k: 1')
+        for i in range(9):
+            writer.add_message(channels[i % 3], i, b'data %d' % i, i + 1, i + 2)
+        writer.add_metadata('site', {'tree': 'oak'})
+        writer.finish()
+    recovery = recovered(tmp_path / 'a.mcap', tmp_path / 'saved')
+    assert not recovery.problems
+    assert recovery.missing == 0
+    with (tmp_path / 'saved' / 'saved_0.mcap').open('rb') as stream:
+        reader = make_reader(stream, validate_crcs=True)
+        found = [
+            (c.topic, c.message_encoding, s and (s.name, s.encoding, s.data), c.metadata, m.data)
+            for s, c, m in reader.iter_messages()
+        ]
+        (attachment,) = reader.iter_attachments()
+        notes = {record.name: record.metadata for record in reader.iter_metadata()}
+        statistics = reader.get_summary().statistics
+    about = [('pose', 'protobuf', foreign), ('thing', 'jsonschema', b'{}'), None]
+    names = ('protobuf', 'json', 'text')
+    assert found == [
+        (f'/{names[i % 3]}', names[i % 3], about[i % 3], {'who': names[i % 3]}, b'data %d' % i)
+        for i in range(9)
+    ]
+    assert (attachment.name, attachment.media_type, attachment.data) == (
+        *('calib.txt', 'text/plain'),
+        b'k: 1',
+    )
+    assert (attachment.log_time, attachment.create_time) == (4, 3)
+    assert notes.pop('rosbag2')
+    assert notes == {'site': {'tree': 'oak'}}
+    assert (statistics.attachment_count, statistics.metadata_count) == (1, 2)
+
+
+def test_what_could_not_be_saved_is_counted(tmp_path):
+    file = small(tmp_path / 'bag')
+    data = bytearray(file.read_bytes())
+    data[data.find(b'texE')] ^= 1
+    file.write_bytes(data)
+    recovery = recovered(tmp_path / 'bag', tmp_path / 'saved')
+    assert recovery.missing == 12 - recovery.messages > 0
