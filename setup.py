@@ -76,6 +76,7 @@ setup(
             'mpmath>=1.3',
             'mypy>=1.11',
             'networkx>=3.1',
+            'pandas>=2',
             'pyarrow>=14',
             'pytest>=8',
             'pytest-timeout>=2.3',

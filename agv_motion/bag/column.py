@@ -41,12 +41,25 @@ class Texts:
         return (self[i] for i in range(len(self)))
 
     def __eq__(self, other: object) -> Any:
-        """Return for each element whether it is the text ``other``."""
+        """Return for each element whether it is the text ``other``, or that of other `Texts`."""
+        if isinstance(other, Texts):
+            return self.numpy() == other.numpy()
         if not isinstance(other, str):
             return NotImplemented
         return np.isin(self.codes, [i for i, value in enumerate(self.values) if value == other])
 
+    def __ne__(self, other: object) -> Any:
+        """Return for each element whether it is another text than ``other``."""
+        same = self.__eq__(other)
+        return same if same is NotImplemented else ~same
+
     __hash__ = None  # type: ignore[assignment] # == is not identity
+
+    def __repr__(self) -> str:
+        """Return one line."""
+        first = ', '.join(repr(self.values[i]) for i in self.codes.ravel()[:3])
+        more = ', ...' if self.codes.size > 3 else ''
+        return f'Texts({first}{more}; shape {self.shape})'
 
     def numpy(self) -> NDArray[np.object_]:
         """Return an array of str."""
@@ -91,6 +104,12 @@ class Ragged:
     def __iter__(self) -> Iterator[Any]:
         """Yield the rows."""
         return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        """Return one line."""
+        lengths = self.lengths
+        span = f'{lengths.min()} to {lengths.max()}' if len(lengths) else '0'
+        return f'Ragged({len(self)} rows of {span} values)'
 
     def tolist(self) -> Any:
         """Return nested lists."""

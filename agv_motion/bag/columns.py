@@ -3,6 +3,8 @@
 with BagReader('bag') as bag:
     odometry = read_topic(bag, '/odom', ['pose.pose.position', 'header.stamp'])
     plot(odometry.seconds('header.stamp'), odometry.fields['pose.pose.position.x'])
+
+Seconds count from the first message of the bag, so those of several topics fit together.
 """
 
 from __future__ import annotations
@@ -12,10 +14,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from agv_motion.bag import batch
+from agv_motion.bag import batch, tables
 from agv_motion.bag.column import Column, Ragged, Texts
 from agv_motion.bag.mcap_batches import read_mcap
 from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.reader import listed, span_of, whole
 from agv_motion.bag.topic_decoder import TopicDecoder
 from agv_motion.errors import ConfigurationError
 
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
     from typing import TypeGuard
 
     from numpy.typing import NDArray
+    from pandas import DataFrame
+    from pyarrow import Table
 
     from agv_motion.bag.cdr import Leaf
     from agv_motion.bag.connection import Connection
@@ -40,6 +45,13 @@ class Columns(NamedTuple):
     """values of each field by its path, such as ``pose.position.x``: an array of shape (messages,
     ...), :class:`Texts`, or :class:`Ragged` where the length of a sequence changes; what is the
     same in all messages is in memory once, and read-only"""
+    start: int = 0
+    """[ns] log time of the first message of the bag, whatever its topic"""
+
+    def __repr__(self) -> str:
+        """Return one line."""
+        count, fields = len(self.stamps), len(self.fields)
+        return f'{self.connection.topic} ({self.connection.type}): {count} x {fields} fields'
 
     def nanoseconds(self, field: str) -> NDArray[np.int64]:
         """Return a ``builtin_interfaces/Time`` such as ``header.stamp`` [ns].
@@ -56,11 +68,45 @@ class Columns(NamedTuple):
         times: NDArray[np.int64] = sec.astype(np.int64) * 1_000_000_000 + nanosec.astype(np.int64)
         return times
 
-    def seconds(self, field: str = '') -> NDArray[np.float64]:
-        """Return a time of every message, by default its log time, since the first one [s]."""
+    def seconds(self, field: str = '', since: int | None = None) -> NDArray[np.float64]:
+        """Return a time of every message, by default its log time, since the bag began [s].
+
+        Args:
+            field: A ``builtin_interfaces/Time`` such as ``header.stamp``; empty: the log time.
+            since: [ns] another instant to count from, such as ``columns.stamps[0]``, the first
+                message of this topic; None means the first message of the bag.
+
+        Raises:
+            ConfigurationError: The field is no such time, or was not read.
+
+        """
         times = self.nanoseconds(field) if field else self.stamps
-        since: NDArray[np.float64] = (times - times[:1]).astype(np.float64) * 1e-9
-        return since
+        if not len(times):
+            return np.empty(0)
+        first = int(times[0]) - (self.start if since is None else whole('since', since))
+        # from the first one, since differences of large numbers would be rounded
+        passed: NDArray[np.float64] = (times - times[0]).astype(np.float64) * 1e-9
+        return passed + first * 1e-9
+
+    def to_pandas(self) -> DataFrame:
+        """Return a DataFrame: a row a message by its log time (UTC), a column a field.
+
+        A cell of an array or sequence holds its numpy array, that of texts a list.
+
+        Raises:
+            ConfigurationError: pandas is not installed.
+
+        """
+        return tables.to_pandas(self.stamps, self.fields)
+
+    def to_arrow(self) -> Table:
+        """Return an Arrow table: `log_time` (UTC), and a column a field, arrays as lists.
+
+        Raises:
+            ConfigurationError: pyarrow is not installed.
+
+        """
+        return tables.to_arrow(self.stamps, self.fields)
 
 
 def _whole(column: Column | None) -> TypeGuard[NDArray[Any]]:
@@ -89,8 +135,8 @@ def read(
 
     Args:
         bag: The bag.
-        topics: Names, or names with the paths of the wanted fields (a path stands for all that is
-            in it); None means everything.
+        topics: Names, or one, or names with the paths of the wanted fields (a path, or several,
+            each for all that is in it); None means everything.
         start: [ns] first log time; None means the beginning.
         stop: [ns] log time before which to stop; None means never.
 
@@ -101,18 +147,19 @@ def read(
     """
     if topics is None:
         topics = list(bag.topics)
-    wanted = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics)
+    wanted = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(listed(topics))
     bag.require(wanted)
-    span = max(start or 0, 0), 2**64 if stop is None else max(stop, 0)
+    span = span_of(start, stop)
     expected = _expected(bag, frozenset(wanted), *span)
     decoders = {
-        topic: _decoder(bag, topic, fields, expected[topic]) for topic, fields in wanted.items()
+        topic: _decoder(bag, topic, fields if fields is None else listed(fields), expected[topic])
+        for topic, fields in wanted.items()
     }
     for file in bag.files:
         chosen = {n: decoders[c.topic] for n, c in file.channels.items() if c.topic in decoders}
         if chosen:
             _read_file(bag, file, chosen, *span)
-    return {topic: _columns(decoder) for topic, decoder in decoders.items()}
+    return {topic: _columns(decoder, bag.start) for topic, decoder in decoders.items()}
 
 
 def _decoder(
@@ -165,8 +212,8 @@ def _expected(
     return {topic: (count, sizes) for topic, count in rows.items()}
 
 
-def _columns(decoder: TopicDecoder) -> Columns:
-    """Return what a decoder has read, in the order of time."""
+def _columns(decoder: TopicDecoder, start: int) -> Columns:
+    """Return what a decoder has read, in the order of time; the bag begins at ``start`` [ns]."""
     stamps: NDArray[Any] = decoder.stamps.finish()
     if len(stamps) and stamps.min() < 0:  # they wrapped: MCAP has 64 bits without a sign
         stamps = stamps.view(np.uint64)
@@ -184,7 +231,7 @@ def _columns(decoder: TopicDecoder) -> Columns:
             lengths[leaf.number] = values.reshape(-1)
         else:
             fields[leaf.path] = _column(decoder, leaf, values, lengths, len(stamps))
-    return Columns(decoder.connection, stamps, fields)
+    return Columns(decoder.connection, stamps, fields, start)
 
 
 def _ordered(

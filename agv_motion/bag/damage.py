@@ -9,6 +9,9 @@ from agv_motion.errors import SourceError
 if TYPE_CHECKING:
     from pathlib import Path
 
+CLOSED = '{} was closed: read inside the with block of its reader, or open the bag again'
+"""What is wrong when somebody reads on."""
+
 
 class DamagedBagError(SourceError):
     """A bag is damaged, or hostile, at a byte of a file."""

@@ -13,7 +13,7 @@ from agv_motion.bag import connection as connections
 from agv_motion.bag import mcap_scan, mcap_summary, message_index, record_parsing, records
 from agv_motion.bag.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
 from agv_motion.bag.connection import Connection, Message
-from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.damage import CLOSED, DamagedBagError
 from agv_motion.bag.successive import joined, successive
 from agv_motion.bag.time_order import Run, in_time_order, inside
 from agv_motion.errors import SourceError
@@ -56,7 +56,7 @@ class McapFile:
         """
         self.path = path
         self._validate = validate
-        self._data = _mapped(path)
+        self._mapped: memoryview | None = _mapped(path)
         self._cache: OrderedDict[int, Buffer] = OrderedDict()
         self._cached = 0
         found, problems = None, []
@@ -81,6 +81,27 @@ class McapFile:
             number: connections.from_channel(channel, self._summary.schemas)
             for number, channel in self._summary.channels.items()
         }
+
+    @property
+    def _data(self) -> memoryview:
+        """The bytes of the file.
+
+        Raises:
+            SourceError: It was closed.
+
+        """
+        if self._mapped is None:
+            raise SourceError(CLOSED.format(self.path))
+        return self._mapped
+
+    def require_open(self) -> None:
+        """Refuse to go on once the file was closed.
+
+        Raises:
+            SourceError: It was.
+
+        """
+        _ = self._data
 
     @property
     def span(self) -> tuple[int, int] | None:
@@ -275,7 +296,7 @@ class McapFile:
         """Let go of the file; messages already read stay valid."""
         self._cache.clear()
         self._cached = 0
-        self._data = memoryview(b'')
+        self._mapped = None
 
     def _runs(
         self, wanted: frozenset[int], start: int, stop: int

@@ -10,9 +10,10 @@ from __future__ import annotations
 from difflib import get_close_matches
 from functools import cached_property
 from heapq import merge
+from operator import index
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, SupportsIndex, final
 
 from agv_motion.bag.bag_files import find, unpack_file
 from agv_motion.bag.batch import unpack_message
@@ -110,12 +111,14 @@ class BagReader:
         return sum(self.counts.values())
 
     def require(self, topics: Iterable[str]) -> None:
-        """Refuse topics that the bag does not have.
+        """Refuse topics that the bag does not have, and a bag that was closed.
 
         Raises:
             ConfigurationError: One is not there; close names are given.
 
         """
+        for file in self.files:
+            file.require_open()
         for topic in topics:
             if topic not in self.topics:
                 close = get_close_matches(topic, self.topics, n=1)
@@ -131,7 +134,7 @@ class BagReader:
         """Yield messages in the order of their log time, few at a time in memory.
 
         Args:
-            topics: Their names; None means all.
+            topics: Their names, or the name of one; None means all.
             start: [ns] first log time; None means the beginning.
             stop: [ns] log time before which to stop; None means never.
 
@@ -140,10 +143,9 @@ class BagReader:
             DamagedBagError: What comes next is damaged.
 
         """
-        wanted = None if topics is None else frozenset(topics)
+        wanted = None if topics is None else frozenset(listed(topics))
         self.require(wanted or ())
-        begin, end = max(start or 0, 0), FOREVER if stop is None else max(stop, 0)
-        return self._messages(wanted, begin, end)
+        return self._messages(wanted, *span_of(start, stop))
 
     def close(self) -> None:
         """Let go of the files; messages already read stay valid."""
@@ -151,6 +153,12 @@ class BagReader:
             file.close()
         if self._unpacked:
             self._unpacked.cleanup()
+
+    def __repr__(self) -> str:
+        """Return one line."""
+        return (
+            f'BagReader({str(self.path)!r}: {len(self.topics)} topics in {len(self.files)} files)'
+        )
 
     def __enter__(self) -> BagReader:
         """Return the reader."""
@@ -191,6 +199,38 @@ class BagReader:
             if self.messages_compressed:
                 stream = (unpack_message(message, self.path) for message in stream)
             yield from stream
+
+
+def listed(names: str | Iterable[str]) -> list[str]:
+    """Return names as a list; one name alone is a list of one."""
+    return [names] if isinstance(names, str) else list(names)
+
+
+def whole(name: str, time: object) -> int:
+    """Return a time that somebody gave [ns].
+
+    Raises:
+        ConfigurationError: It is no whole number.
+
+    """
+    if isinstance(time, SupportsIndex) and not isinstance(time, bool):
+        return index(time)
+    msg = (
+        f'{name} = {time!r}: give whole nanoseconds since 1970 (an int), such as '
+        'bag.start + 5 * 10**9, five seconds after the beginning'
+    )
+    raise ConfigurationError(msg)
+
+
+def span_of(start: int | None, stop: int | None) -> tuple[int, int]:
+    """Return the first log time, and that before which to stop [ns]; None means no limit.
+
+    Raises:
+        ConfigurationError: One is no whole number.
+
+    """
+    begin = 0 if start is None else max(whole('start', start), 0)
+    return begin, FOREVER if stop is None else max(whole('stop', stop), 0)
 
 
 def _overlapping(files: list[File]) -> Iterator[list[File]]:

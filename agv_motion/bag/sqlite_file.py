@@ -11,6 +11,7 @@ from rosbags.rosbag2 import Reader, ReaderError
 
 from agv_motion.bag import definitions
 from agv_motion.bag.connection import Connection, Message
+from agv_motion.bag.damage import CLOSED
 from agv_motion.bag.quality_of_service import OfferedQos, nanoseconds
 from agv_motion.bag.sqlite_aside import set_aside
 from agv_motion.errors import ConfigurationError, SourceError
@@ -36,6 +37,7 @@ class SqliteFile:
         self.path = path
         self.problems: list[DamagedBagError] = []
         self.indexed = self.counted = True
+        self._closed = False
         self._folder = TemporaryDirectory()
         try:
             self._reader = Reader(set_aside(path, Path(self._folder.name)))
@@ -53,16 +55,19 @@ class SqliteFile:
     @property
     def span(self) -> tuple[int, int] | None:
         """Log time of the first and the last message [ns]; None without messages."""
+        self.require_open()
         if not self._reader.message_count:
             return None
         return self._reader.start_time, self._reader.end_time - 1
 
     def counts(self) -> dict[int, int]:
         """Return the number of messages of each channel."""
+        self.require_open()
         return {c.id: c.msgcount for c in self._reader.connections}
 
     def messages(self, channels: Collection[int], start: int, stop: int) -> Iterator[Message]:
         """Yield messages in the order of their log time [ns], from ``start`` to before ``stop``."""
+        self.require_open()
         wanted = [self._by_id[number] for number in channels]
         limit = 2**63 - 1
         if not wanted or start > limit:
@@ -77,8 +82,19 @@ class SqliteFile:
             msg = f'{self.path} is damaged: {error}; agv bag recover saves what can be read'
             raise SourceError(msg) from error
 
+    def require_open(self) -> None:
+        """Refuse to go on once the file was closed.
+
+        Raises:
+            SourceError: It was.
+
+        """
+        if self._closed:
+            raise SourceError(CLOSED.format(self.path))
+
     def close(self) -> None:
         """Let go of the file."""
+        self._closed = True
         self._reader.close()
         self._folder.cleanup()
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.reader import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -26,7 +27,7 @@ def stamps(bag: BagReader, topics: Iterable[str] | None = None) -> dict[str, NDA
         DamagedBagError: The bag is damaged.
 
     """
-    wanted = list(bag.topics) if topics is None else list(topics)
+    wanted = list(bag.topics) if topics is None else listed(topics)
     bag.require(wanted)
     found: dict[str, list[NDArray[np.int64]]] = {topic: [] for topic in wanted}
     for file in bag.files:

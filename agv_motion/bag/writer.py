@@ -11,7 +11,7 @@ import numpy as np
 from agv_motion.bag import definitions, metadata
 from agv_motion.bag.mcap_writer import McapWriter
 from agv_motion.bag.quality_of_service import OfferedQos
-from agv_motion.bag.records import MESSAGE_HEAD
+from agv_motion.bag.together import FEW, Together
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ class BagWriter:
     def write_several(
         self, topics: Sequence[int], stamps: Sequence[int], data: Sequence[bytes]
     ) -> None:
-        """Append messages by columns: several times as fast as one by one, and the same bytes.
+        """Append messages: faster than one by one where many share a chunk, and the same bytes.
 
         Args:
             topics: (n,) handles from :meth:`add_topic`.
@@ -161,29 +161,34 @@ class BagWriter:
             OSError: The disk is full or failed; the file is as it was before the chunk.
 
         """
-        channels = np.array(topics, np.uint16)
-        try:
-            times = np.array(stamps, np.uint64)
-        except OverflowError:
+        if data and not 0 <= min(stamps) <= max(stamps) < 2**64:
             msg = (
                 f'log times from {min(stamps)} to {max(stamps)}: expected nanoseconds in [0, 2^64)'
             )
-            raise SignalError(msg) from None
-        sizes = np.fromiter(map(len, data), np.int64, len(data)) + MESSAGE_HEAD.size
-        first = 0
+            raise SignalError(msg)
+        columns, first = None, 0
         while first < len(data):
-            start = self._file.chunk_start if self._file.chunk_size else stamps[first]
-            grown = self._file.chunk_size + np.cumsum(sizes[first:])
-            full = grown >= self._chunk_size
-            latest = start + self._chunk_span
-            if latest < 2**64:
-                full |= times[first:] >= np.uint64(latest)
-            ends = bool(full.any())
-            last = first + int(full.argmax()) + 1 if ends else len(data)
-            self._file.write_several(channels[first:last], times[first:last], data[first:last])
-            if ends:
-                self._file.flush()
-            first = last
+            file, few = self._file, min(first + FEW, len(data))
+            while first < few:
+                self.write(topics[first], stamps[first], data[first])
+                first += 1
+                if not file.chunk_size:
+                    break
+            if file.chunk_size and first < len(data):
+                columns = columns or Together(topics, stamps, data)
+                first = self._fill(columns, first)
+
+    def _fill(self, messages: Together, first: int) -> int:
+        """Write messages into the present chunk until it is full; return the first one left."""
+        file, count = self._file, len(messages.data)
+        room = self._chunk_size - file.chunk_size
+        full = int(np.searchsorted(messages.ends, messages.ends[first - 1] + room))
+        full = messages.first_from(first, min(full, count), file.chunk_start + self._chunk_span)
+        part = slice(first, full + 1)
+        file.write_several(messages.channels[part], messages.stamps[part], messages.data[part])
+        if full < count:
+            file.flush()
+        return full + 1
 
     def keep(self, extra: Attachment | Metadata) -> None:
         """Put an attachment, or named strings, into the present file.

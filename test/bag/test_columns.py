@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib.util
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +19,9 @@ from agv_motion.bag.column import Ragged, Texts
 from agv_motion.bag.columns import read, read_topic
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.stamps import stamps
 from agv_motion.bag.writer import BagWriter
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SourceError
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 TWIST = 'geometry_msgs/msg/TwistStamped'
@@ -66,7 +69,8 @@ def test_arrays_of_constant_length_are_rectangular_and_empty_ones_too(tmp_path):
     assert (names.shape, names[7].tolist()) == ((500, 2), ['a', 'bc'])
     assert (names == 'bc').sum() == 500
     assert found.nanoseconds('header.stamp')[2] == 2 * SECOND + 5
-    assert found.seconds('header.stamp')[2] == 2.0
+    assert found.seconds('header.stamp')[2] == pytest.approx(2.000000005, abs=1e-15)
+    assert found.seconds('header.stamp', found.nanoseconds('header.stamp')[0])[2] == 2.0
 
 
 def test_arrays_of_changing_length_are_ragged_rows(tmp_path):
@@ -260,3 +264,141 @@ def test_a_field_that_is_no_time_or_was_not_read_is_refused_as_a_time(tmp_path, 
     found = columns(tmp_path / 'bag', ['position', 'header.frame_id', 'header.stamp.sec'])
     with pytest.raises(ConfigurationError, match=f'{field} was not read, or is no time'):
         found.nanoseconds(field)
+
+
+def two_topics(path):
+    """Write /a from 1000 s on, and /b from 1000.8 s on, every 0.1 s."""
+    with BagWriter(path) as writer:
+        a, b = (writer.add_topic(t, TEXT, definition(TEXT), type_hash='') for t in ('/a', '/b'))
+        for i in range(20):
+            message = STORE.serialize_cdr(STORE.types[TEXT]('xyz'[i % 3]), TEXT)
+            writer.write(a, 1000 * SECOND + i * SECOND // 10, bytes(message))
+            writer.write(b, 1000 * SECOND + (i + 8) * SECOND // 10, bytes(message))
+    return path
+
+
+def test_seconds_of_all_topics_count_from_the_start_of_the_bag(tmp_path):
+    with BagReader(two_topics(tmp_path / 'bag')) as bag:
+        found = read(bag)
+        later = read_topic(bag, '/b', start=bag.start + SECOND)
+    assert found['/a'].seconds()[:2] == pytest.approx([0.0, 0.1], abs=1e-12)
+    assert found['/b'].seconds()[:2] == pytest.approx([0.8, 0.9], abs=1e-12)
+    assert later.seconds()[0] == pytest.approx(1.0, abs=1e-12)
+    assert later.seconds(since=later.stamps[0])[:2] == pytest.approx([0.0, 0.1], abs=1e-12)
+    with pytest.raises(ConfigurationError, match=r'since = 1000\.0: give whole nanoseconds'):
+        later.seconds(since=1000.0)
+
+
+@pytest.mark.parametrize('time', [1000.5, np.float64(1e12), '1000', True, float('nan')])
+def test_times_that_are_no_nanoseconds_are_refused(tmp_path, time):
+    with BagReader(two_topics(tmp_path / 'bag')) as bag:
+        for span in ({'start': time}, {'stop': time}):
+            (name,) = span
+            with pytest.raises(ConfigurationError, match=f'{name} = .*give whole nanoseconds'):
+                read_topic(bag, '/a', **span)
+            with pytest.raises(ConfigurationError, match=f'{name} = .*give whole nanoseconds'):
+                bag.messages(['/a'], **span)
+        assert len(read_topic(bag, '/a', start=np.int64(1001 * SECOND)).stamps) == 10
+
+
+def test_one_name_is_a_list_of_one(tmp_path):
+    with BagReader(two_topics(tmp_path / 'bag')) as bag:
+        assert list(read_topic(bag, '/a', 'data').fields) == ['data']
+        assert list(read(bag, {'/a': 'data'})['/a'].fields) == ['data']
+        assert list(read(bag, '/a')) == ['/a']
+        assert list(stamps(bag, '/b')) == ['/b']
+        assert {m.connection.topic for m in bag.messages('/b')} == {'/b'}
+
+
+@pytest.mark.parametrize('kind', ['mcap', 'sqlite'])
+def test_a_closed_bag_says_that_it_was_closed(tmp_path, kind):
+    path = tmp_path / 'bag'
+    if kind == 'mcap':
+        two_topics(path)
+    else:
+        store = get_typestore(Stores.ROS2_JAZZY)
+        with RosbagsWriter(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+            connection = writer.add_connection('/a', TEXT, typestore=store)
+            for i in range(3):
+                writer.write(connection, i, store.serialize_cdr(store.types[TEXT]('x'), TEXT))
+    with BagReader(path) as bag:
+        begun = bag.messages(['/a'])
+        next(begun)
+        unbegun = bag.messages(['/a'])
+    for reading in (
+        lambda: read_topic(bag, '/a'),
+        lambda: stamps(bag),
+        lambda: list(bag.messages()),
+        lambda: list(unbegun),
+    ):
+        with pytest.raises(SourceError, match='was closed: read inside') as caught:
+            reading()
+        assert 'recover' not in str(caught.value)
+
+
+def test_columns_and_their_parts_are_told_in_one_line(tmp_path):
+    raw = [joints(['a', 'b'], i % 3, i) for i in range(50)]
+    with BagReader(write(tmp_path / 'bag', raw, kind=JOINTS)) as bag:
+        found = read_topic(bag, '/topic', ['position', 'name', 'header.stamp'])
+        assert repr(found) == '/topic (sensor_msgs/msg/JointState): 50 x 4 fields'
+        assert repr(bag) == f"BagReader('{tmp_path / 'bag'}': 1 topics in 1 files)"
+    assert repr(found.fields['position']) == 'Ragged(50 rows of 0 to 2 values)'
+    assert repr(found.fields['name']) == "Texts('a', 'b', 'a', ...; shape (50, 2))"
+
+
+def test_texts_are_compared_element_by_element(tmp_path):
+    with BagReader(two_topics(tmp_path / 'bag')) as bag:
+        found = read(bag)
+    texts = found['/a'].fields['data']
+    assert (texts == 'x')[:4].tolist() == [True, False, False, True]
+    assert (texts != 'x')[:4].tolist() == [False, True, True, False]
+    assert (texts != 'unknown').all()
+    assert (texts == found['/b'].fields['data']).all()
+    assert not (texts[1:] != texts[1:]).any()
+
+
+def odd_columns(path):
+    """Return columns of arrays of every shape, and the messages they come from."""
+    raw = [joints(['a', 'b'], i % 3, i) for i in range(7)]
+    with BagReader(write(path, raw, kind=JOINTS, stamps=[SECOND * i for i in range(7)])) as bag:
+        return read_topic(bag, '/topic')
+
+
+def test_log_times_beyond_all_tables_stay_numbers(tmp_path):
+    path = write(tmp_path / 'bag', [joints(['a'], 1, 0)], kind=JOINTS, stamps=[2**63 + 5])
+    found = columns(path)
+    assert found.seconds().tolist() == [0.0]
+    if importlib.util.find_spec('pyarrow'):
+        assert found.to_arrow()['log_time'].to_pylist() == [2**63 + 5]
+    if importlib.util.find_spec('pandas'):
+        assert found.to_pandas().index.tolist() == [2**63 + 5]
+
+
+def test_columns_become_an_arrow_table(tmp_path):
+    pytest.importorskip('pyarrow')
+    found = odd_columns(tmp_path / 'bag')
+    table = found.to_arrow()
+    assert table.column_names == ['log_time', *found.fields]
+    assert table['log_time'].cast('int64').to_pylist() == found.stamps.tolist()
+    for path, column in found.fields.items():
+        assert table[path].to_pylist() == column.tolist()
+
+
+def test_columns_become_a_data_frame(tmp_path):
+    pytest.importorskip('pandas')
+    found = odd_columns(tmp_path / 'bag')
+    frame = found.to_pandas()
+    assert list(frame.columns) == list(found.fields)
+    assert frame.index.as_unit('ns').asi8.tolist() == found.stamps.tolist()
+    assert str(frame.index.tz) == 'UTC'
+    for path, column in found.fields.items():
+        cells = [c.tolist() if isinstance(c, np.ndarray) else c for c in frame[path]]
+        assert cells == column.tolist()
+
+
+@pytest.mark.parametrize(('module', 'method'), [('pandas', 'to_pandas'), ('pyarrow', 'to_arrow')])
+def test_a_table_library_that_is_missing_is_told(tmp_path, monkeypatch, module, method):
+    found = odd_columns(tmp_path / 'bag')
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(ConfigurationError, match=rf'{method}\(\) needs {module}: pip install'):
+        getattr(found, method)()
