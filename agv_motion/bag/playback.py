@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 from collections import deque
 from dataclasses import dataclass
-from math import inf
+from fractions import Fraction
+from math import inf, nextafter
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,12 +18,14 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from agv_motion.bag.connection import Message
+    from agv_motion.bag.quality_of_service import OfferedQos
     from agv_motion.bag.reader import BagReader
 
 FOREVER = 2**63 - 1
+NO_OFFERS: dict[str, OfferedQos] = {}
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,9 @@ class PlaybackParameters:
         float,
         Spec('stop at this time of the bag, since 1970; negative: at its end', 's', (-1, 1e10)),
     ] = -1.0
+    playback_until_nsec: Annotated[
+        int, Spec('the same, exact, instead of playback_until; negative: not', 'ns')
+    ] = -1
     delay: Annotated[float, Spec('wait before the first message', 's', (0.0, 1e6))] = 0.0
     start_paused: Annotated[bool, Spec('wait for ~/resume')] = False
     topics: Annotated[tuple[str, ...], Spec('play only these')] = ()
@@ -68,7 +74,11 @@ class Playback:
     """Sends the messages of one bag; pause, seek, rate and the rest may come from any thread."""
 
     def __init__(
-        self, bag: BagReader, given: PlaybackParameters, send: Callable[[Message], None]
+        self,
+        bag: BagReader,
+        given: PlaybackParameters,
+        send: Callable[[Message], None],
+        offers: Mapping[str, OfferedQos] = NO_OFFERS,
     ) -> None:
         """Choose topics and span; nothing is sent before :meth:`start`.
 
@@ -76,6 +86,7 @@ class Playback:
             bag: What to play; it is not closed.
             given: How.
             send: Called with each message, on the thread of the playback.
+            offers: By topic, the quality of service that it is played with, if not the recorded.
 
         Raises:
             ConfigurationError: A topic is not in the bag, none is chosen, or the span is empty.
@@ -87,15 +98,15 @@ class Playback:
         if not self.topics:
             msg = f'no topic of bag {bag.path} is chosen; it has {", ".join(bag.topics) or "none"}'
             raise ConfigurationError(msg)
-        self.begin = bag.start + int(given.start_offset * 1e9)
+        self.begin = bag.start + round(given.start_offset * 1e9)
         self.end = _end(bag, given, self.begin)
         self.lag = Lag()
         self.finished = threading.Event()
-        """set when the last message was sent, or at :meth:`stop`"""
+        """set when the last message was sent, until :meth:`seek`, and at :meth:`stop`"""
         self.failure = ''
         """why the playback ended early; empty if it did not"""
         self._bag, self._given, self._send = bag, given, send
-        self._latched = [topic for topic in self.topics if bag.topics[topic].latched]
+        self._latched = {topic: kept(_profiles(bag, offers, topic)) for topic in self.topics}
         self._timeline = Timeline(self.begin, given.rate)
         self._condition = threading.Condition()
         self._stopped, self._single = False, 0
@@ -155,10 +166,14 @@ class Playback:
     def seek(self, stamp: int) -> None:
         """Go to a time of the bag [ns]; what is latched there is sent first.
 
+        After the end, it plays on from there.
+
         Raises:
-            ConfigurationError: The time lies outside of what is played.
+            ConfigurationError: The time lies outside of what is played, or the playback failed.
 
         """
+        if self.failure:
+            raise ConfigurationError(self.failure)
         if not self.begin <= stamp <= self.end:
             seconds = (stamp - self._bag.start) * 1e-9
             low, high = ((t - self._bag.start) * 1e-9 for t in (self.begin, self.end))
@@ -166,6 +181,8 @@ class Playback:
             raise ConfigurationError(msg)
         with self._condition:
             self._goal = stamp
+            if not self._stopped:
+                self.finished.clear()
             self._timeline.jump(stamp, perf_counter())
             self._condition.notify()
 
@@ -173,9 +190,12 @@ class Playback:
         """While paused, send the next ``count`` messages at once.
 
         Raises:
-            ConfigurationError: It is not paused.
+            ConfigurationError: It is not paused, or at its end.
 
         """
+        if self.finished.is_set():
+            msg = 'at the end: there is no next message; seek first'
+            raise ConfigurationError(msg)
         if not self.paused:
             msg = 'playing: pause first, then go message by message'
             raise ConfigurationError(msg)
@@ -191,10 +211,18 @@ class Playback:
                     self._timeline.resume(perf_counter())
             while not self._stopped:
                 if self._pass() and not self._given.loop:
-                    break
+                    self._wait_at_end()
         except Exception as error:  # noqa: BLE001 - there is nobody above to tell
             self.failure = f'playing {self._bag.path} ended: {error}'
         self.finished.set()
+
+    def _wait_at_end(self) -> None:
+        """Be finished, until it is sent elsewhere or stopped."""
+        with self._condition:
+            if self._goal is None:
+                self._single = 0
+                self.finished.set()
+            self._condition.wait_for(lambda: self._stopped or self._goal is not None)
 
     def _pass(self) -> bool:
         """Play from the beginning, or where it was sent, on; return whether the end was reached."""
@@ -213,14 +241,12 @@ class Playback:
 
     def _before(self, start: int) -> Iterator[Message]:
         """Yield what latched topics told before ``start``, as a late listener would get it."""
-        if not self._latched or start <= self._bag.start:
+        latched = {topic: number for topic, number in self._latched.items() if number}
+        if not latched or start <= self._bag.start:
             return
-        latest: dict[str, deque[Message]] = {}
-        for message in self._bag.messages(self._latched, stop=start):
-            connection = message.connection
-            if connection.topic not in latest:
-                latest[connection.topic] = deque(maxlen=kept(connection.qos))
-            latest[connection.topic].append(message)
+        latest: dict[str, deque[Message]] = {t: deque(maxlen=n) for t, n in latched.items()}
+        for message in self._bag.messages(latched, stop=start):
+            latest[message.connection.topic].append(message)
         yield from sorted((m for queue in latest.values() for m in queue), key=lambda m: m.stamp)
 
     def _await(self, stamp: int) -> bool:
@@ -242,13 +268,33 @@ class Playback:
                 condition.wait(None if wait == inf else wait)
 
 
+def _profiles(
+    bag: BagReader, offers: Mapping[str, OfferedQos], topic: str
+) -> tuple[OfferedQos, ...]:
+    """Return the quality of service with which a topic is played."""
+    if topic in offers:
+        return (offers[topic],)
+    return tuple(one for c in bag.connections if c.topic == topic for one in c.qos)
+
+
+def _last_instant(seconds: float) -> int:
+    """Return the last nanosecond that reads as this number of seconds.
+
+    Around today's times a float tells a quarter of a microsecond apart, and the message at the
+    very time that was given must be among them.
+    """
+    return int((Fraction(seconds) + Fraction(nextafter(seconds, inf))) / 2 * 1_000_000_000)
+
+
 def _end(bag: BagReader, given: PlaybackParameters, begin: int) -> int:
     """Return the log time [ns] of the last message to play."""
     end = bag.end
     if given.playback_duration >= 0.0:
-        end = min(end, begin + int(given.playback_duration * 1e9))
-    if given.playback_until >= 0.0:
-        end = min(end, int(given.playback_until * 1e9))
+        end = min(end, begin + round(given.playback_duration * 1e9))
+    if given.playback_until_nsec >= 0:
+        end = min(end, given.playback_until_nsec)
+    elif given.playback_until >= 0.0:
+        end = min(end, _last_instant(given.playback_until))
     if end < begin:
         length = (bag.end - bag.start) * 1e-9
         msg = (

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 FOREVER = 2**63 - 1
 """[ns] The longest time, with which ROS says that there is no limit."""
-_NAMES = {
+WORDS = {
     'history': ('system_default', 'keep_last', 'keep_all', 'unknown'),
     'reliability': ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available'),
     'durability': ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
@@ -25,6 +25,12 @@ _NAMES = {
 }
 """Words by the numbers of rmw, which rosbag2 wrote before metadata version 9."""
 
+
+KEYS = (
+    *WORDS, 'depth', 'deadline', 'lifespan', 'liveliness_lease_duration',
+    'avoid_ros_namespace_conventions',
+)  # fmt: skip
+"""Of one profile in a file."""
 
 NO_PROFILE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of entries that are no profile: a word for a number, a list for keys, infinity."""
@@ -57,7 +63,7 @@ class OfferedQos(NamedTuple):
     @classmethod
     def from_entries(cls, entries: dict[str, Any]) -> OfferedQos:
         """Return a profile from what rosbag2 wrote, of any version."""
-        words: dict[str, Any] = {key: _word(key, entries[key]) for key in _NAMES if key in entries}
+        words: dict[str, Any] = {key: _word(key, entries[key]) for key in WORDS if key in entries}
         times: dict[str, Any] = {
             field: nanoseconds(entries[key])
             for field, key in (
@@ -105,4 +111,4 @@ def nanoseconds(time: dict[str, int]) -> int:
 
 
 def _word(key: str, value: Any) -> str:
-    return str(_NAMES[key][value] if isinstance(value, int) else value)
+    return str(WORDS[key][value] if isinstance(value, int) else value)

@@ -11,6 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from agv_motion.bag.writer import BagWriter
+from agv_motion.ros.endpoints import offer, offered
 from agv_motion.ros.messages import type_name
 from agv_motion.ros.qos import LATCHED
 
@@ -32,34 +33,41 @@ class Topic(NamedTuple):
 class DemoRecorder(LifecycleNode):
     """Writes what it hears into a bag, stamped with simulated time."""
 
-    def __init__(self, bag: Path, topics: list[Topic], now: Callable[[], float]) -> None:
+    def __init__(
+        self, bag: Path, topics: list[Topic], now: Callable[[], float], **kwargs: Any
+    ) -> None:
         """Subscribe to all topics.
 
         Args:
             bag: Folder of the new bag.
             topics: What to keep.
             now: Simulated time [s].
+            **kwargs: For rclpy.
 
         """
-        super().__init__('demo_recorder')
+        super().__init__('demo_recorder', **kwargs)
         self._writer = BagWriter(bag)
         self._now = now
         self._kinds = {topic.name: topic.kind for topic in topics}
         self._latest: dict[str, bytes] = {}
+        self._topics = topics
+        self._handles: dict[str, int] = {}
+        """of the topics in the bag: each is added with its first message"""
         self.counts = {topic.name: 0 for topic in topics}
         self.arrivals: dict[str, list[int]] = {topic.name: [] for topic in topics}
         for topic in topics:
             self._subscribe(topic)
 
     def _subscribe(self, topic: Topic) -> None:
-        handle = self._writer.add_topic(f'/{topic.name.lstrip("/")}', type_name(topic.kind))
         write, latest, counts = self._writer.write, self._latest, self.counts
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
+        handles = self._handles
 
         def keep(data: bytes) -> None:
             arrived.append(time.perf_counter_ns())
             latest[key] = data
             counts[key] += 1
+            handle = handles.get(key) or self._add(topic)
             write(handle, int(now() * 1e9), data)
 
         self.create_subscription(
@@ -67,11 +75,22 @@ class DemoRecorder(LifecycleNode):
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
 
+    def _add(self, topic: Topic) -> int:
+        """Add a topic to the bag, with the quality of service of who publishes it by now."""
+        name = f'/{topic.name.lstrip("/")}'
+        offers = offered(self.get_publishers_info_by_topic(name))
+        qos = offers or [offer(LATCHED if topic.latched else EVERY)]
+        self._handles[topic.name] = self._writer.add_topic(name, type_name(topic.kind), qos=qos)
+        return self._handles[topic.name]
+
     def latest(self, topic: str) -> Any | None:
         """Return the last message of a topic, None before the first."""
         data = self._latest.get(topic)
         return None if data is None else deserialize_message(data, self._kinds[topic])
 
     def close(self) -> None:
-        """Finish the bag."""
+        """Finish the bag; a topic on which nobody spoke is in it, too."""
+        for topic in self._topics if not self._writer.closed else ():
+            if topic.name not in self._handles:
+                self._add(topic)
         self._writer.close()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,9 +11,13 @@ import typer
 
 from agv_motion.cli.keys import keyboard
 from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from agv_motion.nodes.bag_player import BagPlayer
+
+LATEST = 2**63 - 1
+"""[ns]"""
 
 RATE_STEP = 1.1
 """by which an arrow changes the rate"""
@@ -29,8 +35,8 @@ def replay(
         float, typer.Option(help='Seconds of the bag to play; negative: all.')
     ] = -1.0,
     playback_until_sec: Annotated[
-        float, typer.Option(help='Time of the bag to stop at, seconds since 1970.')
-    ] = -1.0,
+        str, typer.Option(help='Time of the bag to stop at, seconds since 1970; negative: its end.')
+    ] = '-1',
     playback_until_nsec: Annotated[int, typer.Option(help='The same in nanoseconds.')] = -1,
     topics: Annotated[
         list[str] | None, typer.Option(help='Play only this; one per option.')
@@ -72,14 +78,15 @@ def replay(
     agv replay demo_output/bag -r 10 --clock 40 --start-offset 600 --topics /fix
     agv replay walk -l -m /cmd_vel:=/old/cmd_vel
     """
-    until = playback_until_nsec * 1e-9 if playback_until_nsec >= 0 else playback_until_sec
+    if playback_until_nsec < 0:
+        playback_until_nsec = _exact(playback_until_sec)
     given: dict[str, Any] = {
         'bag': str(bag),
         'rate': rate,
         'loop': loop,
         'start_offset': start_offset,
         'playback_duration': playback_duration,
-        'playback_until': until,
+        'playback_until_nsec': playback_until_nsec,
         'regex': regex,
         'exclude_regex': exclude_regex,
         'clock': clock,
@@ -91,6 +98,20 @@ def replay(
     lists = {'topics': topics, 'exclude_topics': exclude_topics}
     given |= {name: values for name, values in lists.items() if values}
     _replay(given, remap or [], keys=not disable_keyboard_controls)
+
+
+def _exact(seconds: str) -> int:
+    """Return nanoseconds of what was typed; a float would lose those of a time since 1970.
+
+    Raises:
+        ConfigurationError: It is no number, or beyond all times.
+
+    """
+    try:
+        return min(math.floor(Decimal(seconds) * 1_000_000_000), LATEST)
+    except (ArithmeticError, ValueError) as error:
+        msg = f"--playback-until-sec '{seconds}': give seconds since 1970, such as 1434366000.25"
+        raise ConfigurationError(msg) from error
 
 
 def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:

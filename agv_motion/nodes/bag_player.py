@@ -13,15 +13,17 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
 from agv_motion.bag.playback import Playback, PlaybackParameters
-from agv_motion.bag.quality_of_service import NO_PROFILE, OfferedQos
+from agv_motion.bag.quality_of_service import KEYS, NO_PROFILE, WORDS, OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
+from agv_motion.files.marked import quoted
 from agv_motion.parameters import Spec
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offering
 from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
@@ -29,6 +31,9 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.connection import Message
     from agv_motion.files.marked import Marked
+
+DEEPEST = 1_000_000
+"""Messages that a publisher may keep for late listeners."""
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -76,7 +81,14 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         self.close_later(self._bag.close)
         for problem in self._bag.problems:
             self.get_logger().warning(str(problem))
-        self._publish = self._open_topics(Playback(self._bag, given, self._send).topics)
+        self._offers = _overrides(given.qos_overrides)
+        topics = Playback(self._bag, given, self._send).topics
+        for topic in self._offers:
+            if topic not in topics:
+                self.get_logger().warning(
+                    f"qos_overrides: no topic '{topic:.200}' is played{meant(topic, topics)}"
+                )
+        self._publish = self._open_topics(topics)
         if given.clock:
             self._clock_message = ClockMessage()
             self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
@@ -94,7 +106,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
 
     def begin(self) -> None:
         """Begin to play."""
-        self.playback = Playback(self._bag, self.parameters, self._send)
+        self.playback = Playback(self._bag, self.parameters, self._send, self._offers)
         self.playback.start()
 
     def halt(self) -> None:
@@ -130,8 +142,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
 
     def _open_topics(self, topics: Sequence[str]) -> dict[str, Any]:
         """Return the function that publishes each topic, by name."""
-        overrides = _overrides(self.parameters.qos_overrides)
-        publish = {}
+        publish, overrides = {}, self._offers
         for topic in topics:
             connection = self._bag.topics[topic]
             if topic == '/clock' and self.parameters.clock:
@@ -163,6 +174,9 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         return 'paused'
 
     def _resume(self, _: Any = None) -> str:
+        if self.playing.finished.is_set():
+            msg = 'at the end: there is nothing to play; seek first'
+            raise ConfigurationError(msg)
         self.playing.resume()
         return 'playing'
 
@@ -174,7 +188,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         return f'sending {count}'
 
     def _seek(self, _: Any) -> str:
-        self.playing.seek(self._bag.start + int(self.parameters.seek_to * 1e9))
+        self.playing.seek(self._bag.start + round(self.parameters.seek_to * 1e9))
         return f'at {self.parameters.seek_to:g} s'
 
 
@@ -192,7 +206,19 @@ def _overrides(path: str) -> dict[str, OfferedQos]:
 
 
 def _profile(topic: str, entries: Marked) -> OfferedQos:
+    """Return what is given for a topic; a word that ROS does not know is for nobody to guess."""
     expected = 'expected reliability, durability, history, depth'
+    for key, (where, value) in entries.mapping(f'{topic:.80}').items():
+        choices = WORDS.get(key)
+        if key not in KEYS:
+            where.refuse(
+                f'{topic:.80}: there is no {key:.80}{meant(key, KEYS)}; {expected}', expected
+            )
+        if choices and value.value not in choices:
+            told = f'{key}: choose one of {", ".join(choices)}'
+            value.refuse(f'{topic:.80}: {quoted(value.value)}: {told}', told)
+        if key == 'depth' and not 0 <= value.typed('depth', int) < DEEPEST:
+            value.refuse(f'{topic:.80}: depth must lie in [0, {DEEPEST})', expected)
     try:
         return OfferedQos.from_entries(entries.value)
     except NO_PROFILE as error:

@@ -137,7 +137,7 @@ def test_paused_it_waits_and_goes_message_by_message(play):
     player.playback.set_rate(100.0)
     player.playback.resume()
     assert numbers(player.to_the_end()) == list(range(20))
-    with pytest.raises(ConfigurationError, match='pause first'):
+    with pytest.raises(ConfigurationError, match='at the end'):
         player.playback.play_next()
 
 
@@ -163,6 +163,59 @@ def test_seek_forward_and_back(play):
     player.playback.resume()
     assert player.to_the_end()[:4] == ['m10', '18', 'm00', '00']
     assert numbers(player.sent)[1:] == list(range(20))
+
+
+def test_seek_after_the_end_plays_on_from_there(play):
+    player = play(rate=100.0, start_offset=0.9)
+    player.to_the_end()
+    player.sent.clear()
+    player.playback.seek(START + 18 * STEP)
+    assert player.to_the_end() == ['m10', '18', '19']
+    player.playback.pause()
+    player.sent.clear()
+    player.playback.seek(START + 19 * STEP)
+    player.until(1)
+    player.playback.play_next()
+    assert player.to_the_end() == ['m10', '19']
+
+
+def test_after_a_failure_there_is_nowhere_to_seek(bag):
+    playback = Playback(bag, PlaybackParameters(), lambda message: message.nothing)
+    playback.start()
+    assert playback.finished.wait(60.0)
+    with pytest.raises(ConfigurationError, match='ended'):
+        playback.seek(START)
+
+
+@pytest.mark.parametrize('late', [0, 1, 123_456_789, 999_999_999])
+def test_the_message_at_the_very_end_is_played(tmp_path, wait_until, late):
+    """In nanoseconds exactly, in seconds as near as a number of seconds tells."""
+    today = 1_434_366_000 * SECOND + late
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/a', TEXT, DEFINITION)
+        for i, stamp in enumerate((today - SECOND, today - 1, today, today + 1, today + SECOND)):
+            writer.write(topic, stamp, b'%d' % i)
+    with BagReader(tmp_path / 'bag') as bag:
+        exact = Player(bag, wait_until, playback_until_nsec=today, rate=1000.0)
+        assert exact.to_the_end() == ['0', '1', '2']
+        near = Player(bag, wait_until, playback_until=today / 1e9, rate=1000.0)
+        assert near.to_the_end()[:3] == ['0', '1', '2']
+        short = Player(bag, wait_until, playback_duration=1.0, rate=1000.0)
+        assert short.to_the_end() == ['0', '1', '2']
+        for player in (exact, near, short):
+            player.playback.stop()
+
+
+def test_what_an_override_latches_is_told_from_before_the_start(bag, wait_until):
+    offers = {'/a': OfferedQos(durability='transient_local', depth=2), '/map': OfferedQos()}
+    sent = []
+    playback = Playback(
+        bag, PlaybackParameters(start_offset=0.9, rate=100.0), lambda m: sent.append(m.data), offers
+    )
+    playback.start()
+    assert playback.finished.wait(60.0)
+    playback.stop()
+    assert sent == [b'16', b'17', b'18', b'19']
 
 
 def test_a_time_outside_is_refused(play):

@@ -18,6 +18,8 @@ from std_srvs.srv import Trigger
 
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.keys import split
+from agv_motion.cli.replay import _exact
+from agv_motion.errors import ConfigurationError
 
 SECOND = 1_000_000_000
 
@@ -98,3 +100,21 @@ def test_keys_in_a_terminal(graph, inbox, bag):
 
 def test_what_a_terminal_sends_as_keys():
     assert split('a\x1b[A \x1b[D\x1b') == ['a', 'up', ' ', 'left', '\x1b']
+
+
+@pytest.mark.parametrize(
+    ('typed', 'nanoseconds'),
+    [
+        ('1434366000.123456789', 1434366000123456789),
+        ('1434366000', 1434366000000000000),
+        ('-1', -1000000000),
+    ],
+)
+def test_seconds_that_are_typed_are_exact(typed, nanoseconds):
+    assert _exact(typed) == nanoseconds
+
+
+@pytest.mark.parametrize('typed', ['nan', 'inf', 'noon', ''])
+def test_what_is_no_time_is_refused(typed):
+    with pytest.raises(ConfigurationError, match='give seconds since 1970'):
+        _exact(typed)

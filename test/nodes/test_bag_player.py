@@ -6,6 +6,7 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from rcl_interfaces.msg import Log
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
@@ -15,7 +16,8 @@ from std_srvs.srv import Trigger
 
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.writer import BagWriter
-from agv_motion.nodes.bag_player import CLOCK, BagPlayer
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.bag_player import CLOCK, BagPlayer, _overrides
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.run import StartError
 
@@ -84,6 +86,51 @@ def test_topics_are_offered_as_they_were_recorded_or_as_overridden(tester, play,
     play(activate=False, listeners=0, qos_overrides=str(overrides))
     tester.graph.spin_until(lambda: len(tester.node.get_publishers_info_by_topic('/number')) == 1)
     assert offered('/number') == (ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE)
+
+
+def test_seek_by_service_after_the_end_sends_again(tester, play, qos):
+    inbox = tester.listen(
+        Int32, '/number', QoSProfile(depth=1000, reliability=qos['sensor'].reliability)
+    )
+    node = play(rate=20.0)
+    tester.wait(inbox, lambda m: m.data == 99)
+    tester.graph.spin_until(node.playing.finished.is_set)
+
+    def ask(name):
+        return tester.ask(Trigger, f'bag_player/{name}', Trigger.Request())
+
+    assert not ask('resume').success
+    assert not ask('play_next').success
+    inbox.clear()
+    node.set_parameters([Parameter('seek_to', value=1.9)])
+    assert ask('seek').success
+    tester.wait(inbox, lambda m: m.data == 99)
+    assert [m.data for m in inbox] == [95, 96, 97, 98, 99]
+
+
+@pytest.mark.parametrize(
+    ('text', 'message'),
+    [
+        ('/once: {reliability: bestest}', r'qos\.yaml.*bestest.*choose one of.*best_effort'),
+        ('/once: {reliability: 17}', 'choose one of'),
+        ('/once: {durabilty: volatile}', "no durabilty; did you mean 'durability'"),
+        ('/once: {depth: -1}', 'depth must lie in'),
+        ('/once: {depth: 1.5}', 'depth'),
+        ('/once: 7', 'expected'),
+    ],
+)
+def test_a_word_that_ros_does_not_know_is_refused(tmp_path, text, message):
+    (tmp_path / 'qos.yaml').write_text(text)
+    with pytest.raises(ConfigurationError, match=message):
+        _overrides(str(tmp_path / 'qos.yaml'))
+
+
+def test_topics_of_the_file_that_are_not_played_are_told(tester, play, tmp_path):
+    (tmp_path / 'qos.yaml').write_text('/numbers: {depth: 5}\n/once: {depth: 5}\n')
+    logs = tester.listen(Log, '/rosout', DEEP)
+    play(activate=False, listeners=0, qos_overrides=str(tmp_path / 'qos.yaml'))
+    tester.wait(logs, lambda m: "no topic '/numbers' is played; did you mean '/number'?" in m.msg)
+    assert not any("'/once'" in m.msg for m in logs)
 
 
 def test_the_clock_tells_the_time_of_the_bag(tester, play):
