@@ -51,6 +51,7 @@ class TopicReport(NamedTuple):
 
     name: str
     messages: int
+    """that are in the bag, those of a latched topic that begin a new file again included"""
     rate: float
     """[Hz] by the times of sending"""
     lost: int
@@ -59,6 +60,8 @@ class TopicReport(NamedTuple):
     """messages for which the disk was too slow, or full"""
     longest_silence: float
     """[s]"""
+    deleted: int
+    """messages that were in the oldest files, which gave way to newer ones"""
 
 
 @dataclass
@@ -157,7 +160,8 @@ class Recording:
                 self.failure += f'; the last {self._writer.discarded} messages found no room'
         for message in self._queue:
             self._topics[message.topic - 1].dropped += 1
-        return [_report(topic) for topic in self._topics]
+        kept, deleted = self._writer.counts, self._writer.deleted
+        return [_report(*each) for each in zip(self._topics, kept, deleted, strict=True)]
 
     @property
     def messages(self) -> int:
@@ -240,7 +244,7 @@ class Recording:
         return self._given.when_full == 'drop_oldest' and self._writer.drop_oldest()
 
 
-def _report(topic: _Topic) -> TopicReport:
+def _report(topic: _Topic, kept: int, deleted: int) -> TopicReport:
     seen = topic.continuity
     silence = seen.longest_silence * 1e-9
-    return TopicReport(topic.name, seen.messages, seen.rate, seen.lost, topic.dropped, silence)
+    return TopicReport(topic.name, kept, seen.rate, seen.lost, topic.dropped, silence, deleted)

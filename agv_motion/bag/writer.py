@@ -76,6 +76,8 @@ class BagWriter:
         self._chunk_span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
         self._topics: list[metadata.Topic] = []
         self._finished: list[_Finished] = []
+        self.deleted: list[int] = []
+        """messages of each topic that were in files which :meth:`drop_oldest` deleted"""
         self._number = 0
         try:
             self.path.mkdir(parents=True)
@@ -118,10 +120,11 @@ class BagWriter:
             ConfigurationError: The topic is there already.
 
         """
-        if any(other.name == topic.name for other in self._topics):
+        if any((other.name, other.type) == (topic.name, topic.type) for other in self._topics):
             msg = f'topic {topic.name} is in bag {self.path} already: add it once, keep the handle'
             raise ConfigurationError(msg)
         self._topics.append(topic)
+        self.deleted.append(0)
         return self._file.add_channel(topic)
 
     def write(
@@ -225,6 +228,14 @@ class BagWriter:
         """Number of files before the present one."""
         return len(self._finished)
 
+    @property
+    def counts(self) -> list[int]:
+        """Messages of each topic that are in the bag, in the order in which topics were added."""
+        files = [file.counts for file in self._finished]
+        if not self._file.closed:
+            files.append(tuple(self._file.counts))
+        return [sum(c[i] for c in files if i < len(c)) for i in range(len(self._topics))]
+
     def split(self) -> None:
         """Finish the present file and go on in a new one; handles stay as they are.
 
@@ -241,7 +252,10 @@ class BagWriter:
         """Delete the oldest finished file; return whether there was one."""
         if not self._finished:
             return False
-        (self.path / self._finished.pop(0).summary.path).unlink(missing_ok=True)
+        oldest = self._finished.pop(0)
+        (self.path / oldest.summary.path).unlink(missing_ok=True)
+        for i, count in enumerate(oldest.counts):
+            self.deleted[i] += count
         metadata.save(self.path, self._describe(self._finished))
         return True
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 
@@ -58,7 +59,7 @@ app.command()(doctor.doctor)
 
 
 def main() -> None:
-    """Run the command; errors are told in one line, and a closed pipe is no error.
+    """Run the command; errors are told in one line, and a closed pipe or terminal is no error.
 
     SIGTERM and SIGHUP end it as Ctrl-C does, where the command has no end of its own.
     """
@@ -83,8 +84,11 @@ def main() -> None:
         sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        if error.errno not in {errno.EPIPE, errno.EIO}:  # nobody reads on; the terminal is gone
+            raise
+        for stream in (sys.stdout, sys.stderr) if error.errno == errno.EIO else (sys.stdout,):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
         sys.exit(0)
 
 

@@ -109,27 +109,30 @@ def _record(given: dict[str, Any], duration: float) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_recorder import BagRecorder
-    from agv_motion.ros.run import overrides, spin, start
+    from agv_motion.ros.run import overrides, shut_down, spin, start
     from agv_motion.ros.stop import Stop
 
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
+    console = terminal()
     try:
         node = BagRecorder(parameter_overrides=overrides(**given))
-        start(node)
-        console = terminal()
-        begun = time.monotonic()
-        with console.status('Waiting for topics') as status:
+        try:
+            start(node)
+            begun = time.monotonic()
+            with console.status('Waiting for topics') as status:
 
-            def finished() -> bool:
-                recording = node.recording
-                elapsed = time.monotonic() - begun
-                if recording is not None:
-                    status.update(_progress(node, elapsed))
-                over = bool(duration) and elapsed >= duration
-                return stop.requested or over or recording is None
+                def finished() -> bool:
+                    recording = node.recording
+                    elapsed = time.monotonic() - begun
+                    if recording is not None:
+                        status.update(_progress(node, elapsed))
+                    over = bool(duration) and elapsed >= duration
+                    return stop.requested or over or recording is None
 
-            spin([node], finished)
+                spin([node], finished)
+        finally:
+            shut_down(node)  # the bag is whole even where the terminal is gone
     finally:
         rclpy.try_shutdown()
     _tell(console, node.report)
@@ -150,12 +153,12 @@ def _progress(node: BagRecorder, elapsed: float) -> str:
 def _tell(console: Console, report: list[TopicReport]) -> None:
     """Print what became of each topic."""
     table = Table(box=None, pad_edge=False)
-    for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'longest silence'):
+    for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'deleted', 'longest silence'):
         table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     for topic in sorted(report):
         bad = 'red' if topic.lost or topic.dropped else ''
         table.add_row(
             topic.name, str(topic.messages), f'{topic.rate:.2f}', str(topic.lost),
-            str(topic.dropped), f'{topic.longest_silence:.3f} s', style=bad,
+            str(topic.dropped), str(topic.deleted), f'{topic.longest_silence:.3f} s', style=bad,
         )  # fmt: skip
     console.print(table)

@@ -154,11 +154,18 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
                 continue
             qos = offering([overrides[topic]] if topic in overrides else connection.qos)
             publish[topic] = self.publisher(kind, topic, qos).publish
+        for other in self._bag.connections:
+            if other.topic in publish and other.type != self._bag.topics[other.topic].type:
+                self.get_logger().error(
+                    f'{other.topic} is a {self._bag.topics[other.topic].type} first: its messages '
+                    f'of type {other.type} are not played'
+                )
         return publish
 
     def _send(self, message: Message) -> None:
-        publish = self._publish.get(message.connection.topic)
-        if publish is not None:
+        topic, kind = message.connection.topic, message.connection.type
+        publish = self._publish.get(topic)
+        if publish is not None and kind == self._bag.topics[topic].type:
             publish(message.data)
 
     def _tell_time(self) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from rclpy.clock import Clock, ClockType
+from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
 from agv_motion.bag.recording import Recording, TopicReport
@@ -15,17 +18,18 @@ from agv_motion.bag.selection import Selection
 from agv_motion.bag.storage import StorageParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
+from agv_motion.ros.arrivals import TICK, Arrivals
+from agv_motion.ros.clock_guard import CLOCK_TOPIC
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offered
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.run import run
-from agv_motion.ros.tap import Tap, ears
+from agv_motion.ros.tap import Ears, Tap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
-    from rclpy.node import Node
 
     from agv_motion.bag.quality_of_service import OfferedQos
 
@@ -74,7 +78,7 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
         self.failure = ''
         """why the last recording ended by itself"""
         self.paused = False
-        self._ears: Node | None = None
+        self._ears: Ears | None = None
 
     def open(self) -> None:
         """Offer the services and look for topics."""
@@ -90,11 +94,14 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
             exclude_regex=given.exclude_regex,
             hidden=given.include_hidden_topics,
         )
-        self._taps: dict[str, tuple[Tap, int]] = {}
-        self._unusable: set[str] = set()
+        self._taps: dict[tuple[str, str], tuple[Tap, int]] = {}
+        """by name and type of the topic, each with its handle in the bag"""
+        self._unusable: set[tuple[str, str]] = set()
+        self._arrivals: Arrivals | None = None
+        """where time is simulated"""
         self._simulated = bool(self.get_parameter('use_sim_time').value)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._ears = ears(self.get_name(), self.context)
+        self._ears = Ears(self.get_name(), self.context)
         self.every(given.polling_interval, self._watch, steady)
         self.every(TAKE_PERIOD, self._take, steady)
         for name, act in (
@@ -108,7 +115,7 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
     @property
     def topics(self) -> int:
         """Number of topics that are being recorded."""
-        return len(self._taps)
+        return len({name for name, _ in self._taps if name})
 
     def begin(self) -> None:
         """Create the bag."""
@@ -121,6 +128,9 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
     def halt(self) -> None:
         """Finish the bag, and tell what was lost."""
         self._take()
+        if self._arrivals is not None:
+            self._arrivals.pass_on()
+            self._arrivals = None
         for tap, _ in self._taps.values():
             tap.close()
         self._taps.clear()
@@ -134,15 +144,18 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
                 f'{topic.name}: {topic.lost} lost on the way, {topic.dropped} dropped, '
                 f'{topic.messages} recorded'
             )
-        count = sum(topic.messages for topic in self.report)
-        self.get_logger().info(f'{count} messages of {len(self.report)} topics recorded')
+        count, deleted = (
+            sum(getattr(topic, what) for topic in self.report) for what in ('messages', 'deleted')
+        )
+        gone = f', {deleted} deleted with the oldest files' if deleted else ''
+        self.get_logger().info(f'{count} messages of {len(self.report)} topics recorded{gone}')
         self.recording = None
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Close the topics, and what they were heard with."""
         result = super().on_cleanup(state)
         if self._ears is not None:
-            self._ears.destroy_node()
+            self._ears.close()
             self._ears = None
         return result
 
@@ -169,40 +182,60 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
             return
         if self._simulated and not self._now().nanoseconds:
             return  # no time yet to stamp with
+        if self._simulated:
+            self._listen_to_clock(self.recording)
         for name, types in self.get_topic_names_and_types():
-            if name not in self._unusable and self._selection.takes(name):
-                self._meet(name, types, self.recording)
+            if self._selection.takes(name):
+                for kind in types:
+                    self._meet(name, kind, self.recording)
+
+    def _listen_to_clock(self, recording: Recording) -> None:
+        """Hear `/clock` among the messages that it stamps."""
+        if self._arrivals is None:
+            self._arrivals = Arrivals(recording.put, self._now().nanoseconds)
+            add = partial(self._arrivals.add, TICK)
+            assert self._ears is not None
+            self._taps['', ''] = Tap(self._ears.node(0), CLOCK_TOPIC, ClockMessage, add), TICK
+        self._taps['', ''][0].meet(self.get_publishers_info_by_topic(CLOCK_TOPIC))
 
     def _take(self) -> None:
+        begun = time.time_ns()
         for tap, _ in self._taps.values():
             tap.take()
+        if self._arrivals is not None:
+            self._arrivals.pass_on(begun)
 
-    def _meet(self, name: str, types: Sequence[str], recording: Recording) -> None:
-        """Record a topic that has publishers, and adapt to new ones."""
-        publishers = self.get_publishers_info_by_topic(name)
-        if not publishers:
+    def _meet(self, name: str, kind: str, recording: Recording) -> None:
+        """Record a topic that has publishers of a type, and adapt to new ones."""
+        publishers = [
+            one for one in self.get_publishers_info_by_topic(name) if one.topic_type == kind
+        ]
+        if not publishers or (name, kind) in self._unusable:
             return
-        if name not in self._taps:
+        if (name, kind) not in self._taps:
             try:
-                self._taps[name] = self._tap(name, types, offered(publishers), recording)
+                self._taps[name, kind] = self._tap(name, kind, offered(publishers), recording)
             except ConfigurationError as error:
-                self._unusable.add(name)
+                self._unusable.add((name, kind))
                 self.get_logger().error(f'{name} is not recorded: {error}')
                 return
-        tap, handle = self._taps[name]
+        tap, handle = self._taps[name, kind]
         if tap.meet(publishers):
             recording.set_publishers(handle, tap.publishers)
 
     def _tap(
-        self, name: str, types: Sequence[str], offers: Sequence[OfferedQos], recording: Recording
+        self, name: str, kind: str, offers: Sequence[OfferedQos], recording: Recording
     ) -> tuple[Tap, int]:
         """Return what hears a topic, and its handle in the bag."""
-        if len(types) > 1:
-            msg = f'its publishers disagree on the type: {", ".join(types)}'
-            raise ConfigurationError(msg)
-        kind = message_class(types[0])
-        handle = recording.add_topic(name, types[0], offers)
-        put, now = recording.put, self._now
+        others = [other for topic, other in self._taps if topic == name]
+        if others:
+            self.get_logger().warning(
+                f'{name} is published as {kind} too, beside {", ".join(others)}: all are recorded; '
+                'what reads the bag may expect one type: give each a topic of its own'
+            )
+        message = message_class(kind)
+        handle = recording.add_topic(name, kind, offers)
+        put, arrivals = recording.put, self._arrivals
 
         def take(data: bytes, info: dict[str, Any]) -> None:
             if not self.paused:
@@ -210,12 +243,12 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
                 put(handle, received, data, sent, info['publication_sequence_number'] or 0)
 
         def take_simulated(data: bytes, info: dict[str, Any]) -> None:
-            if not self.paused:
-                stamp = now().nanoseconds
-                put(handle, stamp, data, stamp, info['publication_sequence_number'] or 0)
+            if not self.paused and arrivals is not None:
+                arrivals.add(handle, data, info)
 
         assert self._ears is not None
-        return Tap(self._ears, name, kind, take_simulated if self._simulated else take), handle
+        node = self._ears.node(len(others))
+        return Tap(node, name, message, take_simulated if self._simulated else take), handle
 
     def _pause(self, _: Any = None) -> str:
         self.paused = True

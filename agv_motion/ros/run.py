@@ -102,7 +102,7 @@ def spin(
                 raise error
     finally:
         for node in nodes:
-            _shut_down(node)
+            shut_down(node)
 
 
 def _spin_once(executor: Executor) -> Exception | None:
@@ -116,7 +116,7 @@ def _spin_once(executor: Executor) -> Exception | None:
     return None
 
 
-def _shut_down(node: LifecycleNode) -> None:
+def shut_down(node: LifecycleNode) -> None:
     """Let a node leave its outputs safe; a failure must not keep the next one from it."""
     try:
         node.trigger_shutdown()

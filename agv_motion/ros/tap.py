@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
+import rclpy
+from rclpy.context import Context
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 
@@ -18,7 +20,6 @@ from agv_motion.ros.endpoints import DEEP, matching, offered
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from rclpy.context import Context
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
     from agv_motion.bag.quality_of_service import OfferedQos
@@ -26,15 +27,49 @@ if TYPE_CHECKING:
     Take = Callable[[bytes, dict[str, Any]], None]
 
 
-def ears(name: str, context: Context) -> Node:
-    """Return a hidden node for subscriptions that no executor takes from."""
-    return Node(
-        f'_{name}_ears',
-        context=context,
-        start_parameter_services=False,
-        enable_rosout=False,
-        use_global_arguments=False,
-    )
+class Ears:
+    """Hidden nodes for subscriptions that no executor takes from.
+
+    A participant of the middleware knows one type of a topic only; a topic of several types needs
+    as many participants, each with a context of its own.
+    """
+
+    def __init__(self, name: str, context: Context) -> None:
+        """Join the graph.
+
+        Args:
+            name: Of the node for which is listened.
+            context: Its own.
+
+        """
+        self._name, self._context = name, context
+        self._others: list[Context] = []
+        self._nodes = [self._node(context)]
+
+    def node(self, number: int) -> Node:
+        """Return the node for the type of this ``number``, from 0, of a topic."""
+        while len(self._nodes) <= number:
+            other = Context()
+            rclpy.init(context=other, domain_id=self._context.get_domain_id())
+            self._others.append(other)
+            self._nodes.append(self._node(other))
+        return self._nodes[number]
+
+    def close(self) -> None:
+        """Leave the graph."""
+        for node in self._nodes:
+            node.destroy_node()
+        for context in self._others:
+            context.try_shutdown()
+
+    def _node(self, context: Context) -> Node:
+        return Node(
+            f'_{self._name}_ears',
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
 
 
 class Tap:

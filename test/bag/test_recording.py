@@ -95,7 +95,8 @@ def test_a_ring_keeps_the_newest_files_and_what_was_latched(tmp_path):
     one.put(latched, 0, text(9999), 0)
     for i in range(55):
         one.put(topic, i * SECOND, text(i), i * SECOND)
-    one.close()
+    reports = one.close()
+    assert [(report.messages, report.deleted) for report in reports] == [(3, 3), (25, 30)]
     names = sorted(file.name for file in (tmp_path / 'bag').glob('*.mcap'))
     assert names == ['bag_3.mcap', 'bag_4.mcap', 'bag_5.mcap']
     found = numbers(tmp_path / 'bag')
@@ -188,9 +189,10 @@ def test_a_ring_on_a_small_disk_goes_on(small_disk, wait_until):
     for i in range(300):
         one.put(topic, i, text(i, 30_000), i)
         wait_until(lambda: one.failure or i - one.messages < 6)  # noqa: B023
-    one.close()
+    (report,) = one.close()
     assert not one.failure
     found = numbers(small_disk / 'bag')
+    assert (report.messages, report.deleted) == (len(found), 300 - len(found))
     assert found == list(range(found[0], 300))
     assert found[0] > 200
     assert shutil.disk_usage(small_disk).free > 0.5e6

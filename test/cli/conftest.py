@@ -19,7 +19,7 @@ class Agv:
         """Start the command and return its process."""
         process = subprocess.Popen(  # noqa: S603 - our own command
             [sys.executable, '-m', 'agv_motion.cli.main', *map(str, arguments)],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options,
+            **{'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True, **options},
         )  # fmt: skip
         self.processes.append(process)
         return process

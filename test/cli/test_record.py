@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import pty
 import signal
 
 import pytest
@@ -50,3 +52,29 @@ def test_a_folder_that_exists_is_told(alone, tmp_path):
     assert status == 1
     assert 'choose a new folder' in errors
     assert 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_and_a_terminal_that_is_gone_leave_a_whole_bag(
+    agv, graph, publisher, tmp_path, number
+):
+    """A terminal that is closed sends SIGHUP, and takes no word any more."""
+    master, terminal = pty.openpty()
+    process = agv.start(
+        'record', '/number', '-o', tmp_path / 'bag', stdin=terminal, stdout=terminal,
+        stderr=terminal, start_new_session=True,
+    )  # fmt: skip
+    os.close(terminal)
+    graph.spin_until(publisher.get_subscription_count)
+    graph.repeat(
+        lambda: publisher.publish(Int32(data=1)),
+        lambda: (tmp_path / 'bag' / 'bag_0.mcap').stat().st_size > 2000,
+        every=0.01,
+    )
+    os.close(master)
+    process.send_signal(number)
+    graph.spin_until(lambda: process.poll() is not None)
+    assert process.returncode == 0
+    with Reader(tmp_path / 'bag') as reader:
+        assert reader.message_count > 0
+        assert len(list(reader.messages())) == reader.message_count

@@ -11,7 +11,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Int32
+from std_msgs.msg import Float64, Int32
 from std_srvs.srv import Trigger
 
 from agv_motion.bag.quality_of_service import OfferedQos
@@ -131,6 +131,27 @@ def test_topics_of_the_file_that_are_not_played_are_told(tester, play, tmp_path)
     play(activate=False, listeners=0, qos_overrides=str(tmp_path / 'qos.yaml'))
     tester.wait(logs, lambda m: "no topic '/numbers' is played; did you mean '/number'?" in m.msg)
     assert not any("'/once'" in m.msg for m in logs)
+
+
+def test_messages_of_another_type_on_a_topic_are_told_and_not_sent_as_what_they_are_not(
+    tester, tmp_path
+):
+    with BagWriter(tmp_path / 'two') as writer:
+        for i, kind in enumerate((Int32(data=5), Float64(data=1.5), Int32(data=6))):
+            name = f'std_msgs/msg/{type(kind).__name__}'
+            handle = i + 1 if i < 2 else 1
+            if i < 2:
+                assert writer.add_topic('/number', name) == handle
+            writer.write(handle, START + i, serialize_message(kind))
+    logs = tester.listen(Log, '/rosout', DEEP)
+    inbox = tester.listen(Int32, '/number', DEEP)
+    node = tester.start(BagPlayer, activate=False, bag=str(tmp_path / 'two'))
+    node.trigger_configure()
+    tester.graph.meet()
+    node.trigger_activate()
+    tester.wait(inbox, lambda m: m.data == 6)
+    assert [m.data for m in inbox] == [5, 6]
+    tester.wait(logs, lambda m: 'its messages of type std_msgs/msg/Float64 are not played' in m.msg)
 
 
 def test_the_clock_tells_the_time_of_the_bag(tester, play):

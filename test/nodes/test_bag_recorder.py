@@ -7,11 +7,14 @@ from rosbags.rosbag2 import Reader
 
 rclpy = pytest.importorskip('rclpy')
 
+from builtin_interfaces.msg import Time
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
-from std_msgs.msg import Int32
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Int32, String
 from std_srvs.srv import Trigger
 
+from agv_motion.bag.reader import BagReader
 from agv_motion.nodes.bag_recorder import BagRecorder
 from agv_motion.ros.run import StartError
 
@@ -161,3 +164,63 @@ def test_an_existing_folder_keeps_the_node_inactive(tester, record, tmp_path):
 def test_nothing_to_record_keeps_the_node_unconfigured(tester, record):
     with pytest.raises(StartError):
         record(regex='')
+
+
+def texts(path):
+    """Return topic and type of each message in the order of the bag, by our own reader."""
+    with BagReader(path) as bag:
+        return [(m.connection.topic, m.connection.type.split('/')[-1]) for m in bag.messages()]
+
+
+def test_a_topic_that_changes_its_type_is_recorded_on(tester, record, tmp_path):
+    logs = tester.logs()
+    first = numbered(tester, 'n')
+    node = record()
+    heard(tester, first)
+    send(first, 1, 2)
+    recorded(tester, node, 2)
+    tester.node.destroy_publisher(first)
+    other = rclpy.Context()  # a process of its own: a participant knows one type of a topic
+    rclpy.init(context=other, domain_id=tester.graph.context.get_domain_id())
+    talker = rclpy.create_node('talker', context=other)
+    try:
+        second = talker.create_publisher(String, 'n', RELIABLE)
+        heard(tester, second)
+        for _ in range(3):
+            second.publish(String(data='x'))
+        recorded(tester, node, 5)
+    finally:
+        talker.destroy_node()
+        other.try_shutdown()
+    tester.wait(logs, lambda m: '/n is published as std_msgs/msg/String too' in m.msg)
+    node.trigger_deactivate()
+    assert texts(tmp_path / 'bag') == [('/n', 'Int32')] * 2 + [('/n', 'String')] * 3
+    assert [(t.messages, t.lost) for t in node.report] == [(2, 0), (3, 0)]
+
+
+def test_under_simulated_time_messages_stand_as_they_arrived(tester, record, tmp_path):
+    """The clock stands, and what causes stands before what it causes, on whatever topics."""
+    clock = tester.node.create_publisher(Clock, '/clock', RELIABLE)
+    topics = [numbered(tester, topic) for topic in ('n3', 'n1', 'n2')]
+    node = record(use_sim_time=True)
+    tester.graph.repeat(
+        lambda: clock.publish(Clock(clock=Time(sec=5))),
+        lambda: all(topic.get_subscription_count() for topic in topics),
+    )
+    said = []
+    for i in range(300):
+        publisher = topics[i * 7 % 3]
+        said.append(publisher.topic_name)
+        send(publisher, i)
+        assert publisher.wait_for_all_acked()
+    recorded(tester, node, 300)
+    clock.publish(Clock(clock=Time(sec=6, nanosec=7)))
+    assert clock.wait_for_all_acked()
+    send(topics[0], 300)
+    recorded(tester, node, 301)
+    node.trigger_deactivate()
+    with BagReader(tmp_path / 'bag') as bag:
+        found = list(bag.messages())
+    assert [m.connection.topic for m in found] == [*said, '/n3']
+    assert {m.stamp for m in found[:-1]} == {5 * 10**9}
+    assert found[-1].stamp == 6 * 10**9 + 7
