@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 _SLICE = 1 << 28
 """[bytes] of messages that are looked through at a time"""
+_SHARED = ('DiagnosticArray', 'TFMessage', 'Log')
 _PARTS = 10
 _FEWEST = 200
 """messages whose rate is worth being judged part by part"""
@@ -69,7 +71,8 @@ def check(
     """
     bag.require(limits.rates)
     for problem in bag.problems:
-        yield Finding('error', str(getattr(problem, 'path', bag.path)), str(problem))
+        severity = 'warning' if getattr(problem, 'harmless', False) else 'error'
+        yield Finding(severity, str(getattr(problem, 'path', bag.path)), str(problem))
     sound = True
     for file in bag.files:
         progress(file.path.name)
@@ -81,8 +84,12 @@ def check(
         yield from _type(bag, topic)
         try:
             yield from _times(topic, stamps(bag, [topic])[topic], limits)
-            if sound:
+            encoding = bag.topics[topic].encoding
+            if sound and encoding == 'cdr':
                 yield from _values(bag, topic)
+            elif sound:
+                text = f'its messages are encoded in {encoding!r}: values were not looked at'
+                yield Finding('warning', topic, text)
         except AgvMotionError as error:
             yield Finding('error', topic, str(error))
     if not sound:
@@ -121,7 +128,7 @@ def _type(bag: BagReader, topic: str) -> Iterator[Finding]:
         names = sorted(kind for kind, _ in found)
         what = ' and '.join(names) if len(set(names)) > 1 else f'{names[0]}, defined differently'
         yield Finding('error', topic, f'its type changed: {what}')
-    elif not bag.topics[topic].definition:
+    elif not bag.topics[topic].definition and bag.topics[topic].encoding == 'cdr':
         yield Finding('warning', topic, f'the bag has no definition of {bag.topics[topic].type}')
 
 
@@ -186,10 +193,29 @@ def _values(bag: BagReader, topic: str) -> Iterator[Finding]:
         if stamped:
             headers.append(columns.nanoseconds('header.stamp'))
     if headers:
-        yield from _back('error', topic, 'header.stamp', np.concatenate(headers))
+        times = np.concatenate(headers)
+        severity = 'warning' if _several_publishers(bag, topic, times) else 'error'
+        yield from _back(severity, topic, 'header.stamp', times)
     for field, (count, first) in nan.items():
         when = (first - bag.start) * 1e-9
         yield Finding('error', topic, f'{field} is NaN in {count} messages, first at {when:.3f} s')
+
+
+def _several_publishers(bag: BagReader, topic: str, times: NDArray[np.int64]) -> bool:
+    """Return whether stamps may go back because several publishers send on a topic.
+
+    The bag tells their number, or each of them numbers its messages from 1 on. Diagnostics,
+    transforms and logs have many by their nature.
+    """
+    connections = [c for c in bag.connections if c.topic == topic]
+    if len(connections) > 1 or any(
+        len(c.qos) > 1 or c.type.rpartition('/')[2] in _SHARED for c in connections
+    ):
+        return True
+    if not (times[1:] < times[:-1]).any():
+        return False
+    numbers = [message.sequence for message in bag.messages([topic])]
+    return any(numbers) and any(b <= a for a, b in pairwise(numbers))
 
 
 def _nan(columns: Columns) -> dict[str, tuple[int, int]]:

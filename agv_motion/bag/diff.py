@@ -15,7 +15,7 @@ import numpy as np
 
 from agv_motion.bag.message_decoder import MessageDecoder
 from agv_motion.bag.pairing import Pairing, pairs
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import AgvMotionError, ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -136,10 +136,17 @@ def _unlike(topic: str, first: BagReader, second: BagReader) -> str:
     if set(ours) != set(theirs):
         return f'type {", ".join(ours)} against {", ".join(theirs)}'
     for kind in ours:
-        one, other = (MessageDecoder(found[kind]).store.fielddefs for found in (ours, theirs))
-        if one != other:
+        if _fields(ours[kind]) != _fields(theirs[kind]):
             return f'{kind} is defined differently'
     return ''
+
+
+def _fields(connection: Connection) -> Any:
+    """Return the fields of a type; where they cannot be understood, all that describes it."""
+    try:
+        return MessageDecoder(connection).store.fielddefs
+    except ConfigurationError:
+        return connection.definition, connection.definition_encoding, connection.encoding
 
 
 class _Comparison:
@@ -159,7 +166,10 @@ class _Comparison:
             return [('type', *kinds)]
         if one.data == other.data:
             return []
-        return list(self._differences(self._decode(one), self._decode(other), ''))
+        try:
+            return list(self._differences(self._decode(one), self._decode(other), ''))
+        except AgvMotionError:  # nobody can tell more of them
+            return [('bytes that cannot be decoded', one.data.hex()[:16], other.data.hex()[:16])]
 
     def _decode(self, message: Message) -> Any:
         connection = message.connection

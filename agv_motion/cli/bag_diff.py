@@ -10,6 +10,7 @@ import typer
 from rich.progress import track
 from rich.table import Table
 
+from agv_motion.cli.bag_options import tell
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
@@ -65,6 +66,9 @@ def diff(
     pairing = Pairing(by_place, None if within is None else round(within * 1e9))
     console = terminal()
     with BagReader(first) as one, BagReader(second) as other:
+        tell(one)
+        tell(other)
+        lossy = one.lossy or other.lossy
         chosen = topics or sorted(
             set(one.topics) & set(other.topics) if common else {*one.topics, *other.topics}
         )
@@ -84,7 +88,7 @@ def diff(
             f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs the '
             'nearest, --by-place the first with the first'
         )
-    if not all(topic.same for topic in found):
+    if lossy or not all(topic.same for topic in found):
         raise typer.Exit(1)
 
 

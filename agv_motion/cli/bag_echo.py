@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 import yaml
 
-from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, span
 from agv_motion.cli.echo_options import (
     Csv,
     Field,
@@ -50,13 +50,12 @@ def echo(
 
     agv bag echo walk /odom --field pose.pose.position --csv --start-offset 60
     """
-    from agv_motion.bag.reader import BagReader
     from agv_motion.cli.bag_messages import decoder
 
     length = None if full_length else truncate_length
     text = MessageText(length, no_arr=no_arr, no_str=no_str, flow_style=flow_style)
     wanted = predicate(filter_expr)
-    with BagReader(bag) as reader:
+    with opened(bag) as reader:
         reader.require([topic_name])
         decoders = {c: decoder(c) for c in reader.connections if c.topic == topic_name}
         messages = reader.messages([topic_name], *span(reader, start_offset, duration))

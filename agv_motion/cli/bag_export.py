@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import re
+from collections import Counter
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,18 +14,22 @@ import numpy as np
 import typer
 from rich.progress import track
 
-from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, span
 from agv_motion.cli.terminal import terminal
-from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.errors import AgvMotionError, ConfigurationError, SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from agv_motion.bag.column import Column
     from agv_motion.bag.columns import Columns
+    from agv_motion.bag.reader import BagReader
 
 MOST_COLUMNS = 64
 """Longer arrays stay in one cell."""
+LONGEST_NAME = 150
+"""Characters of the name of a file before its suffix; most file systems allow 255."""
+_UNFIT = re.compile(r'[^A-Za-z0-9_.+~-]')
 _BLOCK = 10_000
 
 
@@ -49,19 +56,18 @@ def export(
 
     agv bag export walk tables --topics /odom --field header.stamp --field pose.pose -f parquet
     """
-    from agv_motion.bag.columns import read_topic
-    from agv_motion.bag.reader import BagReader
-
     console = terminal(stderr=True)
     writers = {'csv': _csv, 'parquet': _parquet}
     if table not in writers:
         msg = f"--format '{table}': choose csv or parquet"
         raise ConfigurationError(msg)
-    with BagReader(bag) as reader:
+    skipped = 0
+    with opened(bag) as reader:
         limits = span(reader, start_offset, duration)
         reader.require(topics or ())
         chosen = topics or sorted(reader.topics)
-        paths = {t: output / f'{t.strip("/").replace("/", "__")}.{table}' for t in chosen}
+        names = file_names(reader.topics)
+        paths = {topic: output / f'{names[topic]}.{table}' for topic in chosen}
         for path in paths.values():
             if path.exists():
                 msg = f'{path} exists: choose another folder, nothing is overwritten'
@@ -69,14 +75,60 @@ def export(
         try:
             output.mkdir(parents=True, exist_ok=True)
             for topic in track(chosen, 'Exporting', console=console, transient=True):
-                columns = read_topic(reader, topic, field, *limits)
-                writers[table](paths[topic], columns)
+                columns = _read(reader, topic, field, limits, only=len(chosen) == 1)
+                if columns is None:
+                    skipped += 1
+                    continue
+                unfinished = paths[topic].with_name(f'{paths[topic].name}.unfinished')
+                writers[table](unfinished, columns)
+                unfinished.replace(paths[topic])
                 typer.echo(f'{paths[topic]}: {len(columns.stamps)} rows')
         except OSError as error:
             if isinstance(error, SourceError):
                 raise
             msg = f'{output} cannot be written: {error.strerror or error}'
             raise SourceError(msg) from error
+    if skipped:
+        typer.echo(f'error: {skipped} of {len(chosen)} topics were skipped', err=True)
+        raise typer.Exit(1)
+
+
+def _read(
+    bag: BagReader,
+    topic: str,
+    fields: list[str] | None,
+    limits: tuple[int | None, int | None],
+    *,
+    only: bool,
+) -> Columns | None:
+    """Return the columns of a topic; None, and the reason on stderr, where it cannot be read.
+
+    Raises:
+        AgvMotionError: It is the only one.
+
+    """
+    from agv_motion.bag.columns import read_topic
+
+    try:
+        return read_topic(bag, topic, fields, *limits)
+    except AgvMotionError as error:
+        if only:
+            raise
+        typer.echo(f'{topic} is skipped: {error}', err=True)
+        return None
+
+
+def file_names(topics: Iterable[str]) -> dict[str, str]:
+    """Return a file name for each topic: as like it as can be, no two alike, none too long."""
+    plain = {topic: topic.strip('/').replace('/', '__') for topic in topics}
+    counts = Counter(name.lower() for name in plain.values())
+    names = {}
+    for topic, name in plain.items():
+        kept = _UNFIT.sub('_', name)[:LONGEST_NAME]
+        if kept != name or not name.strip('.') or counts[name.lower()] > 1:
+            kept = f'{kept}_{sha256(topic.encode(errors="surrogateescape")).hexdigest()[:8]}'
+        names[topic] = kept
+    return names
 
 
 def _cells(columns: Columns) -> Iterator[tuple[str, Column]]:

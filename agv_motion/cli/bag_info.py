@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from agv_motion.cli.bag_options import Bag, moment
+from agv_motion.cli.bag_options import Bag, moment, opened
 
 if TYPE_CHECKING:
     from agv_motion.bag.reader import BagReader
@@ -28,16 +28,12 @@ def info(
 
     Example: agv bag info walk
     """
-    from agv_motion.bag.reader import BagReader
-
-    with BagReader(bag, validate=False) as reader:
+    with opened(bag, validate=False) as reader:
         if topic_name:
             typer.echo('\n'.join(sorted(reader.topics)))
             return
         _head(reader)
         _topics(reader, verbose=verbose)
-        for problem in reader.problems:
-            typer.echo(f'warning: {problem}', err=True)
 
 
 def _head(bag: BagReader) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from agv_motion.bag.reader import BagReader
 
 Bag = Annotated[Path, typer.Argument(help='Bag: its folder, or one .mcap or .db3 file.')]
@@ -21,6 +24,30 @@ StartOffset = Annotated[
 Duration = Annotated[
     float, typer.Option('--playback-duration', help='Seconds of the bag; negative: all.')
 ]
+
+
+def tell(bag: BagReader) -> None:
+    """Tell on stderr what is amiss in a bag."""
+    for problem in bag.problems:
+        typer.echo(f'warning: {problem}', err=True)
+
+
+@contextmanager
+def opened(path: Path, *, validate: bool = True) -> Iterator[BagReader]:
+    """Open a bag and tell what is amiss; the command ends with status 1 where something is lost.
+
+    Raises:
+        SourceError: There is no bag, or it cannot be read at all.
+
+    """
+    from agv_motion.bag.reader import BagReader
+
+    with BagReader(path, validate=validate) as bag:
+        tell(bag)
+        yield bag
+        lossy = bag.lossy
+    if lossy:
+        raise typer.Exit(1)
 
 
 def span(bag: BagReader, start_offset: float, duration: float) -> tuple[int | None, int | None]:

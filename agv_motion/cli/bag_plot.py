@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from agv_motion.cli.bag_options import Bag, Duration, StartOffset, span
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, span
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -42,11 +42,10 @@ def plot(
     agv bag plot walk /cmd_vel/twist/linear/x,/odom/twist/twist/linear/x
     """
     from agv_motion.bag.columns import read_topic
-    from agv_motion.bag.reader import BagReader
     from agv_motion.cli.figure import figure
 
     panels: list[list[tuple[str, Any, Any]]] = []
-    with BagReader(bag) as reader:
+    with opened(bag) as reader:
         limits = span(reader, start_offset, duration)
         for argument in fields:
             panel: list[tuple[str, Any, Any]] = []
@@ -59,16 +58,16 @@ def plot(
                 msg = f'{argument} has {len(panel)} numbers, expected 1 to {MOST_LINES}: be exact'
                 raise ConfigurationError(msg)
             panels.append(panel)
-    mosaic = [[str(i)] for i in range(len(panels))]
-    size = (10.0, 1.5 + 2.5 * len(panels))
-    with figure(output, mosaic, figsize=size, sharex=True) as axes:
-        for i, panel in enumerate(panels):
-            for label, time, values in panel:
-                axes[str(i)].plot(time, values, label=label, linewidth=1.0)
-            axes[str(i)].legend(loc='upper right', fontsize='small')
-            axes[str(i)].grid(alpha=0.3)
-        axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
-    typer.echo(f'Figure: {output}')
+        mosaic = [[str(i)] for i in range(len(panels))]
+        size = (10.0, 1.5 + 2.5 * len(panels))
+        with figure(output, mosaic, figsize=size, sharex=True) as axes:
+            for i, panel in enumerate(panels):
+                for label, time, values in panel:
+                    axes[str(i)].plot(time, values, label=label, linewidth=1.0)
+                axes[str(i)].legend(loc='upper right', fontsize='small')
+                axes[str(i)].grid(alpha=0.3)
+            axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
+        typer.echo(f'Figure: {output}')
 
 
 def _split(bag: BagReader, name: str) -> tuple[str, str]:

@@ -8,13 +8,13 @@ import numpy as np
 import typer
 from rich.table import Table
 
-from agv_motion.cli.bag_options import Bag, Topics
+from agv_motion.cli.bag_options import Bag, Topics, opened
 from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from numpy.typing import NDArray
+
+    from agv_motion.bag.reader import BagReader
 
 Header = Annotated[
     bool, typer.Option('--header', help='By the stamps in the headers, not by their arrival.')
@@ -27,20 +27,23 @@ def hz(bag: Bag, topic_name: Topics = None, *, header: Header = False) -> None:
     Examples: agv bag hz walk
               agv bag hz walk /odom --header
     """
-    times, _ = _times(bag, topic_name, header=header)
     table = _table('topic', 'rate', 'min_delta', 'max_delta', 'std_dev', 'messages')
-    for topic, stamps in sorted(times.items()):
-        steps = np.diff(np.sort(stamps)) * 1e-9
-        if not len(steps):
-            table.add_row(topic, '', '', '', '', str(len(stamps)))
-            continue
-        rate = 1.0 / steps.mean() if steps.any() else np.inf
-        numbers = (steps.min(), steps.max())
-        table.add_row(
-            topic, f'{rate:.3f}', *(f'{x:.3f}s' for x in numbers), f'{steps.std():.5f}s',
-            str(len(stamps)),
-        )  # fmt: skip
-    terminal().print(table)
+    with opened(bag, validate=False) as reader:
+        for topic, stamps in sorted(_times(reader, topic_name, header=header)[0].items()):
+            table.add_row(topic, *_rate(stamps), str(len(stamps)))
+        terminal().print(table)
+
+
+def _rate(stamps: NDArray[np.int64]) -> list[str]:
+    """Return rate, shortest and longest interval, and their spread; empty without an interval."""
+    steps = np.diff(np.sort(stamps)) * 1e-9
+    if not len(steps):
+        return ['', '', '', '']
+    rate = 1.0 / steps.mean() if steps.any() else np.inf
+    return [
+        *(f'{rate:.3f}', f'{steps.min():.3f}s'),
+        *(f'{steps.max():.3f}s', f'{steps.std():.5f}s'),
+    ]
 
 
 def gaps(
@@ -60,20 +63,20 @@ def gaps(
     """
     from agv_motion.bag.silences import regular, silences
 
-    times, start = _times(bag, topic_name, header=header)
     table = _table('topic', 'after', 'silence', 'usual', 'missing')
-    for topic, stamps in sorted(times.items()):
-        if not topic_name and not regular(stamps):
-            continue
-        for silence in silences(stamps, factor, longer):
-            table.add_row(
-                topic, f'{(silence.after - start) * 1e-9:.3f}s', f'{silence.length * 1e-9:.3f}s',
-                f'{silence.usual * 1e-9:.3f}s', str(silence.missing),
-            )  # fmt: skip
-    if table.row_count:
-        terminal().print(table)
-    else:
-        typer.echo('No gaps')
+    with opened(bag, validate=False) as reader:
+        times, start = _times(reader, topic_name, header=header)
+        for topic, stamps in sorted(times.items()):
+            if not topic_name and not regular(stamps):
+                continue
+            for silence in silences(stamps, factor, longer):
+                times_of = silence.after - start, silence.length, silence.usual
+                cells = [f'{time * 1e-9:.3f}s' for time in times_of]
+                table.add_row(topic, *cells, str(silence.missing))
+        if table.row_count:
+            terminal().print(table)
+        else:
+            typer.echo('No gaps')
 
 
 def _table(*titles: str) -> Table:
@@ -85,21 +88,19 @@ def _table(*titles: str) -> Table:
 
 
 def _times(
-    path: Path, topics: list[str] | None, *, header: bool
+    bag: BagReader, topics: list[str] | None, *, header: bool
 ) -> tuple[dict[str, NDArray[np.int64]], int]:
     """Return the stamps of each topic, and the start of the bag [ns]."""
     from agv_motion.bag.columns import read_topic
     from agv_motion.bag.definitions import begins_with_header
-    from agv_motion.bag.reader import BagReader
     from agv_motion.bag.stamps import stamps
 
-    with BagReader(path, validate=False) as bag:
-        if not header:
-            return stamps(bag, topics), bag.start
-        bag.require(topics or ())
-        chosen = topics or [t for t, c in bag.topics.items() if begins_with_header(c.definition)]
-        times = {
-            topic: read_topic(bag, topic, ['header.stamp']).nanoseconds('header.stamp')
-            for topic in chosen
-        }
-        return times, bag.start
+    if not header:
+        return stamps(bag, topics), bag.start
+    bag.require(topics or ())
+    chosen = topics or [t for t, c in bag.topics.items() if begins_with_header(c.definition)]
+    times = {
+        topic: read_topic(bag, topic, ['header.stamp']).nanoseconds('header.stamp')
+        for topic in chosen
+    }
+    return times, bag.start

@@ -24,7 +24,7 @@ def recover(
 
     The damaged bag stays as it is. A file that was cut off is saved up to its last whole message;
     chunks that are damaged, and rows of a damaged sqlite3 file, are left out and told. The exit
-    status is 1 if nothing could be saved.
+    status is 1 if something is lost.
     For example:
 
     agv bag recover walk walk_saved
@@ -45,6 +45,8 @@ def recover(
         typer.echo(f'found: {problem}', err=True)
     if len(recovery.problems) > MOST_PROBLEMS:
         typer.echo(f'found: {len(recovery.problems) - MOST_PROBLEMS} more', err=True)
-    typer.echo(f'Saved {recovery.messages} messages in {saved}')
-    if not recovery.messages:
+    lost = f'; at least {recovery.missing} are lost' if recovery.missing else ''
+    typer.echo(f'Saved {recovery.messages} messages in {saved}{lost}')
+    harmless = all(getattr(problem, 'harmless', False) for problem in recovery.problems)
+    if not (recovery.messages and harmless) or recovery.missing:
         raise typer.Exit(1)

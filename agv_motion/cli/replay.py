@@ -145,8 +145,11 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     finally:
         rclpy.try_shutdown()
     console.print(str(node.playing.lag))
+    for topic, reason in node.unplayed.items():
+        typer.echo(f'error: {topic} was not played: {reason}', err=True)
     if node.playing.failure:
         typer.echo(f'error: {node.playing.failure}', err=True)
+    if node.playing.failure or node.unplayed or node.lossy:
         raise typer.Exit(1)
 
 

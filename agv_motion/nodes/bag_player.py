@@ -29,7 +29,7 @@ from agv_motion.ros.run import run
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.bag.connection import Message
+    from agv_motion.bag.connection import Connection, Message
     from agv_motion.files.marked import Marked
 
 DEEPEST = 1_000_000
@@ -70,6 +70,10 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         """Declare the parameters."""
         super().__init__('bag_player', BagPlayerParameters, **kwargs)
         self.playback: Playback | None = None
+        self.unplayed: dict[str, str] = {}
+        """topics that cannot be played, and why"""
+        self.lossy = False
+        """whether the bag has lost something"""
 
     def open(self) -> None:
         """Open the bag, a publisher for each topic, and the services."""
@@ -81,6 +85,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         self.close_later(self._bag.close)
         for problem in self._bag.problems:
             self.get_logger().warning(str(problem))
+        self.lossy = self._bag.lossy
         self._offers = _overrides(given.qos_overrides)
         topics = Playback(self._bag, given, self._send).topics
         for topic in self._offers:
@@ -107,6 +112,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
     def begin(self) -> None:
         """Begin to play."""
         self.playback = Playback(self._bag, self.parameters, self._send, self._offers)
+        self.playback.topics = [t for t in self.playback.topics if t in self._publish]
         self.playback.start()
 
     def halt(self) -> None:
@@ -143,13 +149,15 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
     def _open_topics(self, topics: Sequence[str]) -> dict[str, Any]:
         """Return the function that publishes each topic, by name."""
         publish, overrides = {}, self._offers
+        self.unplayed = {}
         for topic in topics:
             connection = self._bag.topics[topic]
             if topic == '/clock' and self.parameters.clock:
                 continue  # one clock is enough
             try:
-                kind = message_class(connection.type)
+                kind = _played(connection)
             except ConfigurationError as error:
+                self.unplayed[topic] = str(error)
                 self.get_logger().error(f'{topic} is not played: {error}')
                 continue
             qos = offering([overrides[topic]] if topic in overrides else connection.qos)
@@ -197,6 +205,19 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
     def _seek(self, _: Any) -> str:
         self.playing.seek(self._bag.start + round(self.parameters.seek_to * 1e9))
         return f'at {self.parameters.seek_to:g} s'
+
+
+def _played(connection: Connection) -> Any:
+    """Return the class of the messages of a topic.
+
+    Raises:
+        ConfigurationError: It is not installed, or they are none of ROS.
+
+    """
+    if connection.encoding != 'cdr':
+        msg = f'its messages are encoded in {connection.encoding!r}, which is not of ROS'
+        raise ConfigurationError(msg)
+    return message_class(connection.type)
 
 
 def _overrides(path: str) -> dict[str, OfferedQos]:

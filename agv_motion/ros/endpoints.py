@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
+from agv_motion.bag.definitions import split
 from agv_motion.bag.quality_of_service import FOREVER, OfferedQos, kept
 from agv_motion.errors import ConfigurationError
 
@@ -26,9 +27,10 @@ def message_class(name: str) -> Any:
     """Return the class of a message type such as ``std_msgs/msg/String``.
 
     Raises:
-        ConfigurationError: It is not installed.
+        ConfigurationError: It is not installed, or the name is none of a type.
 
     """
+    split(name)
     package, _, rest = name.partition('/')
     folder, _, short = rest.rpartition('/')
     try:
