@@ -15,7 +15,7 @@ import numpy as np
 
 from agv_motion.bag.message_decoder import MessageDecoder
 from agv_motion.bag.pairing import Pairing, pairs
-from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -168,7 +168,7 @@ class _Comparison:
             return []
         try:
             return list(self._differences(self._decode(one), self._decode(other), ''))
-        except AgvMotionError:  # nobody can tell more of them
+        except ConfigurationError:  # of their type nobody can tell more
             return [('bytes that cannot be decoded', one.data.hex()[:16], other.data.hex()[:16])]
 
     def _decode(self, message: Message) -> Any:
