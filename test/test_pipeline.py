@@ -58,8 +58,11 @@ class Walk:
     def moving_by_hour(self):
         """Return local hours of the recording, and whether the tree moved then."""
         stamps = np.array([seconds_of(m.header.stamp) for m in self.twists])
-        hours = (self.begin + (stamps - stamps[0]) * self.speed) / 3600.0 + 0.5
-        return hours, np.array([not resting(m.twist) for m in self.twists])
+        moving = np.array([not resting(m.twist) for m in self.twists])
+        timed = stamps > 0.0  # before the first /clock it only stands, and knows no time
+        assert not moving[~timed].any()
+        stamps, moving = stamps[timed], moving[timed]
+        return (self.begin + (stamps - stamps[0]) * self.speed) / 3600.0 + 0.5, moving
 
 
 def resting(twist):
@@ -79,7 +82,7 @@ def test_it_moves_by_day_and_rests_by_night(spruce, begin, offsets):
     night, day = (hours % 24 < 5.0), (hours % 24 > 11.0) & (hours % 24 < 17.0)
     assert moving[day].mean() > 0.8
     assert moving[night].mean() < 0.05
-    rates = np.array([message.velocity for message in walk.rates])
+    rates = np.concatenate([message.velocity for message in walk.rates])
     assert np.isfinite(rates).all()
     assert np.abs(rates).max() <= 2.0 / 60.0 / 0.1 * (1 + 1e-12)
     assert all(isfinite(angle) for message in walk.rates for angle in message.position)

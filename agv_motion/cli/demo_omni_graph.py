@@ -93,7 +93,8 @@ class Driver(LifecycleNode):
         """Drive on, once for each step of the wheels."""
         self._silent += 1
         known = self._pose is not None and self._silent < 20
-        command = TwistStamped(header=message.header)
+        command = TwistStamped()
+        command.header.stamp, command.header.frame_id = message.header.stamp, 'base_link'
         fill_twist(command.twist, self._towards_goal(self._pose) if known else SEARCHING)
         self._command.publish(command)
 
