@@ -53,7 +53,8 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def open(self) -> None:
         """Build the mind, give it back its memory, and open the topics."""
         given = self.parameters
-        zone = load_zone(find_config(given.zone_file), given.rim) if given.zone_file else None
+        self._rim = given.rim
+        zone = load_zone(find_config(given.zone_file), self._rim) if given.zone_file else None
         self._mind = Mind(zone, given.mind())
         self._company = self._join(given) if given.share_zone else None
         self._limits = Limits.of(given.limits)
@@ -69,7 +70,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = self.seconds()
         self._twist = REST
-        self._guard = BlockedGuard(given.blocked, given.rim, RELEASE)
+        self._guard = BlockedGuard(given.blocked, self._rim, RELEASE)
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
@@ -112,7 +113,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""
-        self._publish(self._limits.stop(), 'stopped')
+        self._publish(self._limits.stop(), 'stopped', self.seconds())
         if self._company is not None and self._pose is not None:
             self._company.park(self._pose)
         if self._keeper is not None:
@@ -240,16 +241,16 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
+        now = self.seconds()
         if self._obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(self._limits.stop(), self._obstacle)
+            self._publish(self._limits.stop(), self._obstacle, now)
             if self._company is not None and self._pose is not None:
                 self._company.stay(self._pose)
             return
-        now = self.seconds()
         thought = self._think(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
+        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity, now)
         if thought.goal is not self._told_goal:
             self._tell_goal(thought.goal)
         if thought.way[1:] != self._told_way[1:]:
@@ -263,10 +264,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._thought, self._thought_at = self._mind.think(now, pose, flow), now
         return self._thought
 
-    def _publish(self, limited: Limited, state: str) -> None:
-        self._limited_by, self._commanded_at = limited.by, self.seconds()
-        given = self.parameters
-        self._twist = to_twist(limited.command, given.linear_speed, given.rim)
+    def _publish(self, limited: Limited, state: str, now: float) -> None:
+        self._limited_by, self._commanded_at = limited.by, now
+        self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
         self._tell_twist(self._twist)
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'

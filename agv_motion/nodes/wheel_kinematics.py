@@ -79,7 +79,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._odometry_message = Odometry(child_frame_id=given.base_frame)
         self._odometry_message.header.frame_id = given.odom_frame
         self._command = self.publisher(JointState, 'turrets/command', COMMAND, sole=True)
-        self._limited_message = TwistStamped()
+        self._limited_message = TwistStamped(header=self._message.header)
         self._limited = self.publisher(TwistStamped, 'cmd_vel/limited', COMMAND)
         self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
@@ -189,8 +189,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         rates = [factor * speed for speed in plan.speeds]
         angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
         self._tell_turrets(angles, rates)
-        vx, vy, wz = plan.twist(self._driving.planner.turrets)
-        self._tell_limited(Twist(share * vx, share * vy, share * wz))
+        self._tell_limited()
         if self._arrays_wanted:
             self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
@@ -199,9 +198,15 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._joints.fill(self._message, angles, rates)
         self._command.publish(self._message)
 
-    def _tell_limited(self, twist: Twist) -> None:
-        """Tell what twist is commanded in truth, after all limits."""
-        self._limited_message.header = self._message.header
+    def _tell_limited(self) -> None:
+        """Tell where someone listens what twist is commanded in truth, after all limits."""
+        if not self._limited.get_subscription_count():
+            return
+        driving, twist = self._driving, REST
+        if driving.plan is not None:
+            share = driving.share()
+            vx, vy, wz = driving.plan.twist(driving.planner.turrets)
+            twist = Twist(share * vx, share * vy, share * wz)
         fill_twist(self._limited_message.twist, twist)
         self._limited.publish(self._limited_message)
 
@@ -223,7 +228,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             self.stamp(message)
             self._command.publish(message)
             self._message.header.stamp = message.header.stamp
-            self._tell_limited(REST)
+            self._tell_limited()
         else:
             self.stamp(self._message)
             self._send()

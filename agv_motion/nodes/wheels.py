@@ -243,13 +243,14 @@ class WheelsNode(ManagedNode[P]):
         self._send(REST)
 
     def _send(self, twist: Twist) -> None:
-        """Command the wheels; the plain array only where someone listens."""
+        """Command the wheels; the other two only where someone listens."""
         rates, limited, self._sent = self.rates(twist), self._limited_message, twist
         message = self.joints.message(rates)
         message.header = limited.header
         self._command.publish(message)
-        fill_twist(limited.twist, twist)
-        self._limited.publish(limited)
+        if self._limited.get_subscription_count():
+            fill_twist(limited.twist, twist)
+            self._limited.publish(limited)
         if self._extras_wanted:
             self._rates.publish(Float64MultiArray(data=array('d', rates)))
 

@@ -90,7 +90,8 @@ class InputWatch(Watchdog):
 
         """
         node = self._node
-        if node.clock.fault:
+        clock = node.clock
+        if clock.fault:
             return False
         now = node.nanoseconds()
         taken = stamp.sec * SECOND + stamp.nanosec
@@ -98,7 +99,8 @@ class InputWatch(Watchdog):
             stamp.sec, stamp.nanosec = divmod(now, SECOND)
             taken = now
         else:
-            require_near(node, taken, self._max_age, now)
+            if abs(now - taken) > self._max_age * clock.speed * SECOND:
+                require_near(node, taken, self._max_age, now)
             if taken <= self.newest and not self._begins_anew(taken):
                 self._repeats += 1
                 return False
