@@ -70,6 +70,9 @@ def summary(run: Run) -> Table:
         'fixes', f'{len(fixes)}, {np.mean(fixes >= OUTLIER) * 100:.0f} % outliers, the others err '
         f'{100 * np.sqrt(np.mean(sound**2)):.1f} cm (root mean square)',
     )  # fmt: skip
+    if not len(told):
+        table.add_row('pose', 'never told: position or heading was not known')
+        return table
     table.add_row(
         'pose', f'told {100 * len(told) / len(run.odom.stamp):.0f} % of the time, errs '
         f'{100 * np.median(told):.1f} cm in the median, {100 * np.percentile(told, 95):.1f} cm '

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from agv_motion.cli.bag_columns import PoseColumns, pose_columns
-from agv_motion.cli.demo_omni_report import Run, read_run
+from agv_motion.cli.demo_omni_report import Run, draw, read_run, summary
 from agv_motion.errors import ConfigurationError, SourceError
 
 
@@ -46,3 +46,11 @@ def test_odometry_is_laid_where_the_truth_begins():
     run = Run(truth, truth, truth, odom)
     assert run.odometry_alone().pose[:, 1] == pytest.approx([5.0, 2.0, np.pi / 2 + 0.1])
     assert run.error(run.odometry_alone())[:, 1] == pytest.approx([0.0, 0.0, 0.1], abs=1e-12)
+
+
+def test_a_drive_of_which_no_pose_was_told_is_reported_and_drawn_all_the_same(tmp_path):
+    truth = columns([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]])
+    run = Run(truth, columns(np.empty((3, 0))), truth, truth)
+    assert 'never told: position or heading was not known' in list(summary(run).columns[1].cells)
+    draw(run, tmp_path / 'path.png')
+    assert (tmp_path / 'path.png').stat().st_size > 10_000
