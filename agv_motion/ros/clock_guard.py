@@ -1,7 +1,13 @@
-"""What a node does about its clock: while it has a fault, every input is lost, and that is told."""
+"""What a node does about its clock: while it has a fault, every input is lost, and that is told.
+
+A node that has not run at all for a while (its process halted, its machine asleep) has lost its
+inputs too, however soon the next message comes: its motors have stopped by themselves, and what it
+knew is old.
+"""
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
@@ -33,6 +39,7 @@ class ClockGuard:
         self._node = node
         self._inputs: list[Watchdog] = []
         self._acts: list[Callable[[], None]] = []
+        self._ran_at, self._longest_nap = node.steady_seconds(), inf
         self._told, self._told_at = False, node.steady_seconds() + PATIENCE - SELDOM
 
     def add(self, watchdog: Watchdog) -> None:
@@ -43,9 +50,10 @@ class ClockGuard:
         self._inputs.append(watchdog)
         limit = min(each.stop_after for each in self._inputs)
         self.watch.stands_after = max(limit - LOOK_PERIOD, 0.5 * limit)
+        self._longest_nap = limit
 
     def on_fault(self, act: Callable[[], None]) -> None:
-        """Call ``act`` at every look at which the clock has a fault, while the node is active."""
+        """Call ``act``, which judges the inputs, while the clock has a fault, and after a nap."""
         self._acts.append(act)
 
     def clear(self) -> None:
@@ -53,21 +61,33 @@ class ClockGuard:
         self._inputs.clear()
         self._acts.clear()
         self.watch.stands_after = STANDS_AFTER
+        self._longest_nap = inf
 
     def forget_inputs(self) -> None:
         """Take all inputs for lost until they come again."""
         for watchdog in self._inputs:
             watchdog.forget()
 
+    def wake(self) -> None:
+        """Judge the inputs first where nothing has run for as long as one of them may be silent."""
+        now = self._node.steady_seconds()
+        slept, self._ran_at = now - self._ran_at > self._longest_nap, now
+        if slept:
+            self._act()
+
     def look(self) -> None:
         """Take all inputs for lost while the clock has a fault, and tell of it."""
         node, watch = self._node, self.watch
+        self.wake()
         watch.look(node.seconds(), node.steady_seconds())
         if watch.fault:
             self.forget_inputs()
-            for act in self._acts if node.active else ():
-                act()
+            self._act()
         self._tell(node.steady_seconds())
+
+    def _act(self) -> None:
+        for act in self._acts if self._node.active else ():
+            act()
 
     def _tell(self, steady: float) -> None:
         """Log that a fault has begun or ended."""

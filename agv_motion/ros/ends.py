@@ -76,6 +76,7 @@ class Ends:
                     unheard[topic] = lambda: guarded(message)
                 return
             try:
+                node.wake()
                 callback(message)
             except AgvMotionError as error:
                 node.refuse(f'{topic}: {node.message_of(error)}')
@@ -95,6 +96,7 @@ class Ends:
         def guarded() -> None:
             if node.active:
                 try:
+                    node.wake()
                     callback()
                 except AgvMotionError as error:
                     node.refuse(node.message_of(error))
@@ -111,6 +113,7 @@ class Ends:
         def guarded(request: Any, response: Any) -> Any:
             try:
                 self._require_active()
+                node.wake()
                 message, response.success = act(request), True
             except AgvMotionError as error:
                 message = f'refused: {node.message_of(error)}'

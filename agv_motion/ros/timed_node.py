@@ -54,6 +54,10 @@ class TimedNode(LifecycleNode):
         """Take an input for lost until it comes again, whenever the clock has a fault."""
         self._clock_guard.add(watchdog)
 
+    def wake(self) -> None:
+        """Judge the inputs before anything else, where the node has not run for too long."""
+        self._clock_guard.wake()
+
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Any, *args: Any, **kwargs: Any
     ) -> Any:

@@ -93,6 +93,23 @@ def test_a_twist_again_and_again_with_one_stamp_is_silence(tester, kind, topic):
     driver.stands()
 
 
+@pytest.mark.parametrize(('kind', 'topic'), DRIVES)
+def test_after_a_nap_of_its_process_the_wheels_start_from_rest(tester, kind, topic):
+    """The motors have stopped by themselves meanwhile, and a message is there at once."""
+    slow = {'max_wheel_acceleration': 0.1} if topic == 'wheels/command' else {}
+    driver = Driver(tester, kind, topic, **slow)
+    driver.moves()
+    node, slept = driver.node, [0.0]
+    node.steady_seconds = lambda: time.monotonic() + slept[0]
+    for _ in range(4):
+        tester.wait(driver.commands, lambda m: max(m.velocity) > 0.1)
+        now = node.nanoseconds() * 1e-9
+        slept[0] += 10.0
+        driver.commands.clear()
+        first = tester.wait(driver.commands, lambda m: seconds_of(m.header.stamp) >= now)  # noqa: B023
+        assert max(first.velocity) < 0.09  # a step of the ramp, or two
+
+
 @pytest.mark.parametrize(('kind', 'topic'), DRIVES[1:])
 def test_a_twist_in_another_frame_is_refused(tester, kind, topic):
     driver = Driver(tester, kind, topic)
