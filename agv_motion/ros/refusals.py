@@ -14,6 +14,9 @@ SOONEST, LATEST = 1.0, 60.0
 KINDS = 20
 """Reasons that are counted apart; what there is beyond that is told together."""
 
+OTHERS = 'any other'
+"""Name of what is told together."""
+
 _NUMBER = re.compile(r'[\d.]+')
 
 
@@ -35,10 +38,11 @@ class Refusals:
         """Count a refusal at ``now`` [s, steady]; return what to tell, empty if nothing."""
         name = _NUMBER.sub('#', reason)
         kind = self._kinds.get(name) or self._new(name, now)
+        like = 'others' if kind is self._kinds.get(OTHERS) else 'more like it'
         if now < kind.due:
             kind.untold += 1
             return ''
-        more = f' ({kind.untold} more like it since)' if kind.untold else ''
+        more = f' ({kind.untold} {like} since)' if kind.untold else ''
         kind.due, kind.untold = now + kind.pause, 0
         kind.pause = min(2.0 * kind.pause, LATEST)
         return f'{reason}{more}'
@@ -47,5 +51,5 @@ class Refusals:
         if len(self._kinds) >= KINDS:
             self._kinds = {n: k for n, k in self._kinds.items() if now < k.due + LATEST}
         if len(self._kinds) >= KINDS:
-            name = 'any other'
+            name = OTHERS
         return self._kinds.setdefault(name, _Kind(now))

@@ -8,6 +8,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import rclpy
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -151,16 +152,36 @@ def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
 
 
 def _run(node: ManagedNode[Any], until: Callable[[], bool]) -> None:
-    autostart = bool(node.declare_parameter('autostart', True).value)  # noqa: FBT003
-    executor = str(node.declare_parameter('executor', 'events').value)
-    if executor not in EXECUTORS:
-        msg = f"executor = '{executor}': choose one of {', '.join(EXECUTORS)}"
-        raise ConfigurationError(msg)
+    autostart, executor = declare(node)
     for text in passed_over(sys.argv, node.get_fully_qualified_name()):
         node.refuse(text)
     if autostart:
         start(node, until)
     spin([node], until, executor)
+
+
+def declare(node: ManagedNode[Any]) -> tuple[bool, str]:
+    """Declare how a node is run, which counts at its start alone; return `autostart`, `executor`.
+
+    Raises:
+        ConfigurationError: There is no such executor.
+
+    """
+    autostart = node.declare_parameter(
+        'autostart', True,  # noqa: FBT003 - its default
+        ParameterDescriptor(description='configure and activate by itself', read_only=True),
+    )  # fmt: skip
+    executor = node.declare_parameter(
+        'executor', 'events',
+        ParameterDescriptor(
+            description='what runs its callbacks', read_only=True,
+            additional_constraints=f'one of {", ".join(EXECUTORS)}',
+        ),
+    )  # fmt: skip
+    if executor.value not in EXECUTORS:
+        msg = f"executor = '{executor.value}': choose one of {', '.join(EXECUTORS)}"
+        raise ConfigurationError(msg)
+    return bool(autostart.value), str(executor.value)
 
 
 def _line(error: Exception) -> str:

@@ -39,6 +39,12 @@ def test_however_many_reasons_there_are_the_log_stays_short():
     assert len(told(Refusals(), names, [0.0] * 5000)) <= KINDS + 1
 
 
+def test_what_is_told_together_is_not_counted_as_alike():
+    refusals = Refusals()
+    told(refusals, ['a' * n for n in range(1, KINDS + 10)], [0.0] * (KINDS + 9))
+    assert refusals.line('one of its own', 1.0) == 'one of its own (8 others since)'
+
+
 def test_reasons_that_are_over_make_room_for_others():
     refusals = Refusals()
     told(refusals, ['a' * n for n in range(1, 100)], [0.0] * 99)

@@ -8,8 +8,9 @@ rclpy = pytest.importorskip('rclpy')
 
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 
+from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros import run as run_module
-from agv_motion.ros.run import EXECUTORS, spin, start
+from agv_motion.ros.run import EXECUTORS, declare, spin, start
 
 
 class Node(LifecycleNode):
@@ -66,6 +67,16 @@ def test_one_that_cannot_shut_down_keeps_no_other_from_it(graph):
     shut.trigger_shutdown()
     spin([bad, shut, good], lambda: True, context=graph.context)
     assert good.ended
+
+
+def test_how_a_node_is_run_counts_at_its_start_alone(graph):
+    node = DifferentialKinematics(context=graph.context)
+    graph.nodes.append(node)
+    assert declare(node) == (True, 'events')
+    for name, value in {'autostart': False, 'executor': 'single_threaded'}.items():
+        (answer,) = node.set_parameters([rclpy.Parameter(name, value=value)])
+        assert not answer.successful
+        assert 'read-only' in answer.reason
 
 
 def test_a_start_that_is_no_longer_wanted_stops_half_way():
