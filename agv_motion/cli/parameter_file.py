@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from agv_motion.cli.graph import meant
 from agv_motion.errors import ConfigurationError
-from agv_motion.files import yaml_text
 from agv_motion.files.marked import quoted
 from agv_motion.parameters import nested, rows
+from agv_motion.ros.parameter_arguments import sections
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,27 +33,30 @@ def load_parameters(path: Path, node: str, kind: type[T]) -> T:
             that there is not, or a value is of another type or refused by its row.
 
     """
-    content = yaml_text.load(path, 'the parameters').value
-    sections = content if isinstance(content, dict) else {}
-    own, shared = (_section(sections, name) for name in (node, '**'))
-    if own and shared:
-        known = {*(name for name, _, _ in rows(kind)), *dict(nested(kind))}
-        own = {name: value for name, value in shared.items() if name in known} | own
-    if own or shared:
-        return _build(kind, own or shared or {}, f'{path}: ', '')
-    found = ', '.join(sections) or 'nothing'
-    msg = f'{path}: no section /**/{node} with ros__parameters; there is {found:.200}'
+    found = sections(path)
+    own = [(key, values) for key, values in found if key.rpartition('/')[2] in {node, '**'}]
+    robots = sorted({key.rpartition('/')[0] for key, _ in own} - {'', '/**'})
+    if len(robots) > 1:
+        msg = f'{path}: {node} of several robots, {", ".join(robots)}: give a file with one of them'
+        raise ConfigurationError(msg)
+    if own:
+        return _build(kind, _merged(own, node, kind), f'{path}: ', '')
+    there = ', '.join(key for key, _ in found) or 'nothing'
+    msg = f'{path}: no section /**/{node} with ros__parameters; there is {there:.200}'
     raise ConfigurationError(msg)
 
 
-def _section(sections: dict[Any, Any], node: str) -> dict[str, Any] | None:
-    """Return the parameters under a name that ends in ``node``, None where there are none."""
-    for name, section in sections.items():
-        if str(name).split('/')[-1] == node and isinstance(section, dict):
-            values = section.get('ros__parameters')
-            if isinstance(values, dict):
-                return values
-    return None
+def _merged(
+    found: list[tuple[str, dict[str, Any]]], node: str, kind: type[DataclassInstance]
+) -> dict[str, Any]:
+    """Return the parameters of a node; of what is for all nodes, those that it has."""
+    known = {*(name for name, _, _ in rows(kind)), *dict(nested(kind))}
+    alone = all(key.rpartition('/')[2] != node for key, _ in found)
+    merged: dict[str, Any] = {}
+    for key, values in found:
+        own = alone or key.rpartition('/')[2] == node
+        merged |= {name: value for name, value in values.items() if own or name in known}
+    return merged
 
 
 def _build(kind: type[T], values: dict[str, Any], where: str, prefix: str) -> T:

@@ -30,6 +30,9 @@ def reprocess(
     nodes: Annotated[
         str, typer.Option('-n', '--nodes', help='Which nodes, separated by commas.')
     ] = ','.join(NODES),
+    namespace: Annotated[
+        str, typer.Option('--namespace', help='Of the robot, such as oak for /oak/cmd_vel.')
+    ] = '',
     remap: Annotated[
         list[str] | None,
         typer.Option('-m', '--remap', help='Name in the node:=name in the bag; one per option.'),
@@ -53,7 +56,8 @@ def reprocess(
     agv reprocess recordings/2015 results/2015 --workers 8
     agv reprocess walk again --nodes wheel_kinematics
     """
-    from agv_motion.cli.reprocess_bag import Plan, node_class, parameters
+    from agv_motion.cli.recorded import node_class, parameters
+    from agv_motion.cli.reprocess_bag import Plan
     from agv_motion.cli.workers import outcomes
 
     *sources, target = bags
@@ -61,10 +65,15 @@ def reprocess(
         msg = f'give at least one bag and where to write: agv reprocess {target} RESULT'
         raise ConfigurationError(msg)
     chosen = tuple(name.strip() for name in nodes.split(',') if name.strip())
-    plan = Plan(config, chosen, tuple(_pair(one) for one in remap or ()), compression)
+    if not chosen:
+        msg = f'--nodes {nodes!r}: give at least one node; the default is {",".join(NODES)}'
+        raise ConfigurationError(msg)
+    robot = '/' + namespace.strip('/')
+    plan = Plan(config, chosen, tuple(_pair(one) for one in remap or ()), compression, robot)
     for name in chosen:
         node_class(name)
-        parameters(config, name)
+        if not parameters(config, name, robot) and config:
+            typer.echo(f'note: {config} has nothing for {name}, which takes its defaults', err=True)
     jobs = _jobs(sources, target)
     found: list[Outcome] = []
     with Progress(console=terminal(stderr=True), transient=True) as progress:
@@ -83,12 +92,12 @@ def reprocess(
 
 
 def _pair(remap: str) -> tuple[str, str]:
-    """Return both full names of a remapping."""
+    """Return both names of a remapping."""
     name, mark, other = remap.partition(':=')
     if not (name and mark and other):
         msg = f"remap '{remap}': give NAME:=OTHER, such as pose:=fix"
         raise ConfigurationError(msg)
-    return f'/{name.lstrip("/")}', f'/{other.lstrip("/")}'
+    return name, other
 
 
 def _jobs(sources: list[Path], target: Path) -> list[tuple[Path, Path]]:
@@ -137,10 +146,16 @@ def _tell(found: list[Outcome]) -> None:
         )  # fmt: skip
     if table.row_count:
         terminal().print(table)
+    if any(one.simulated for one in found):
+        typer.echo('note: the time is that of /clock in the bag')
     for missing in sorted({topic for one in found for topic in one.missing}):
         typer.echo(
             f'note: {missing} is not in the bag; if it has another name there, remap with -m'
         )
+    _tell_complaints(found)
+
+
+def _tell_complaints(found: list[Outcome]) -> None:
     complaints: dict[str, int] = {}
     for one in found:
         for text, count in one.complaints.items():

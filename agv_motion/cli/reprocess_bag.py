@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import time
 from contextlib import suppress
 from itertools import islice
@@ -15,13 +14,12 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.unfinished import beside
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli import provenance
-from agv_motion.cli.nodes import require_node
-from agv_motion.cli.recorded_nodes import RECORDED
-from agv_motion.errors import AgvMotionError, ConfigurationError
-from agv_motion.files import yaml_text
+from agv_motion.cli.bag_clock import BagClock
+from agv_motion.cli.recorded import node_class, parameters
+from agv_motion.errors import AgvMotionError
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
-from agv_motion.ros.in_process import add
+from agv_motion.ros.in_process import add, full_name
 from agv_motion.ros.messages import type_name
 from agv_motion.ros.world import Publisher, World
 
@@ -43,8 +41,14 @@ class Plan(NamedTuple):
     nodes: tuple[str, ...]
     """in the order in which they start"""
     remap: tuple[tuple[str, str], ...]
-    """full names of topics: as a node has it, as the bag has it"""
+    """names of topics, relative ones in the namespace: as a node has it, as the bag has it"""
     compression: str
+    namespace: str = '/'
+    """of the nodes, such as ``/oak``"""
+
+    def names(self) -> dict[str, str]:
+        """Return the remapping by full names."""
+        return {full_name(a, self.namespace): full_name(b, self.namespace) for a, b in self.remap}
 
 
 class Outcome(NamedTuple):
@@ -65,6 +69,8 @@ class Outcome(NamedTuple):
     """why there is no result; empty if there is"""
     made_before: bool = False
     """whether an earlier run has made the same"""
+    simulated: bool = False
+    """whether the time was that of `/clock` in the bag"""
 
 
 class Abandoned(BaseException):
@@ -148,32 +154,35 @@ def reprocess(
 
 
 def _run(source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None) -> Outcome:
-    given = {name: parameters(plan.config, name) for name in plan.nodes}
-    made_by = given, plan.nodes, plan.remap, plan.compression, _contents(given)
+    given = {name: parameters(plan.config, name, plan.namespace) for name in plan.nodes}
+    made_by = given, plan._replace(config=''), _contents(given)
     digest = provenance.fingerprint(source, made_by)
     if provenance.is_made(target, digest):
         return Outcome(str(source), made_before=True)
     with BagReader(source) as bag, beside(target) as made:
         with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
             transcript = Transcript(writer)
-            world = World(transcript.record, bag.start)
+            clock = BagClock(bag)
+            world = World(transcript.record, clock.start)
             world.recorded = bag.topics
             for name in plan.nodes:
-                add(world, node_class(name), given[name], dict(plan.remap))
+                add(world, node_class(name), given[name], plan.names(), plan.namespace)
             world.start()
             inputs, heard = world.inputs(), 0
-            for count, now in _feed(world, bag.messages(sorted(inputs & set(bag.topics)))):
+            wanted = sorted((inputs | clock.topics) & set(bag.topics))
+            for count, now in _feed(world, bag.messages(wanted), clock):
                 heard += count
                 if tell is not None:
                     tell((now - bag.start) / max(bag.end - bag.start, 1))
-            world.run(bag.end)
+            world.run(clock.end())
             world.stop()
             transcript.flush()
         provenance.note(made, source, digest)
         missing = tuple(sorted(inputs - set(bag.topics)))
-        span = (bag.end - bag.start) * 1e-9
+        span = (clock.end() - clock.start) * 1e-9
+        counts = heard, transcript.messages
         return Outcome(
-            str(source), heard, transcript.messages, span, 0.0, missing, world.complaints
+            str(source), *counts, span, 0.0, missing, world.complaints, simulated=bool(clock.topics)
         )
 
 
@@ -187,61 +196,16 @@ def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]
     return found
 
 
-def _feed(world: World, messages: Iterator[Message]) -> Iterator[tuple[int, int]]:
-    """Let messages be heard, many shown beforehand; yield how many, and the time [ns]."""
+def _feed(world: World, messages: Iterator[Message], clock: BagClock) -> Iterator[tuple[int, int]]:
+    """Let messages be heard, many shown beforehand; yield how many, and the log time [ns]."""
     feed = world.feed
     while together := list(islice(messages, TOGETHER)):
-        topics: dict[str, list[Message]] = {}
-        for message in together:
-            topics.setdefault(message.connection.topic, []).append(message)
-        for topic, found in topics.items():
-            world.look_ahead(topic, [m.data for m in found], [m.stamp for m in found])
-        for message in together:
-            feed(message.connection.topic, message.stamp, message.data)
+        times = [clock.time_of(message) for message in together]
+        topics: dict[str, list[int]] = {}
+        for i, message in enumerate(together):
+            topics.setdefault(message.connection.topic, []).append(i)
+        for topic, places in topics.items():
+            world.look_ahead(topic, [together[i].data for i in places], [times[i] for i in places])
+        for message, now in zip(together, times, strict=True):
+            feed(message.connection.topic, now, message.data)
         yield len(together), together[-1].stamp
-
-
-def node_class(name: str) -> Any:
-    """Return the class of a node of this package, for a recording.
-
-    Raises:
-        ConfigurationError: There is none of this name.
-
-    """
-    if name in RECORDED:
-        return RECORDED[name]
-    require_node(name)
-    module = importlib.import_module(f'agv_motion.nodes.{name}')
-    return getattr(module, ''.join(word.capitalize() for word in name.split('_')))
-
-
-def parameters(config: str, node: str) -> dict[str, Any]:
-    """Return the parameters of a node by dotted name, from a file as ROS takes it.
-
-    Raises:
-        ConfigurationError: The file is missing or no YAML.
-
-    """
-    if not config:
-        return {}
-    path = find_config(config)
-    try:
-        content = yaml_text.load(path, 'the parameters').value
-        values: dict[str, Any] = {}
-        for pattern, section in content.items():
-            if pattern == '/**' or pattern.rpartition('/')[2] == node:
-                values |= dict(_flat(section['ros__parameters'], ''))
-    except (AttributeError, KeyError, TypeError) as error:
-        msg = f'{path}: {error}; expected nodes, each with ros__parameters'
-        raise ConfigurationError(msg) from error
-    if node == 'granier_probe':
-        values['state_file'] = ''  # what the robot has learnt stays untouched
-    return values
-
-
-def _flat(values: dict[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
-    for name, value in values.items():
-        if isinstance(value, dict):
-            yield from _flat(value, f'{prefix}{name}.')
-        else:
-            yield prefix + name, value

@@ -32,6 +32,7 @@ def add(
     kind: type[ManagedNode[Any]],
     parameters: Mapping[str, Any],
     remap: Mapping[str, str],
+    namespace: str = '/',
 ) -> Any:
     """Make a node in ``world`` and configure it.
 
@@ -40,12 +41,13 @@ def add(
         kind: Class of the node.
         parameters: Values by dotted name; what is not a parameter of it is refused.
         remap: Full names of topics, by the full names that the node uses.
+        namespace: Of the node, such as ``/oak``.
 
     Raises:
         ConfigurationError: A parameter is wrong, or the node cannot be configured.
 
     """
-    node: Any = in_process(kind)(setup=Setup(world, dict(parameters), dict(remap)))
+    node: Any = in_process(kind)(setup=Setup(world, dict(parameters), dict(remap), namespace))
     unknown = set(parameters) - node.declared - OF_RCLPY - OF_THE_PLATFORM
     if unknown:
         msg = f'{node.get_name()} has no parameter {", ".join(sorted(unknown))}'
@@ -61,6 +63,12 @@ class Setup(NamedTuple):
     world: World
     parameters: dict[str, Any]
     remap: dict[str, str]
+    namespace: str = '/'
+
+
+def full_name(topic: str, namespace: str) -> str:
+    """Return the full name of a topic, which may be relative to a namespace."""
+    return topic if topic.startswith('/') else f'{namespace.rstrip("/")}/{topic}'
 
 
 class _Value(NamedTuple):
@@ -72,7 +80,7 @@ class InProcessNode(_Rclpy):
 
     def __init__(self, name: str, *, setup: Setup) -> None:
         """Join a world, without a word to rclpy."""
-        self.world, self._overrides, self._remap = setup
+        self.world, self._overrides, self._remap, self._own_namespace = setup
         self._own_name = name
         self.declared: set[str] = set()
         self.logger = Logger(name, self.world.complaints)
@@ -83,8 +91,8 @@ class InProcessNode(_Rclpy):
         return self._own_name
 
     def get_namespace(self) -> str:
-        """Return the root."""
-        return '/'
+        """Return the namespace."""
+        return self._own_namespace
 
     def get_logger(self) -> Any:
         """Return what keeps warnings."""
@@ -180,7 +188,7 @@ class InProcessNode(_Rclpy):
     def _full(self, topic: str) -> str:
         if topic.startswith('~'):
             topic = f'{self._own_name}{topic[1:]}'
-        full = topic if topic.startswith('/') else f'/{topic}'
+        full = full_name(topic, self._own_namespace)
         return self._remap.get(full, full)
 
 

@@ -43,21 +43,21 @@ def check_arguments(arguments: Sequence[str]) -> None:
             msg = f"-p '{rule}': write -p name:=value"
             raise ConfigurationError(msg)
     for path in _given(arguments, '--params-file'):
-        list(_sections(path, _content(path), ''))
+        sections(path)
 
 
 def passed_over(arguments: Sequence[str], node: str) -> Iterator[str]:
     """Yield what of a command line has nothing for ``node``, a name with its namespace."""
     for path in _given(arguments, '--params-file'):
-        keys = list(_sections(path, _content(path), ''))
-        if keys and not any(_is_for(key, node) for key in keys):
+        keys = [key for key, _ in sections(path)]
+        if keys and not any(is_for(key, node) for key in keys):
             yield (
                 f"parameter file '{path}' has nothing for {node}: it is for "
                 f'{", ".join(keys)}{meant(node, keys)}'
             )
     for rule in _given(arguments, *SINGLE):
         key, found, _ = rule.partition(':=')[0].partition(':')
-        if found and not _is_for(key, node):
+        if found and not is_for(key, node):
             yield f"-p {rule} is for the node '{key}', this one is {node}{meant(node, ['/' + key])}"
 
 
@@ -76,8 +76,20 @@ def _content(path: str) -> Any:
     return {} if content is None else content.value
 
 
-def _sections(path: str, content: Any, prefix: str) -> Iterator[str]:
-    """Yield the name of each node, with its namespace, that has parameters in a file."""
+def sections(path: Path | str) -> list[tuple[str, dict[str, Any]]]:
+    """Return what a parameter file says: full names of nodes, and their parameters.
+
+    Names may be nested, and hold ``*`` for a word and ``**`` for any namespace. Of what several
+    sections give to a node, the last one counts, as for ROS.
+
+    Raises:
+        ConfigurationError: It cannot be read, is no YAML, or holds a value outside of any node.
+
+    """
+    return list(_sections(str(path), _content(str(path)), ''))
+
+
+def _sections(path: str, content: Any, prefix: str) -> Iterator[tuple[str, dict[str, Any]]]:
     if not isinstance(content, dict):
         where = f"'{prefix}' = {content!r} stands" if prefix else f'{content!r} stands'
         msg = (
@@ -92,10 +104,10 @@ def _sections(path: str, content: Any, prefix: str) -> Iterator[str]:
             msg = f'{path}: {VALUES} stands at the top: write it below the name of a node, or /**'
             raise ConfigurationError(msg)
         else:
-            yield prefix
+            yield prefix, value if isinstance(value, dict) else {}
 
 
-def _is_for(key: str, node: str) -> bool:
+def is_for(key: str, node: str) -> bool:
     """Return whether a name, where ``/**`` is any namespace and ``/*`` one word, is of a node."""
     pattern = re.escape('/' + key.strip('/'))
     pattern = pattern.replace(r'/\*\*', '(/[^/]+)*').replace(r'\*', '[^/]+')

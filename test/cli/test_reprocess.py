@@ -15,19 +15,24 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from agv_motion.bag.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
+from agv_motion.cli.nodes import available
+from agv_motion.cli.recorded import LIVE_ONLY, node_class, parameters
 from agv_motion.cli.recorded_nodes import RECORDED
-from agv_motion.cli.reprocess_bag import Plan, Transcript, parameters, reprocess
+from agv_motion.cli.reprocess_bag import Plan, Transcript, reprocess
+from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process import add
+from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.world import World
 
 SECOND = 1_000_000_000
@@ -283,6 +288,127 @@ def test_a_failure_leaves_no_half_result(recorded, tmp_path):
     shutil.rmtree(tmp_path / 'out')
     outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(nodes=('nothing',)))
     assert "no node 'nothing'" in outcome.failure
+    assert not (tmp_path / 'out').exists()
+
+
+def test_every_node_that_can_be_without_a_graph_runs(recorded, tmp_path):
+    nodes = tuple(name for name in available() if name not in LIVE_ONLY)
+    assert {'sequence', 'route_follower', 'localization', 'ghost_trajectory'} <= set(nodes)
+    for name in nodes:
+        assert node_class(name).__name__
+    quiet = Plan('', ('sequence', 'route_follower', 'ghost_trajectory'), (), 'zstd')
+    outcome = reprocess(recorded / 'c', tmp_path / 'out', quiet)
+    assert not outcome.failure
+    assert outcome.messages_in > 0
+    for name in LIVE_ONLY:
+        with pytest.raises(ConfigurationError, match='live graph only'):
+            node_class(name)
+
+
+FILE = """
+oak:
+  wheel_kinematics: {ros__parameters: {wheel_radius: 0.21}}
+/elm/wheel_kinematics: {ros__parameters: {wheel_radius: 0.22}}
+/oak/**: {ros__parameters: {rate: 7.0, laps: 3}}
+"""
+
+
+def test_parameters_are_those_that_the_live_node_would_take(tmp_path):
+    path = tmp_path / 'two.yaml'
+    path.write_text(FILE)
+    given = parameters(str(path), 'wheel_kinematics', '/oak')
+    assert given['wheel_radius'] == 0.21
+    assert 'laps' not in given
+    assert parameters(str(path), 'wheel_kinematics', '/elm') == {'wheel_radius': 0.22}
+    assert parameters(str(path), 'route_follower', '/oak')['laps'] == 3
+    assert parameters(str(path), 'route_follower', '/') == {}
+    with pytest.raises(ConfigurationError, match='it is for /elm or /oak; give it by --namespace'):
+        parameters(str(path), 'wheel_kinematics')
+    path.write_text(FILE + '"/**": {ros__parameters: {wheel_radius: 0.3}}\n')
+    assert parameters(str(path), 'wheel_kinematics', '/oak')['wheel_radius'] == 0.3  # as rcl does
+
+
+def test_what_the_robot_has_learnt_stays_untouched(tmp_path):
+    path = tmp_path / 'one.yaml'
+    path.write_text('/**: {ros__parameters: {memory_file: /m, state_file: /s}}\n')
+    assert parameters(str(path), 'motion_generator')['memory_file'] == ''
+    assert parameters(str(path), 'granier_probe')['state_file'] == ''
+
+
+def copied(source, target, change):
+    """Write a bag again, message by message as ``change`` of (topic, stamp, data) has it."""
+    with BagReader(source) as bag, BagWriter(target) as writer:
+        topics = {}
+        for message in bag.messages():
+            for topic, stamp, data, kind in change(message):
+                if topic not in topics:
+                    topics[topic] = writer.add_topic(topic, kind)
+                writer.write(topics[topic], stamp, data)
+    return target
+
+
+def test_a_robot_with_a_namespace_is_the_same_robot(recorded, tmp_path):
+    def named(message):
+        topic = message.connection.topic
+        yield f'/oak{topic}', message.stamp, message.data, message.connection.type
+
+    copied(recorded / 'c', tmp_path / 'oak', named)
+    joints = codec(JointState)
+    only = PLAN._replace(nodes=('wheel_kinematics',))
+    there = only._replace(namespace='/oak', remap=())
+    assert not reprocess(recorded / 'c', tmp_path / 'one', only).failure
+    assert not reprocess(tmp_path / 'oak', tmp_path / 'two', there).failure
+    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
+        assert set(two.topics) == {f'/oak{topic}' for topic in one.topics}
+        assert one.counts['/turrets/command'] > 0
+        for a, b in zip(
+            one.messages(['/turrets/command']), two.messages(['/oak/turrets/command']), strict=True
+        ):
+            ours, theirs = (joints.decode(message.data) for message in (a, b))
+            assert (a.stamp, ours.position, ours.velocity) == (
+                b.stamp, theirs.position, theirs.velocity
+            )  # fmt: skip
+
+
+def test_the_time_is_that_of_the_clock_in_the_bag(recorded, tmp_path):
+    """Beside a simulation ten times as fast as the clock on the wall."""
+    clocks = codec(Clock)
+
+    def hurried(message):
+        wall = NOON + (message.stamp - NOON) // 10
+        tick = clocks.encode(Clock(clock=stamp_of(message.stamp)))
+        if message.connection.topic != '/clock':
+            yield '/clock', wall, tick, 'rosgraph_msgs/msg/Clock'
+            yield message.connection.topic, wall, message.data, message.connection.type
+
+    copied(recorded / 'c', tmp_path / 'hurried', hurried)
+    only = PLAN._replace(nodes=('wheel_kinematics',))
+    assert not reprocess(recorded / 'c', tmp_path / 'one', only).simulated
+    outcome = reprocess(tmp_path / 'hurried', tmp_path / 'two', only)
+    assert not outcome.failure
+    assert outcome.simulated
+    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
+        assert one.counts['/odom'] > 100
+        for topic in diff(one, two, ['/odom', '/turrets/command'], Tolerance()):
+            assert topic.same, topic
+        assert abs(one.end - two.end) < SECOND
+
+
+def test_a_clock_that_goes_back_is_told(tmp_path):
+    clocks = codec(Clock)
+    with BagWriter(tmp_path / 'in') as writer:
+        topic = writer.add_topic('/clock', 'rosgraph_msgs/msg/Clock')
+        for i, second in enumerate((5, 6, 2)):
+            writer.write(topic, i, clocks.encode(Clock(clock=stamp_of(second * SECOND))))
+    outcome = reprocess(tmp_path / 'in', tmp_path / 'out', PLAN)
+    assert '/clock goes back from 6000000000 to 2000000000 ns' in outcome.failure
+    assert not (tmp_path / 'out').exists()
+
+
+def test_no_node_is_an_error(alone, recorded, tmp_path):
+    status, _, errors = alone('reprocess', recorded / 'c', tmp_path / 'out', '-n', ' ,')
+    assert status == 1
+    assert 'give at least one node' in errors
     assert not (tmp_path / 'out').exists()
 
 
