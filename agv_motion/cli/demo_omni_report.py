@@ -140,7 +140,7 @@ def _draw_errors(position: Any, heading: Any, run: Run) -> None:
         (run.pose, {'lw': 1.0, 'color': 'tab:blue', 'label': 'pose'}),
     ):
         wrong = run.error(of)
-        gap = np.diff(of.stamp, append=of.stamp[-1]) > 1.0
+        gap = np.diff(of.stamp, append=of.stamp[-1:]) > 1.0
         position.plot(of.stamp, np.where(gap, np.nan, np.hypot(*wrong[:2])), **style)
         if of is not run.fix:
             heading.plot(of.stamp, np.where(gap, np.nan, np.degrees(np.abs(wrong[2]))), **style)
@@ -161,6 +161,6 @@ def _draw_errors(position: Any, heading: Any, run: Run) -> None:
 def _broken(columns: PoseColumns) -> tuple[Array, Array]:
     """Return x and y, not joined over a jump of more than half a metre in a step."""
     x, y, _ = columns.pose.copy()
-    jumps = np.hypot(np.diff(x, append=x[-1]), np.diff(y, append=y[-1])) > 0.5
+    jumps = np.hypot(np.diff(x, append=x[-1:]), np.diff(y, append=y[-1:])) > 0.5
     x[jumps] = np.nan
     return x, y

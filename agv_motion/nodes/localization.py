@@ -164,6 +164,8 @@ class Localization(ManagedNode[LocalizationParameters]):
     def _on_fix(self, message: PoseWithCovarianceStamped) -> None:
         """Take a fix; one whose yaw has no variance, or one of any heading, has no heading."""
         require_frame(message.header.frame_id, self.parameters.map_frame)
+        if self.clock.fault:  # nobody knows how old it is
+            return
         self._require_recent(message.header.stamp)
         covariance = covariance_of(message.pose.covariance)
         pose = pose_of(message.pose.pose)

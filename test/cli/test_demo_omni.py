@@ -50,7 +50,8 @@ def test_odometry_is_laid_where_the_truth_begins():
 
 def test_a_drive_of_which_no_pose_was_told_is_reported_and_drawn_all_the_same(tmp_path):
     truth = columns([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]])
-    run = Run(truth, columns(np.empty((3, 0))), truth, truth)
+    fix = columns([[0.1, 1.1], [0.0, 0.1], [0.02, 0.01]])
+    run = Run(truth, columns(np.empty((3, 0))), fix, fix)
     assert 'never told: position or heading was not known' in list(summary(run).columns[1].cells)
     draw(run, tmp_path / 'path.png')
     assert (tmp_path / 'path.png').stat().st_size > 10_000

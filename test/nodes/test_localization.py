@@ -9,6 +9,7 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
@@ -37,7 +38,7 @@ class Robot:
         self.lifted = Pose(0.0, 0.0, 0.0)
         self.poses = tester.listen(PoseWithCovarianceStamped, 'pose', SENSOR)
         self.filtered = tester.listen(Odometry, 'odom/filtered', SENSOR)
-        self.node = tester.start(Localization, max_age=1e10, **parameters)
+        self.node = tester.start(Localization, **({'max_age': 1e10} | parameters))
         self.odom = tester.publisher(Odometry, 'odom', SENSOR)
         self.fix = tester.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         self.imu = tester.publisher(Imu, 'imu', SENSOR)
@@ -296,3 +297,12 @@ def test_transforms_where_tf2_msgs_is_installed(tester):
         for move in (found['map', 'odom'].transform, found['odom', 'base_link'].transform)
     ]
     assert compose(*chain) == pytest.approx(pose_of(robot.poses[-1].pose.pose), abs=1e-9)
+
+
+def test_without_a_clock_no_fix_is_blamed_for_its_stamp(tester):
+    told = tester.listen(DiagnosticArray, '/diagnostics', 10)
+    robot = Robot(tester, use_sim_time=True, max_age=2.0)
+    tester.node.create_timer(0.02, lambda: robot.fix.publish(robot.sight(1e9, START)))
+    tester.wait(told, lambda m: 'no time has come on /clock yet' in m.status[0].message)
+    tester.graph.spin_for(0.1)
+    assert not robot.node.complaint
