@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.highlevel import AnyReader, AnyReaderError
 
-from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.bag.reader import BagReader
+from agv_motion.cli.bag_messages import decoded
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
 
 Array = NDArray[np.float64]
+
+POSES = ('nav_msgs/msg/Odometry', 'geometry_msgs/msg/PoseWithCovarianceStamped')
+JOINTS = 'sensor_msgs/msg/JointState'
 
 
 class PoseColumns(NamedTuple):
@@ -41,8 +45,8 @@ class JointColumns(NamedTuple):
 
 def topics_of(bag: Path) -> dict[str, str]:
     """Return the topics of a bag with their types."""
-    with _open(bag) as reader:
-        return {c.topic: c.msgtype for c in reader.connections}
+    with BagReader(bag) as reader:
+        return {topic: connection.type for topic, connection in reader.topics.items()}
 
 
 def pose_columns(bag: Path, topics: Iterable[str]) -> list[PoseColumns]:
@@ -50,10 +54,11 @@ def pose_columns(bag: Path, topics: Iterable[str]) -> list[PoseColumns]:
 
     Raises:
         SourceError: The bag cannot be read.
-        ConfigurationError: It does not have one of the topics.
+        ConfigurationError: It does not have one of the topics, or one is of another type.
 
     """
-    columns = []
+    columns, topics = [], list(topics)
+    _require_type(bag, topics, POSES)
     for rows in _rows(bag, topics, _pose_row):
         table = np.array(rows, dtype=float).reshape(len(rows), 10).T
         columns.append(PoseColumns(*_in_order(table[0], table[1:4], table[4:])))
@@ -65,9 +70,11 @@ def joint_columns(bag: Path, topic: str, names: list[str]) -> JointColumns:
 
     Raises:
         SourceError: The bag cannot be read.
-        ConfigurationError: It does not have the topic, or no message has all the names.
+        ConfigurationError: It does not have the topic, that is of another type, or no message has
+            all the names.
 
     """
+    _require_type(bag, [topic], (JOINTS,))
     seen: set[str] = set()
 
     def row(message: Any) -> tuple[float, ...] | None:
@@ -90,32 +97,27 @@ def joint_columns(bag: Path, topic: str, names: list[str]) -> JointColumns:
     return JointColumns(*_in_order(table[0], table[1 : 1 + len(names)], table[1 + len(names) :]))
 
 
-def _open(bag: Path) -> AnyReader:
-    try:
-        return AnyReader([bag])
-    except (AnyReaderError, OSError, ValueError) as error:
-        msg = f"cannot read the bag '{bag}': {error}"
-        raise SourceError(msg) from error
+def _require_type(bag: Path, topics: Iterable[str], types: Sequence[str]) -> None:
+    known = topics_of(bag)
+    for topic in topics:
+        if known.get(topic, types[0]) not in types:
+            fitting = sorted(name for name, kind in known.items() if kind in types)
+            msg = f'{topic} is {known[topic]}, expected {" or ".join(types)}: ' + (
+                f'choose one of {", ".join(fitting)}' if fitting else 'the bag has none'
+            )
+            raise ConfigurationError(msg)
 
 
-def _rows(bag: Path, topics: Iterable[str], row: Any) -> list[list[tuple[float, ...]]]:
+def _rows(
+    bag: Path, topics: Iterable[str], row: Callable[[Any], tuple[float, ...] | None]
+) -> list[list[tuple[float, ...]]]:
     names = list(topics)
     rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in names}
-    try:
-        with _open(bag) as reader:
-            known = {c.topic for c in reader.connections}
-            for name in names:
-                if name not in known:
-                    msg = f"bag {bag} has no topic '{name}'; it has {', '.join(sorted(known))}"
-                    raise ConfigurationError(msg)
-            wanted = [c for c in reader.connections if c.topic in rows]
-            for connection, _, data in reader.messages(wanted):
-                found = row(reader.deserialize(data, connection.msgtype))
-                if found is not None:
-                    rows[connection.topic].append(found)
-    except (AnyReaderError, OSError) as error:
-        msg = f"cannot read the bag '{bag}': {error}"
-        raise SourceError(msg) from error
+    with BagReader(bag) as reader:
+        for connection, message in decoded(reader, rows):
+            found = row(message)
+            if found is not None:
+                rows[connection.topic].append(found)
     return [rows[name] for name in names]
 
 
@@ -134,7 +136,8 @@ def _seconds(message: Any) -> float:
 
 
 def _picked(values: Any, places: list[int]) -> list[float]:
-    return [float(values[i]) for i in places] if len(values) else [np.nan] * len(places)
+    whole = len(values) > max(places, default=-1)
+    return [float(values[i]) for i in places] if whole else [np.nan] * len(places)
 
 
 def _in_order(stamp: Array, *tables: Array) -> tuple[Array, ...]:

@@ -8,7 +8,10 @@ from agv_motion.bag.message_decoder import MessageDecoder
 from agv_motion.bag.message_type import NOTHING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
     from agv_motion.bag.connection import Connection
+    from agv_motion.bag.reader import BagReader
 
 _ROS_NAMES = {'float32': 'float', 'float64': 'double', 'bool': 'boolean', 'byte': 'octet'}
 _BASE, _NAME, _ARRAY = 1, 2, 3
@@ -27,6 +30,25 @@ def decoder(connection: Connection) -> MessageDecoder:
         types = {field: _type(found) for field, found in fields if field != NOTHING}
         kind.get_fields_and_field_types = _constant(types)  # type: ignore[attr-defined] # as rclpy
     return decode
+
+
+def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Connection, Any]]:
+    """Yield the messages of some topics as objects, by log time, each with its connection.
+
+    Raises:
+        ConfigurationError: A topic is not there, or its type cannot be understood.
+        SourceError: The bag is damaged, or a message is not of its type.
+
+    """
+    wanted = list(topics)
+    bag.require(wanted)
+    decoders: dict[tuple[str, str, str], MessageDecoder] = {}
+    for message in bag.messages(wanted) if wanted else ():
+        connection = message.connection
+        key = connection.topic, connection.type, connection.definition
+        if key not in decoders:
+            decoders[key] = MessageDecoder(connection)
+        yield connection, decoders[key](message)
 
 
 def _constant(types: dict[str, str]) -> Any:

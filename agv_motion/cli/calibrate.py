@@ -66,7 +66,8 @@ def calibrate(
     """Find out radii, distances, track or turret zeros from a drive with position fixes.
 
     Drive for some minutes, turning both ways and going in all directions: a motion that does not
-    tell a measure leaves it as drawn, and says so. The YAML can be used as it is. For example:
+    tell a measure leaves it as drawn, and says so; where it tells a combination of several, such
+    as their mean, that is kept. The YAML can be used as it is. For example:
 
     agv demo omni
 
@@ -84,12 +85,13 @@ def calibrate(
         msg = f"node = '{name}': choose one of {', '.join(CONFIGS)}"
         raise ConfigurationError(msg)
     drawing = _drawing(find_config(config or CONFIGS[name]), name, prefix)
-    recording, topic = read_drive(bag, drawing.wheels, reference)
-    found = fit(drawing.model, recording, wheel_noise or drawing.wheel_noise)
-    _print(found, topic)
-    values = {unknown.name: unknown.value for unknown in found.unknowns if unknown.determined}
-    values = {unknown.name: unknown.nominal for unknown in found.unknowns} | values
-    content = {f'/**/{name}': {'ros__parameters': drawing.written(values)}}
+    drive = read_drive(bag, drawing.wheels, reference, prefix)
+    for note in drive.notes:
+        typer.echo(note, err=True)
+    found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
+    _print(found, drive.topic)
+    values = {unknown.name: unknown.joint for unknown in found.unknowns}
+    content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
     output.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
     typer.echo(f'Parameters: {output}')
 
@@ -168,15 +170,18 @@ def _print(found: Calibration, topic: str) -> None:
         title=f'From {found.references} places of {topic}, {found.outliers} outliers left out',
         title_justify='left', box=None, pad_edge=False,
     )  # fmt: skip
-    for column in ('measure', 'drawn', 'calibrated', '95 % interval', ''):
+    for column in ('measure', 'drawn', 'calibrated', '95 % interval', 'written', ''):
         table.add_column(column)
     for one in found.unknowns:
         spread = NINETY_FIVE * one.deviation
         table.add_row(
             one.name, f'{one.nominal:.5f} {one.unit}', f'{one.value:.5f} {one.unit}',
-            f'+- {spread:.5f} {one.unit}', '' if one.determined else 'not told by this motion',
+            f'+- {spread:.5f} {one.unit}', f'{one.joint:.5f} {one.unit}',
+            '' if one.determined else 'not told by this motion',
         )  # fmt: skip
     terminal().print(table)
+    if found.carried:
+        typer.echo(f'carried {found.carried} times: the drive is cut there')
     for names in found.undetermined:
         typer.echo(f'left open: {", ".join(names)}; drive so that they show apart from each other')
     if found.misfit > 2.0:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from math import atan2
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from rosbags.highlevel import AnyReader, AnyReaderError
 
-from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.bag.reader import BagReader
+from agv_motion.cli.bag_messages import decoded
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,15 +65,11 @@ def read_run(bag: Path, planned: str = '', driven: str = '') -> RunBag:
         ConfigurationError: It has no such topic, or nothing that tells where the robot was.
 
     """
-    try:
-        with AnyReader([bag]) as reader:
-            kinds = {c.topic: c.msgtype for c in reader.connections}
-            told = _tell(reader, [topic for topic, kind in kinds.items() if kind in POSES])
-            shown = [topic for topic, kind in kinds.items() if kind == 'nav_msgs/msg/Path']
-            ways = {topic: _ways(reader, topic) for topic in shown}
-    except (AnyReaderError, OSError, ValueError) as error:
-        msg = f"cannot read the bag '{bag}': {error}"
-        raise SourceError(msg) from error
+    with BagReader(bag) as reader:
+        kinds = {topic: connection.type for topic, connection in reader.topics.items()}
+        told = _tell(reader, [topic for topic, kind in kinds.items() if kind in POSES])
+        shown = [topic for topic, kind in kinds.items() if kind == 'nav_msgs/msg/Path']
+        ways = {topic: _ways(reader, topic) for topic in shown}
     ghost = _pick(told, planned, PLANNED, '')
     robot = _pick(told, driven, DRIVEN, ghost.frame if ghost else '')
     if robot is None:
@@ -94,13 +91,11 @@ def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -
     return next(iter([*inside, *found]), None)
 
 
-def _tell(reader: AnyReader, topics: list[str]) -> dict[str, Poses]:
+def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
     rows: dict[str, list[tuple[float, ...]]] = {topic: [] for topic in topics}
     frames: dict[str, str] = {}
-    wanted = [c for c in reader.connections if c.topic in rows]
-    for connection, _, data in reader.messages(wanted):
-        message: Any = reader.deserialize(data, connection.msgtype)
-        pose = POSES[connection.msgtype](message)
+    for connection, message in decoded(reader, topics):
+        pose = POSES[connection.type](message)
         q, p, stamp = pose.orientation, pose.position, message.header.stamp
         heading = atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
         rows[connection.topic].append((stamp.sec + 1e-9 * stamp.nanosec, p.x, p.y, heading))
@@ -114,11 +109,9 @@ def _tell(reader: AnyReader, topics: list[str]) -> dict[str, Poses]:
     return told
 
 
-def _ways(reader: AnyReader, topic: str) -> list[Column]:
-    wanted = [c for c in reader.connections if c.topic == topic]
+def _ways(reader: BagReader, topic: str) -> list[Column]:
     ways = []
-    for connection, _, data in reader.messages(wanted):
-        message: Any = reader.deserialize(data, connection.msgtype)
+    for _, message in decoded(reader, [topic]):
         places = [(p.pose.position.x, p.pose.position.y) for p in message.poses]
         if len(places) > 1:
             ways.append(np.array(places))

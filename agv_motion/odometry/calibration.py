@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.odometry.calibration_cuts import carried_apart
 from agv_motion.odometry.calibration_stretch import Stretch
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ DETERMINED = 0.3
 """[-] The data determine what they make this much surer than the drawing was."""
 CONVERGED = 1e-4
 """[-] Change of an unknown, as a share of its doubt, at which the iteration stops."""
+DRAWN_WITHIN, FOUND_WITHIN = 0.1, 0.01
+"""[-] How wrong lengths may be, as drawn and as found, where it is asked who carried the robot."""
 ITERATIONS = 10
 ROUNDS = 4
 """Of leaving out outliers."""
@@ -47,6 +50,9 @@ class Calibrated(NamedTuple):
     """Standard deviation of the value: in 95 of 100 drives the truth lies within 1.96 of it"""
     determined: bool
     """Whether the motion told more about it than the drawing"""
+    joint: float
+    """What to use together with the others': every combination that the motion told, such as a
+    mean of several, is as found, and every one that it left open is as drawn"""
 
 
 class Calibration(NamedTuple):
@@ -61,6 +67,8 @@ class Calibration(NamedTuple):
     """How many reference poses were used"""
     outliers: int
     """How many were left out"""
+    carried: int
+    """How often the robot was carried, and the drive cut there"""
 
 
 def calibrate(
@@ -80,10 +88,33 @@ def calibrate(
 
     """
     _require(model, recording, wheel_noise)
-    stretches = [Stretch(model, part, wheel_noise) for part in recording.stretches()]
+    values = np.array([unknown.nominal for unknown in model.unknowns])
+    before: list[NDArray[np.int_]] = []
+    for share in DRAWN_WITHIN, FOUND_WITHIN:
+        parts = carried_apart(model, recording, values, share)
+        if len(parts) == len(before) and all(map(np.array_equal, parts, before)):
+            break
+        found = _fitted(model, recording, parts, wheel_noise)
+        values, before = np.array([unknown.value for unknown in found.unknowns]), parts
+    return found
+
+
+def _fitted(
+    model: CalibrationModel,
+    recording: Recording,
+    parts: Sequence[NDArray[np.int_]],
+    wheel_noise: float,
+) -> Calibration:
+    """Return the fit to the parts of a drive, each some references, between its cuts."""
+    stretches = [
+        Stretch(model, stretch, wheel_noise)
+        for part in parts
+        for stretch in recording.part(part).stretches()
+    ]
     nominal = np.array([unknown.nominal for unknown in model.unknowns])
     doubt = np.array([unknown.doubt for unknown in model.unknowns])
-    values, outliers = nominal.copy(), 0
+    values = nominal.copy()
+    outliers = len(recording.reference_step) - sum(map(len, parts))
     drawn = np.concatenate([stretch.rows(nominal)[0] for stretch in stretches]) * doubt
     for _ in range(ROUNDS):
         values, slope, error = _settle(stretches, values, nominal, doubt)
@@ -94,12 +125,16 @@ def calibrate(
     count = len(error) - 3 * len(stretches)
     misfit = float(error @ error) / max(count, 1)
     spreads = _spread(slope, misfit), _spread(drawn, misfit)
+    open_ones = _open_directions(max(spreads, key=np.trace))
+    change = (values - nominal) / doubt
+    joint = nominal + doubt * (change - open_ones.T @ (open_ones @ change))
     return Calibration(
-        tuple(_calibrated(model.unknowns, values, *spreads)),
-        tuple(_undetermined(model.unknowns, max(spreads, key=np.trace))),
+        tuple(_calibrated(model.unknowns, values, joint, *spreads)),
+        tuple(_undetermined(model.unknowns, open_ones)),
         misfit,
         sum(stretch.references for stretch in stretches),
         outliers,
+        len(parts) - 1,
     )
 
 
@@ -132,7 +167,7 @@ def _spread(slope: Array, misfit: float) -> Array:
 
 
 def _calibrated(
-    unknowns: Sequence[Unknown], values: Array, spread: Array, drawn: Array
+    unknowns: Sequence[Unknown], values: Array, joint: Array, spread: Array, drawn: Array
 ) -> list[Calibrated]:
     """Return each unknown with its deviation; determined is what would be so as drawn as well.
 
@@ -149,15 +184,20 @@ def _calibrated(
             float(value),
             float(share * unknown.doubt),
             bool(share < DETERMINED),
+            float(together),
         )
-        for unknown, value, share in zip(unknowns, values, shares, strict=True)
+        for unknown, value, together, share in zip(unknowns, values, joint, shares, strict=True)
     ]
 
 
-def _undetermined(unknowns: Sequence[Unknown], spread: Array) -> list[tuple[str, ...]]:
-    """Return the names that take part in each direction along which little was learnt."""
+def _open_directions(spread: Array) -> Array:
+    """Return (k, p) unit vectors, in units of the doubts, along which little was learnt."""
     variances, directions = np.linalg.eigh(spread)
-    open_directions = directions.T[variances > DETERMINED**2]
+    return np.asarray(directions.T[variances > DETERMINED**2], dtype=np.float64)
+
+
+def _undetermined(unknowns: Sequence[Unknown], open_directions: Array) -> list[tuple[str, ...]]:
+    """Return the names that take part in each direction along which little was learnt."""
     return [
         tuple(
             unknown.name

@@ -68,15 +68,14 @@ class Recording:
         """
         count = max(round(len(self.reference_step) / LONGEST), 1)
         cuts = np.linspace(0, len(self.reference_step), count + 1).round().astype(int)
-        return [self._stretch(first, last - 1) for first, last in pairwise(cuts)]
+        return [self.part(np.arange(first, last)) for first, last in pairwise(cuts)]
 
-    def _stretch(self, first: int, last: int) -> Recording:
-        """Return the stretch from one reference to another, both included."""
-        steps = slice(self.reference_step[first], self.reference_step[last])
-        kept = slice(first, last + 1)
+    def part(self, kept: NDArray[np.int_]) -> Recording:
+        """Return the drive from the first to the last of some references, with these alone."""
+        steps = slice(self.reference_step[kept[0]], self.reference_step[kept[-1]])
         return Recording(
             self.turned[:, steps],
-            self.reference_step[kept] - self.reference_step[first],
+            self.reference_step[kept] - self.reference_step[kept[0]],
             self.reference[:, kept],
             self.position_noise,
             self.heading_noise,

@@ -22,12 +22,15 @@ PERIOD, NOISE = 0.1, 0.01
 RADII, TRACK = (0.049, 0.0505), 0.31
 
 
-def write(path, names, angles, poses):
-    """Write wheel angles (n, m) and every tenth pose (3, m), seen with noise, into a bag."""
+def write(path, names, angles, poses, robots=('', '')):
+    """Write wheel angles (n, m) and every tenth pose (3, m), seen with noise, into a bag.
+
+    The first of ``robots`` (their namespaces) tells the angles, the second the poses.
+    """
     rng = np.random.default_rng(1)
     with BagWriter(path) as bag:
-        states = bag.add_topic('/wheels/state', 'sensor_msgs/msg/JointState')
-        fixes = bag.add_topic('/fix', 'geometry_msgs/msg/PoseWithCovarianceStamped')
+        states = bag.add_topic(f'{robots[0]}/wheels/state', 'sensor_msgs/msg/JointState')
+        fixes = bag.add_topic(f'{robots[1]}/fix', 'geometry_msgs/msg/PoseWithCovarianceStamped')
         for i in range(angles.shape[1]):
             time = round((100.0 + i * PERIOD) * 1e9)
             state = JointState(name=names, position=[float(a) for a in angles[:, i]])
@@ -46,8 +49,8 @@ def write(path, names, angles, poses):
                 bag.write(fixes, time, codec(PoseWithCovarianceStamped).encode(fix))
 
 
-def differential(path, turning):
-    """Drive a differential robot of RADII and TRACK for two minutes."""
+def differential(path, turning, spoil=lambda angles, poses: None, robots=('', '')):
+    """Drive a differential robot of RADII and TRACK for two minutes; ``spoil`` what is written."""
     rng = np.random.default_rng(2)
     way = np.zeros((3, 1200))
     way[0] = 0.3 * PERIOD
@@ -55,7 +58,9 @@ def differential(path, turning):
     travel = np.array([way[0] - way[2] * TRACK / 2, way[0] + way[2] * TRACK / 2])
     turned = travel / np.array(RADII)[:, None]
     angles = np.concatenate([np.zeros((2, 1)), np.cumsum(turned, axis=1)], axis=1)
-    write(path, ['left_wheel', 'right_wheel'], angles, pose_columns(way))
+    poses = pose_columns(way)
+    spoil(angles, poses)
+    write(path, ['left_wheel', 'right_wheel'], angles, poses, robots)
 
 
 def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
@@ -86,6 +91,7 @@ def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
     [
         (['--reference', '/cam'], "no topic '/cam'"),
         (['--node', 'wings'], "node = 'wings'"),
+        (['--reference', '/wheels/state'], '/wheels/state is sensor_msgs/msg/JointState, expected'),
         (['--namespace', 'oak'], 'neither turrets/state nor wheels/state'),
         (['--node', 'omni_kinematics'], 'expected'),
     ],
@@ -94,5 +100,73 @@ def test_what_is_missing_is_told(alone, tmp_path, options, word):
     differential(tmp_path / 'bag', 0.5)
     status, _, errors = alone('calibrate', tmp_path / 'bag', *options)
     assert status == 1
-    assert word in errors
+    assert word in ' '.join(errors.split())
     assert 'Traceback' not in errors
+
+
+def calibrated(alone, tmp_path, *options):
+    """Return what the command says, and the parameters it writes."""
+    asked = 'calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml', *options
+    status, out, errors = alone(*asked, timeout=60.0)
+    assert status == 0, errors
+    (given,) = yaml.safe_load((tmp_path / 'new.yaml').read_text()).values()
+    return out + errors, given['ros__parameters']
+
+
+def test_messages_that_are_not_finite_are_left_out_and_counted(alone, tmp_path):
+    def spoil(angles, poses):
+        angles[1, 600] = np.nan
+        poses[0, 300] = np.inf
+
+    differential(tmp_path / 'bag', 0.8, spoil)
+    told, given = calibrated(alone, tmp_path)
+    assert '/wheels/state: 1 of 1201 messages left out, they are not finite' in told
+    assert '/fix: 1 of 121 messages left out, they are not finite' in told
+    assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
+
+
+def test_a_drive_is_cut_where_the_robot_was_carried(alone, tmp_path):
+    def spoil(_, poses):
+        x, y, heading = poses[:, 705:].copy()
+        poses[:, 705:] = 4.0 - y, 3.0 + x, heading + np.pi / 2
+
+    differential(tmp_path / 'bag', 0.8, spoil)
+    told, given = calibrated(alone, tmp_path)
+    assert 'carried 1 times: the drive is cut there' in told
+    assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
+    assert given['track_multiplier'] * 0.3 == pytest.approx(TRACK, abs=3e-3)
+
+
+def test_a_robot_that_stood_is_told_as_such(alone, tmp_path):
+    def spoil(angles, poses):
+        angles[:] = 1.0
+        poses[:] = 0.5
+
+    differential(tmp_path / 'bag', 0.8, spoil)
+    status, _, errors = alone('calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml')
+    assert status == 1
+    assert 'the robot stood' in errors
+    assert not (tmp_path / 'new.yaml').exists()
+
+
+def test_no_other_robot_tells_the_places(alone, tmp_path):
+    differential(tmp_path / 'bag', 0.5, robots=('/oak', '/elm'))
+    options = '--namespace', 'oak', '-o', tmp_path / 'new.yaml'
+    status, _, errors = alone('calibrate', tmp_path / 'bag', *options)
+    assert status == 1
+    assert 'has no fix, pose or ground_truth of /oak' in ' '.join(errors.split())
+    told, _ = calibrated(alone, tmp_path, *options, '--reference', '/elm/fix')
+    assert '/elm/fix' in told
+    assert list(yaml.safe_load((tmp_path / 'new.yaml').read_text())) == [
+        '/oak/differential_kinematics'
+    ]
+
+
+def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
+    differential(tmp_path / 'whole', 0.8)
+    (file,) = (tmp_path / 'whole').glob('*.mcap')
+    data = file.read_bytes()
+    (tmp_path / 'bag').mkdir()
+    (tmp_path / 'bag' / 'bag_0.mcap').write_bytes(data[: len(data) * 3 // 4])
+    _, given = calibrated(alone, tmp_path)
+    assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
