@@ -90,7 +90,7 @@ def calibrate(
         typer.echo(note, err=True)
     found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
     _print(found, drive.topic)
-    values = {unknown.name: unknown.joint for unknown in found.unknowns}
+    values = {unknown.name: unknown.value for unknown in found.unknowns}
     content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
     output.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
     typer.echo(f'Parameters: {output}')
@@ -170,13 +170,13 @@ def _print(found: Calibration, topic: str) -> None:
         title=f'From {found.references} places of {topic}, {found.outliers} outliers left out',
         title_justify='left', box=None, pad_edge=False,
     )  # fmt: skip
-    for column in ('measure', 'drawn', 'calibrated', '95 % interval', 'written', ''):
+    for column in ('measure', 'drawn', 'calibrated', '95 % interval', ''):
         table.add_column(column)
     for one in found.unknowns:
         spread = NINETY_FIVE * one.deviation
         table.add_row(
             one.name, f'{one.nominal:.5f} {one.unit}', f'{one.value:.5f} {one.unit}',
-            f'+- {spread:.5f} {one.unit}', f'{one.joint:.5f} {one.unit}',
+            f'+- {spread:.5f} {one.unit}',
             '' if one.determined else 'not told by this motion',
         )  # fmt: skip
     terminal().print(table)

@@ -116,7 +116,7 @@ def _finite(
     columns: PoseColumns | JointColumns, needed: Iterable[Array], topic: str, notes: list[str]
 ) -> Iterator[Array]:
     """Yield columns without the messages in which something needed is not finite, and note them."""
-    whole: NDArray[np.bool_] = np.isfinite(np.vstack([columns.stamp, *needed])).all(axis=0)
+    whole = np.asarray(np.isfinite(np.vstack([columns.stamp, *needed])).all(axis=0))
     if not whole.all():
         notes.append(
             f'{topic}: {np.sum(~whole)} of {len(whole)} messages left out, they are not finite'
@@ -144,7 +144,7 @@ def _trusted(bag: Path, prefix: str) -> str:
 
 def _by_angle(joints: JointColumns, count: int) -> bool:
     """Return whether the angles tell how the wheels turned: they move, or there are no rates."""
-    told: NDArray[np.bool_] = np.isfinite(joints.position[:count]).all(axis=0)
+    told = np.asarray(np.isfinite(joints.position[:count]).all(axis=0))
     if 2 * told.sum() <= len(told):
         return False
     moves = (np.ptp(joints.position[:count, told], axis=1) > 0.0).any()

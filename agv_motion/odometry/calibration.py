@@ -46,13 +46,12 @@ class Calibrated(NamedTuple):
     unit: str
     nominal: float
     value: float
+    """To be used together with the others': a combination that the motion told, such as a mean of
+    several, is as found though none of its parts is determined"""
     deviation: float
     """Standard deviation of the value: in 95 of 100 drives the truth lies within 1.96 of it"""
     determined: bool
     """Whether the motion told more about it than the drawing"""
-    joint: float
-    """What to use together with the others': every combination that the motion told, such as a
-    mean of several, is as found, and every one that it left open is as drawn"""
 
 
 class Calibration(NamedTuple):
@@ -125,12 +124,10 @@ def _fitted(
     count = len(error) - 3 * len(stretches)
     misfit = float(error @ error) / max(count, 1)
     spreads = _spread(slope, misfit), _spread(drawn, misfit)
-    open_ones = _open_directions(max(spreads, key=np.trace))
-    change = (values - nominal) / doubt
-    joint = nominal + doubt * (change - open_ones.T @ (open_ones @ change))
+    values = nominal + doubt * _without_illusions((values - nominal) / doubt, *spreads)
     return Calibration(
-        tuple(_calibrated(model.unknowns, values, joint, *spreads)),
-        tuple(_undetermined(model.unknowns, open_ones)),
+        tuple(_calibrated(model.unknowns, values, *spreads)),
+        tuple(_undetermined(model.unknowns, _open_directions(max(spreads, key=np.trace)))),
         misfit,
         sum(stretch.references for stretch in stretches),
         outliers,
@@ -167,7 +164,7 @@ def _spread(slope: Array, misfit: float) -> Array:
 
 
 def _calibrated(
-    unknowns: Sequence[Unknown], values: Array, joint: Array, spread: Array, drawn: Array
+    unknowns: Sequence[Unknown], values: Array, spread: Array, drawn: Array
 ) -> list[Calibrated]:
     """Return each unknown with its deviation; determined is what would be so as drawn as well.
 
@@ -184,10 +181,21 @@ def _calibrated(
             float(value),
             float(share * unknown.doubt),
             bool(share < DETERMINED),
-            float(together),
         )
-        for unknown, value, together, share in zip(unknowns, values, joint, shares, strict=True)
+        for unknown, value, share in zip(unknowns, values, shares, strict=True)
     ]
+
+
+def _without_illusions(change: Array, spread: Array, drawn: Array) -> Array:
+    """Return a change, in units of the doubts, as drawn along what only seems to be known.
+
+    A combination that the motion left open as drawn, and that it tells only where the estimate has
+    come to, is of the bend of the model, not of the data: see :func:`_calibrated`.
+    """
+    for direction in _open_directions(drawn):
+        if direction @ spread @ direction < DETERMINED**2:
+            change = change - direction * (direction @ change)
+    return change
 
 
 def _open_directions(spread: Array) -> Array:

@@ -83,7 +83,9 @@ def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
     (track,) = [line for line in out.splitlines() if line.startswith('track')]
     assert 'not told by this motion' in track
     given = yaml.safe_load((tmp_path / 'new.yaml').read_text())
-    assert given['/**/differential_kinematics']['ros__parameters']['track_multiplier'] == 1.0
+    assert given['/**/differential_kinematics']['ros__parameters']['track_multiplier'] == (
+        pytest.approx(1.0, abs=1e-4)
+    )
 
 
 @pytest.mark.parametrize(

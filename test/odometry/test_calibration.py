@@ -75,7 +75,7 @@ def test_a_combination_that_is_known_is_kept_though_none_of_its_parts_is():
     def turn(values):
         return model.displacement(np.array(values), np.ones((3, 1)), np.zeros((3, 1)))[2, 0]
 
-    assert turn([one.joint for one in found.unknowns]) == pytest.approx(turn(truth), rel=5e-3)
+    assert turn([one.value for one in found.unknowns]) == pytest.approx(turn(truth), rel=5e-3)
     nominal = turn([one.nominal for one in found.unknowns])
     assert abs(nominal / turn(truth) - 1.0) > 0.01
 
