@@ -32,8 +32,8 @@ DETERMINED = 0.3
 """[-] The data determine what they make this much surer than the drawing was."""
 CONVERGED = 1e-4
 """[-] Change of an unknown, as a share of its doubt, at which the iteration stops."""
-DRAWN_WITHIN, FOUND_WITHIN = 0.1, 0.01
-"""[-] How wrong lengths may be, as drawn and as found, where it is asked who carried the robot."""
+CUTTINGS = 3
+"""Of the drive where the robot was carried: by the drawing, then by what was found."""
 ITERATIONS = 10
 ROUNDS = 4
 """Of leaving out outliers."""
@@ -89,8 +89,8 @@ def calibrate(
     _require(model, recording, wheel_noise)
     values = np.array([unknown.nominal for unknown in model.unknowns])
     before: list[NDArray[np.int_]] = []
-    for share in DRAWN_WITHIN, FOUND_WITHIN:
-        parts = carried_apart(model, recording, values, share)
+    for _ in range(CUTTINGS):
+        parts = carried_apart(model, recording, values)
         if len(parts) == len(before) and all(map(np.array_equal, parts, before)):
             break
         found = _fitted(model, recording, parts, wheel_noise)

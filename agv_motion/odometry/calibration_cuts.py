@@ -28,6 +28,10 @@ WINDOW = 9
 """References in a row that one placing is to explain."""
 AGREEING = 6
 """So many of them do, or somebody carried the robot."""
+SHARES = 0.01, 0.02, 0.05, 0.1
+"""[-] How wrong lengths may be: as a calibration leaves them, and up to a bad drawing."""
+EXPLAINED = 0.8
+"""[-] of the references must be explained: outliers are not, nor places on the way."""
 GATE = 5.0
 """[-] Deviations of a reference beyond which a placing does not explain it."""
 
@@ -48,26 +52,36 @@ class _Path(NamedTuple):
 
 
 def carried_apart(
-    model: CalibrationModel, recording: Recording, values: Array, share: float
+    model: CalibrationModel, recording: Recording, values: Array
 ) -> list[NDArray[np.int_]]:
     """Return groups of references (their indices) between which nobody carried the robot.
+
+    The tighter the doubt about the unknowns, the less far a robot need be carried to be noticed: so
+    the tightest is taken that still explains most references. Where none does, the drive is whole.
 
     Args:
         model: The base.
         recording: The drive.
         values: (p,) the unknowns of the base.
-        share: How wrong these may be, as a share of a length [-].
 
     """
     count = len(recording.reference_step)
-    if count < WINDOW:
-        return [np.arange(count)]
+    if count >= WINDOW:
+        for share in SHARES:
+            parts = _apart(model, recording, values, share)
+            if sum(map(len, parts)) >= EXPLAINED * count:
+                return parts
+    return [np.arange(count)]
+
+
+def _apart(
+    model: CalibrationModel, recording: Recording, values: Array, share: float
+) -> list[NDArray[np.int_]]:
+    """Return the groups when lengths may be wrong by a share of themselves."""
     agreeing = _consensus(_windows(model, recording, values, share))
     rows, columns = np.nonzero(agreeing)
     kept = np.unique(rows + columns)
-    if len(kept) < count / 2:  # no placing of such wheels explains these places
-        return [np.arange(count)]
-    linked = np.zeros(len(kept) - 1, dtype=bool)
+    linked = np.zeros(max(len(kept) - 1, 0), dtype=bool)
     for i, (a, b) in enumerate(pairwise(kept)):
         windows = range(max(b - WINDOW + 1, 0), min(a, len(agreeing) - 1) + 1)
         linked[i] = any(agreeing[j, a - j] and agreeing[j, b - j] for j in windows)
