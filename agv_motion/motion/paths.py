@@ -1,8 +1,8 @@
 """The shortest way inside a zone: straight, and round the corners of edges and holes.
 
 The shortest path in a polygon with holes turns only at corners that point into the floor, so it is
-a shortest path in the visibility graph of those corners. The distances between all of them are
-worked out once; a way then costs what its two ends see.
+a shortest path in the visibility graph of those corners. One way is searched for; where more are
+asked for, the distances between all corners are worked out once, and a way costs what its ends see.
 
 Sources: T. Lozano-Perez, M. A. Wesley, "An algorithm for planning collision-free paths among
 polyhedral obstacles", Communications of the ACM 22(10), 1979; R. W. Floyd, "Algorithm 97: Shortest
@@ -11,6 +11,7 @@ path", Communications of the ACM 5(6), 1962.
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
@@ -37,7 +38,7 @@ TOLERANCE = 1e-6
 
 
 class Paths:
-    """Ways inside one zone; the visibility graph of its corners is made once."""
+    """Ways inside one zone; the visibility graph of its corners is made once, when it is worth it."""
 
     def __init__(self, zone: Zone, parts: Sequence[Polygon] | None = None) -> None:
         """Make the graph of each walkable part.
@@ -91,23 +92,35 @@ class Paths:
 
 
 class _VisibilityGraph:
-    """Corners of one polygon that point into it, and the shortest way between any two."""
+    """Corners of one polygon that point into it, and the shortest way between any two.
+
+    Floor that is free for a moment is asked for one way, which needs to look from a few corners
+    only; the distances between all of them are worked out when a second way is asked for.
+    """
 
     def __init__(self, part: Polygon) -> None:
         self._floor = part.buffer(TOLERANCE)
         shapely.prepare(self._floor)
         self._corners = np.vstack([reflex(ring) for ring in rings(part)])
+        self._asked_before = False
+
+    @cached_property
+    def _step(self) -> Column:
+        """Distance of each two corners that see each other [m]."""
         count = len(self._corners)
-        self._step: Column = np.full((count, count), np.inf)
+        step: Column = np.full((count, count), np.inf)
         for i in range(count):
-            self._step[i, :i] = self._step[:i, i] = self._seen(
-                (self._corners[i, 0], self._corners[i, 1]), self._corners[:i]
-            )
-        self._distance = self._step.copy()
-        np.fill_diagonal(self._distance, 0.0)
-        for k in range(count):
-            through = self._distance[:, k, None] + self._distance[None, k, :]
-            np.minimum(self._distance, through, out=self._distance)
+            step[i, :i] = step[:i, i] = self._seen(self._corner(i), self._corners[:i])
+        return step
+
+    @cached_property
+    def _distance(self) -> Column:
+        """Length of the shortest way between each two corners [m]."""
+        distance = self._step.copy()
+        np.fill_diagonal(distance, 0.0)
+        for k in range(len(self._corners)):
+            np.minimum(distance, distance[:, k, None] + distance[None, k, :], out=distance)
+        return distance
 
     def covers(self, point: Point) -> bool:
         """Return whether ``point`` lies in this part."""
@@ -122,17 +135,61 @@ class _VisibilityGraph:
         """
         if shapely.covers(self._floor, LineString([start, goal])):
             return [start, goal]
+        find = self._looked_up if self._asked_before else self._searched
+        self._asked_before = True
+        corners = find(start, goal)
+        if not corners:
+            msg = f'no way from ({start[0]:.2f}, {start[1]:.2f}) to ({goal[0]:.2f}, {goal[1]:.2f})'
+            raise GeometryError(msg)
+        return [start, *map(self._corner, corners), goal]
+
+    def _looked_up(self, start: Point, goal: Point) -> list[int]:
+        """Return the corners of the shortest way by the distances of all; empty: there is none."""
         to_start, to_goal = (self._seen(end, self._corners) for end in (start, goal))
         total = to_start[:, None] + self._distance + to_goal[None, :]
         if not total.size or not np.isfinite(total.min()):
-            msg = f'no way from ({start[0]:.2f}, {start[1]:.2f}) to ({goal[0]:.2f}, {goal[1]:.2f})'
-            raise GeometryError(msg)
+            return []
         here, last = (int(i) for i in np.unravel_index(total.argmin(), total.shape))
         corners = [here]
         while here != last and len(corners) <= len(self._corners):
             here = int((self._step[here] + self._distance[:, last]).argmin())
             corners.append(here)
-        return [start, *((float(x), float(y)) for x, y in self._corners[corners]), goal]
+        return corners
+
+    def _searched(self, start: Point, goal: Point) -> list[int]:
+        """Return the corners of the shortest way by the A* search; empty: there is none.
+
+        Source: P. E. Hart, N. J. Nilsson, B. Raphael, "A formal basis for the heuristic
+        determination of minimum cost paths", IEEE Transactions on Systems Science and Cybernetics
+        4(2), 1968. What is left is at least the straight line, so each corner is looked from once,
+        and only at those that it might bring nearer.
+        """
+        corners, count = self._corners, len(self._corners)
+        best, to_goal = (self._seen(end, corners) for end in (start, goal))
+        left = np.hypot(corners[:, 0] - goal[0], corners[:, 1] - goal[1])
+        before, ahead = np.full(count, -1), np.ones(count, bool)
+        shortest, last = np.inf, -1
+        while count:
+            estimate = np.where(ahead, best + left, np.inf)
+            here = int(estimate.argmin())
+            if estimate[here] >= shortest:
+                break
+            ahead[here] = False
+            if best[here] + to_goal[here] < shortest:
+                shortest, last = best[here] + to_goal[here], here
+            step = np.hypot(*(corners - corners[here]).T)
+            bound = np.minimum(best, shortest - left)
+            near = np.flatnonzero(ahead & (best[here] + step < bound))
+            through = best[here] + self._seen(self._corner(here), corners[near])
+            nearer = through < best[near]
+            best[near[nearer]], before[near[nearer]] = through[nearer], here
+        way = [last] if last >= 0 else []
+        while way and before[way[0]] >= 0:
+            way.insert(0, int(before[way[0]]))
+        return way
+
+    def _corner(self, i: int) -> Point:
+        return float(self._corners[i, 0]), float(self._corners[i, 1])
 
     def _seen(self, point: Point, corners: Column) -> Column:
         """Return the distance of ``point`` to each of ``corners``; infinite where it is hidden."""

@@ -90,10 +90,16 @@ class CompanyKeeper:
         self._tell(now)
         return thought
 
-    def stay(self, pose: Pose) -> None:
-        """Hold the place where the tree stands, and tell so."""
+    def stay(self, pose: Pose, *, fresh: bool) -> None:
+        """Hold the place where the tree stands, and tell so.
+
+        Args:
+            pose: Where it is, as far as is known.
+            fresh: Whether all inputs still come; else nothing grows surer.
+
+        """
         now = self._now()
-        self._joined(pose).traffic.rest((pose.x, pose.y), now)
+        self._joined(pose).traffic.rest((pose.x, pose.y), now, fresh=fresh)
         self._tell(now)
 
     def park(self, pose: Pose) -> None:
@@ -120,9 +126,13 @@ class CompanyKeeper:
         return '' if self._company is None else self._company.traffic.right.obstacle(self._now())
 
     def _now(self) -> float:
-        """Return the time this tree has lived through [s]; see :class:`LivedTime`."""
+        """Return the time this tree has lived through [s]; see :class:`LivedTime`.
+
+        The steady clock always counts, and a simulated one where it goes faster: then trees too do.
+        """
         node = self._node
-        return self._lived.update(node.seconds() if self._simulated else node.steady_seconds())
+        simulated = [node.seconds()] if self._simulated else []
+        return self._lived.update(node.steady_seconds(), *simulated)
 
     def _joined(self, pose: Pose) -> Company:
         if self._company is None:

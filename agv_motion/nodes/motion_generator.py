@@ -245,7 +245,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if self._obstacle or self._sap_flow is None or self._pose is None:
             self._publish(self._limits.stop(), self._obstacle, now)
             if self._company is not None and self._pose is not None:
-                self._company.stay(self._pose)
+                self._company.stay(self._pose, fresh=not self._lost)
             return
         thought = self._think(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed

@@ -10,7 +10,7 @@ from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import Pose, Twist, require_finite
+from agv_motion.planar import FARTHEST, Pose, Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,11 +67,15 @@ def pose_of(message: Any) -> Pose:
     """Return the planar part of a geometry_msgs/Pose; heading from the quaternion.
 
     Raises:
-        SignalError: A number is not finite, or the quaternion is not of unit length.
+        SignalError: A number is not finite, the place is no place of a map, or the quaternion is
+            not of unit length.
 
     """
     p, q = message.position, message.orientation
     require_finite('pose', (p.x, p.y, q.x, q.y, q.z, q.w))
+    if not (abs(p.x) <= FARTHEST and abs(p.y) <= FARTHEST):
+        msg = f'pose at ({p.x:g}, {p.y:g}): must be within {FARTHEST:g} m of the origin; metres?'
+        raise SignalError(msg)
     norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if abs(norm - 1.0) > 0.01:
         msg = (

@@ -56,6 +56,17 @@ def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, go
     assert length(way) >= hypot(goal[0] - start[0], goal[1] - start[1]) - 1e-9
 
 
+@given(ANYWHERE, ANYWHERE, st.sampled_from([AROUND, ALONG]))
+def test_the_first_way_that_is_asked_for_is_as_short_as_any_later_one(start, goal, zone):
+    """The first is searched for, the second looked up."""
+    assume(zone.walkable(*goal))
+    assume(zone.walkable(*start))
+    paths = Paths(zone)
+    first, second = paths.way(start, goal), paths.way(start, goal)
+    assert length(first) == pytest.approx(length(second), abs=1e-9)
+    assert paths._parts[0]._floor.covers(shapely.LineString(first)) or start == goal  # noqa: SLF001
+
+
 @given(ANYWHERE, ANYWHERE)
 def test_the_way_back_is_as_long(start, goal):
     assume(ALONG.walkable(*goal))

@@ -12,6 +12,7 @@ import shapely
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, joined, line
 from agv_motion.motion.traffic.separation import Floor
+from agv_motion.planar import FARTHEST
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,9 +22,6 @@ IDLE = 2**62
 
 MOST_POINTS = 1000
 """of all three ways of a claim together; a way through a zone has a few corners"""
-
-FARTHEST = 1e6
-"""[m] No zone reaches farther from the origin of its map."""
 
 WIDEST = 1000.0
 """[m] No tree is wider, nor keeps more margin."""

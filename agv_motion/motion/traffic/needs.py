@@ -124,7 +124,7 @@ class Needs:
 
     def clearance(self, peer: Peer) -> float:
         """Return the distance that the centres of the two trees keep [m]."""
-        return self._right.clearance(peer.claim)
+        return self._right.clearance(peer)
 
     def _of(self, peer: Peer, *, wishes: bool) -> list[Floor]:
         claim = peer.claim

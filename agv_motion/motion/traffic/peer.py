@@ -108,6 +108,16 @@ class Peer:
         """
         return self.claim.parked and self.mutual
 
+    @property
+    def radius(self) -> float:
+        """The largest of the runs that may be the present one [m]."""
+        return max(run.claim.radius for run in self._runs.values())
+
+    @property
+    def margin(self) -> float:
+        """The largest of the runs that may be the present one [m]."""
+        return max(run.claim.margin for run in self._runs.values())
+
     def floors(self) -> list[Floor]:
         """Return the floor that is taken, of the present run and of each that may be it yet."""
         present = self.claim.word.run

@@ -55,7 +55,7 @@ class Peers:
         else:
             peer.hear(claim, echo, now, next_number)
 
-    def judge(self, now: float, held: shapely.Geometry) -> None:
+    def judge(self, now: float, held: shapely.Geometry, moved_since: int) -> None:
         """Find out who is silent, and agree on sides with those who knew of this tree.
 
         Whatever a silent tree asked for counts as granted to it.
@@ -63,13 +63,16 @@ class Peers:
         Args:
             now: Time of this tree's steady clock [s].
             held: What this tree holds.
+            moved_since: Number of the first message that tells all of it; of a tree that was
+                carried after its last word was heard, nobody else knows on which side it is.
 
         """
         for peer in self:
             if peer.silent or peer.stays or now - peer.heard_at <= self._silent_after:
                 continue
             peer.silent = True
-            peer.sides = Sides(held, peer.claim.both) if peer.mutual else None
+            known = peer.mutual and peer.answered(moved_since)
+            peer.sides = Sides(held, peer.claim.both) if known else None
 
     def forget_agreements(self, next_number: int) -> None:
         """Share no floor with anybody who has not answered a message from there on."""

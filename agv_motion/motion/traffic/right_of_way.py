@@ -24,6 +24,9 @@ which its last run held. Answers to the last run do not count for the new one, a
 old and new floor stay taken until its new run has answered (:mod:`.peer`). It takes nothing before
 all that it was told of, by ``expected`` or by a file, have answered.
 
+A tree whose pose jumps does not know where it is: it holds all places where it may be, and stands,
+until it is sure (:mod:`.doubt`).
+
 A tree that falls silent answers no more. What it held and asked for stays taken, and the floor is
 shared as :class:`Sides` says, with those who knew of each other. A tree that says it is parked
 needs no answer: it holds its place and will ask before it moves. Its word counts only where it
@@ -47,6 +50,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, cut, joined, length, line
 from agv_motion.motion.traffic.claim import IDLE, Claim, Word
+from agv_motion.motion.traffic.doubt import jumped
 from agv_motion.motion.traffic.peers import Peers
 from agv_motion.motion.traffic.separation import apart, keeps_away
 
@@ -54,6 +58,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.motion.polyline import Point
+    from agv_motion.motion.traffic.doubt import Doubt
     from agv_motion.motion.traffic.parameters import TrafficParameters
     from agv_motion.motion.traffic.peer import Peer
 
@@ -125,6 +130,9 @@ class RightOfWay:
         self._number = -1
         self._alarm: tuple[str, float] | None = None
         self._twin: Word | None = None
+        self.doubt: Doubt | None = None
+        """Where the tree may be, where its pose has jumped; None while it is sure"""
+        self._moved_since = 0
 
     def hear(self, claim: Claim, now: float) -> None:
         """Take up the message of another tree.
@@ -154,6 +162,8 @@ class RightOfWay:
 
     def obstacle(self, now: float) -> str:
         """Return why nobody may move at all now, in words; empty if nothing is wrong."""
+        if self.doubt is not None:
+            return self.doubt.why
         if self._alarm is not None and now - self._alarm[1] <= self.parameters.silent_after:
             return self._alarm[0]
         doubled = next((name for name in self.peers.doubled(now) if name != self.name), None)
@@ -171,7 +181,7 @@ class RightOfWay:
         if self.asked and self._asked_since is None:
             self._asked_since = self._number
         self._begun = now if self._begun is None else self._begun
-        self.peers.judge(now, self._held_line)
+        self.peers.judge(now, self._held_line, self._moved_since)
         heard = self.peers.heard()
         if self._twin is not None:
             heard[self.name] = self._twin
@@ -180,20 +190,45 @@ class RightOfWay:
             wish[:MOST_WISHED], self._journey, heard, self.parked, self.margin,
         )  # fmt: skip
 
-    def stand(self, place: Point) -> None:
-        """Hold ``place`` and nothing else, because the tree is there: a fact, not a request."""
-        self.withdraw()
-        self._hold((place,))
+    def locate(self, place: Point, now: float, *, fresh: bool = True) -> bool:
+        """Take up where the tree is told to be; return whether it is sure of it.
+
+        One that is farther off what it holds than the tolerance holds both, a fact and no request,
+        and nothing is let go until its pose has agreed with itself for the time of silence.
+
+        Args:
+            place: Where the centre is, as far as is known [m].
+            now: Time of this tree's steady clock [s].
+            fresh: Whether its pose says so now; one that is only remembered makes nothing surer.
+
+        """
+        given, before = self.parameters, self.doubt
+        if before is None:
+            doubt = jumped(self.held, place, given.tolerance, now)
+        else:
+            doubt = before.seen(place, given.tolerance, now)
+        if doubt is not None and not fresh:
+            doubt = doubt._replace(since=now)
+        if doubt is not None and now - doubt.since > given.silent_after:
+            self.withdraw()
+            self._hold(doubt.places[:1])
+            doubt = None
+        elif doubt is not None and (before is None or doubt.places != before.places):
+            self.withdraw()
+            self._moved_since = self._number + 1
+            self._hold(doubt.floor)
+        self.doubt = doubt
+        return doubt is None
 
     def pass_by(self, distance: float) -> None:
         """Let go of the first ``distance`` [m] of what is held: the tree has left it behind."""
-        if distance > 0.0:
+        if distance > 0.0 and self.doubt is None:
             self._hold(cut(self.held, distance)[1])
 
     def stop(self) -> None:
-        """Let go of all but the place where the tree is, and ask for nothing."""
+        """Let go of all but the place where the tree is, or may be, and ask for nothing."""
         self.withdraw()
-        if len(self.held) > 1:
+        if len(self.held) > 1 and self.doubt is None:
             self._hold(self.held[:1])
 
     def park(self) -> None:
@@ -255,7 +290,7 @@ class RightOfWay:
             return Verdict(Answer.LISTENING)
         if why := self.obstacle(now):
             return Verdict(Answer.ALARM, why)
-        self.peers.judge(now, self._held_line)
+        self.peers.judge(now, self._held_line, self._moved_since)
         verdicts = [self._objection(peer) for peer in self.peers]
         verdicts += [
             Verdict(Answer.PENDING, name) for name in self.awaited if name not in self.peers
@@ -268,17 +303,17 @@ class RightOfWay:
         self._ask(())
         return GRANTED
 
-    def clearance(self, claim: Claim) -> float:
+    def clearance(self, peer: Peer) -> float:
         """Return the distance that the centres of this tree and another keep [m]."""
-        return self.radius + claim.radius + max(self.margin, claim.margin)
+        return self.radius + peer.radius + max(self.margin, peer.margin)
 
     def clear_of(self, way: Way, peer: Peer) -> bool:
         """Return whether ``way`` keeps clear of what ``peer`` holds, or leads away from it."""
-        clearance = self.clearance(peer.claim)
+        clearance = self.clearance(peer)
         return all(keeps_away(way, floor, clearance) for floor in peer.floors())
 
     def _objection(self, peer: Peer) -> Verdict:
-        claim, clearance = peer.claim, self.clearance(peer.claim)
+        claim, clearance = peer.claim, self.clearance(peer)
         if peer.stays and self.clear_of(self.asked, peer):
             return GRANTED
         if peer.silent:

@@ -113,6 +113,9 @@ class Traffic:
         """
         right = self.right
         along = self._track(place, now)
+        if right.doubt is not None:
+            blocked = now - self._going_at if self._goal is not None else 0.0
+            return Passage(None, f'stands: {right.obstacle(now)}', blocked, (place,))
         if goal != self._goal or self._has_waited(now):
             self._set_out(goal, along, now)
             along = 0.0
@@ -156,15 +159,22 @@ class Traffic:
             self._going_at = min(self._going_at + max(now - self._counted_at, 0.0), now)
         self._counted_at = now
 
-    def rest(self, place: Point, now: float) -> None:
-        """Hold nothing but the place where the tree is: it does not move for a while."""
-        self._let_go(self._track(place, now))
+    def rest(self, place: Point, now: float, *, fresh: bool = True) -> None:
+        """Hold nothing but the place where the tree is: it does not move for a while.
+
+        Args:
+            place: Where the centre is in the map [m].
+            now: Time of this tree's steady clock [s].
+            fresh: See :meth:`RightOfWay.locate`.
+
+        """
+        self._let_go(self._track(place, now, fresh=fresh))
         self._goal = None
         self.right.set_out(IDLE)
 
     def park(self, place: Point, now: float) -> None:
         """Rest, and promise to stay: nobody needs to wait for an answer of this tree."""
-        self.rest(place, now)
+        self.rest(place, now, fresh=False)
         self.right.park()
 
     def occupied(self) -> shapely.Geometry:
@@ -182,23 +192,21 @@ class Traffic:
 
     # Where the tree is on the way it holds
 
-    def _track(self, place: Point, now: float) -> float:
+    def _track(self, place: Point, now: float, *, fresh: bool = True) -> float:
         """Return how far along the way it holds the tree is, and let go of what lies behind.
 
-        A tree that is farther off than the tolerance was carried, or did not know where it was. It
-        holds the place where it is now, which may be floor of another, and stands until all had
-        time to hear so.
+        A tree that is farther off than the tolerance stands, and has another way to find once it is
+        sure where it is.
         """
-        right, tolerance = self.right, self.right.parameters.tolerance
-        along, away = nearest(right.held, place)
-        if away > tolerance:
-            right.stand(place)
-            why = f'{away:.2f} m off its way, more than the tolerance of {tolerance:g} m'
-            right.alarm(f'it was {why}: others must hear first where it is', now)
-            self._yielding = False
-            self._plan()
+        right = self.right
+        was_sure = right.doubt is None
+        if not right.locate(place, now, fresh=fresh):
+            self._route, self._yielding = (), False
             return 0.0
-        passed = max(along - tolerance, 0.0)
+        if not was_sure:
+            self._plan()
+        along, _ = nearest(right.held, place)
+        passed = max(along - right.parameters.tolerance, 0.0)
         right.pass_by(passed)
         return along - passed
 

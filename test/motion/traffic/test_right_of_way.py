@@ -193,7 +193,7 @@ def test_a_silent_tree_that_knew_nothing_of_this_one_is_not_relied_upon():
 def test_a_message_overtaken_by_a_later_one_is_dropped():
     oak, pine = tree('oak', 0.0), tree('pine', 20.0)
     early = pine.claim(0.0)
-    pine.stand((8.0, 0.0))
+    pine.locate((8.0, 0.0), 0.5)
     oak.hear(pine.claim(1.0), 1.0)
     oak.hear(early, 2.0)
     asks(oak, (7.0, 0.0))
@@ -330,12 +330,11 @@ def test_it_waits_for_all_that_an_earlier_run_knew():
 
 
 def test_a_request_of_a_silent_tree_counts_as_granted_however_near_it_is():
-    """It asked for floor 1 m from here; had it been answered, it may be there by now."""
-    oak, pine = tree('oak', 0.0), tree('pine', 4.0)
+    """It asked for floor 1.5 m from here; had it been answered, it may be there by now."""
+    oak, pine = tree('oak', 0.5), tree('pine', 4.0)
     talk([oak, pine], 0.0, rounds=2)
     asks(pine, (2.0, 0.0))
     talk([oak, pine], 1.0)
-    oak.stand((0.5, 0.0))
     asks(oak, (0.6, 0.0))
     oak.claim(100.0)
     assert oak.settle(100.0).answer is Answer.TAKEN
