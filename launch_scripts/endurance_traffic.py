@@ -4,9 +4,10 @@
     python launch_scripts/endurance_traffic.py --seconds 600 --workers 1
 
 Sizes, margins, zones and networks vary (delays to 120 s, losses to 90 %, doubled words); trees
-start again with and without memory, park, join late, and their clocks differ and leap. Every fifth
-episode is calm (delays to 15 s, losses to 30 %) and longer; there nobody may stand for over 30
-minutes. Exits with 1 when rims come nearer than promised, or one stands for longer.
+start again with and without memory, park, join late, believe for seconds that they are elsewhere,
+and their clocks differ and leap. Every fifth episode is calm (delays to 15 s, losses to 30 %) and
+longer; there nobody may stand for over 30 minutes. Exits with 1 when rims come nearer than
+promised, or one stands for longer.
 """
 
 from __future__ import annotations
@@ -68,7 +69,8 @@ def main() -> None:
     stands = [outcome.longest_stand for given, outcome in outcomes if given.calm]
     print(
         f'{len(every)} episodes: {sum(o.starts for o in every)} starts, '
-        f'{sum(o.parkings for o in every)} parkings, {sum(o.arrivals for o in every)} arrivals; '
+        f'{sum(o.parkings for o in every)} parkings, {sum(o.wrong_fixes for o in every)} wrong '
+        f'fixes, {sum(o.arrivals for o in every)} arrivals; '
         f'least gap {min(o.least_gap for o in every):.3f} m beyond what is promised; '
         f'longest stand in calm ones {max(stands, default=0.0) / 60.0:.1f} min; {failed} not kept'
     )

@@ -29,7 +29,15 @@ BEGINNINGS = {
     'three, late and lost words': {
         'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'words': 4, 'asked': True, 'events': (),
     },
-    'three, all parked': {'cells': (0, 2, 4), 'parked': True, 'events': ()},
+    'three, all parked, set out at once': {
+        'cells': (0, 2, 4), 'parked': True, 'asked': True, 'late': 1, 'words': 4, 'events': (),
+    },
+    'two, wrong fixes': {
+        'cells': (1, 2), 'rounds': 2, 'late': 1, 'events': ('wrong fix', 'withdraw'),
+    },
+    'two, wrong fixes, restarts, silence': {
+        'cells': (0, 2), 'rounds': 2, 'events': ('wrong fix', 'restart', 'silence'),
+    },
 }  # fmt: skip
 
 

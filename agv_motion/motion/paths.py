@@ -38,7 +38,7 @@ TOLERANCE = 1e-6
 
 
 class Paths:
-    """Ways inside one zone; the visibility graph of its corners is made once, when it is worth it."""
+    """Ways inside one zone; the graph of its corners is made once, when it is worth it."""
 
     def __init__(self, zone: Zone, parts: Sequence[Polygon] | None = None) -> None:
         """Make the graph of each walkable part.

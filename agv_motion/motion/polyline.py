@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
@@ -63,6 +64,12 @@ def joined(first: Sequence[Point], second: Sequence[Point]) -> Way:
 
 def line(way: Sequence[Point]) -> shapely.Geometry:
     """Return ``way`` as a geometry: a point, a line, or empty."""
+    return _line(tuple(way))
+
+
+@lru_cache(maxsize=256)
+def _line(way: Way) -> shapely.Geometry:
+    """Return ``way`` as a geometry; the same few ways are looked at again and again."""
     if not way:
         return EMPTY
     return shapely.LineString(way) if len(way) > 1 else shapely.Point(way[0])

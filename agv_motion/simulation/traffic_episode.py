@@ -1,5 +1,7 @@
 """Hours of trees that differ, start again, park, join late, over the worst of networks and clocks.
 
+Now and then a tree believes for some seconds that it is elsewhere, once or to and fro.
+
 What must hold whatever happens: the rims of no two come nearer than the larger of their margins.
 """
 
@@ -8,7 +10,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 from itertools import combinations
-from math import hypot, inf
+from math import cos, hypot, inf, sin, tau
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from agv_motion.motion.paths import Paths
@@ -58,6 +60,8 @@ class Outcome(NamedTuple):
     starts: int
     """in all, the first ones among them"""
     parkings: int
+    wrong_fixes: int
+    """times that a tree believed for a while to be elsewhere"""
     troubles: str
     """of the network, in words"""
 
@@ -72,6 +76,8 @@ class _Tree:
         self.lived = LivedTime(2.0 * STEP)
         self.off_until = -inf
         self.starts_again = False
+        self.wrong_until = self.wrong_next = -inf
+        self.wrong_by = (0.0, 0.0)
 
 
 class Episode:
@@ -106,7 +112,7 @@ class Episode:
         self.radio = Radio(self._names, self._network(), given.seed)
         self.now = 0.0
         self.least_gap = inf
-        self.starts, self.parkings = count, 0
+        self.starts, self.parkings, self.wrong_fixes = count, 0, 0
 
     def run(self) -> Outcome:
         """Let the time pass."""
@@ -118,6 +124,7 @@ class Episode:
             sum(tree.walker.arrivals for tree in self.trees),
             self.starts,
             self.parkings,
+            self.wrong_fixes,
             str(self.radio.parameters),
         )
 
@@ -150,7 +157,8 @@ class Episode:
         believed = walker.supposed(STEP, 0.1 * tolerance)
         dx, dy = believed[0] - walker.place[0], believed[1] - walker.place[1]
         shrink = min(0.5 * tolerance / max(hypot(dx, dy), 1e-9), 1.0)
-        believed = (walker.place[0] + shrink * dx, walker.place[1] + shrink * dy)
+        off = self._off(tree)
+        believed = (walker.place[0] + shrink * dx + off[0], walker.place[1] + shrink * dy + off[1])
         walker.decide(believed, self._candidates, self.now)
         walker.move(believed, max(walker.speed, 0.3) * LINEAR_SPEED * STEP, self.now)
         dice = self._chance.random() if not self.parameters.calm else 1.0
@@ -162,6 +170,23 @@ class Episode:
             tree.off_until = self.now + self._chance.uniform(5.0, 120.0)
             tree.starts_again = True
         self.radio.send(traffic.claim(tree.lived.seconds), self.now)
+
+    def _off(self, tree: _Tree) -> Point:
+        """Return by how much a wrong fix puts the tree elsewhere.
+
+        For less than it takes to be sure: who believes it for longer lets its true place go.
+        """
+        given = tree.walker.traffic.right.parameters
+        longest = given.silent_after - 3.0 * STEP
+        if self.now > tree.wrong_next and longest > 0.0 and self._chance.random() < 0.01:
+            far = given.tolerance + 10.0 ** self._chance.uniform(-0.3, 1.3)
+            angle = self._chance.uniform(0.0, tau)
+            tree.wrong_by = (far * cos(angle), far * sin(angle))
+            tree.wrong_until = self.now + self._chance.uniform(0.0, longest)
+            again = self._chance.choice((0.0, 0.0, 600.0))  # now and then to and fro at once
+            tree.wrong_next = tree.wrong_until + STEP + again
+            self.wrong_fixes += 1
+        return tree.wrong_by if self.now <= tree.wrong_until else (0.0, 0.0)
 
     def _start_again(self, tree: _Tree) -> None:
         """Begin a new run, with memory or with a list of the others, where the tree stands."""

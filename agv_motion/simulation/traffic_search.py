@@ -3,8 +3,9 @@
 The trees are the real objects (:class:`RightOfWay`) on a row of cells. What may happen next: a tree
 asks for a neighbouring cell or takes its request back, hears any word told (late, again or never;
 what is new is told at once), takes what it asked for, walks on, parks, notes that the others are
-silent, begins another journey, or ends and starts again with no more than names. All of these are
-tried from every state, breadth first, so the first breach that is found is one of the shortest.
+silent, begins another journey, believes for a while to be on another cell, or ends and starts again
+with no more than names. All of these are tried from every state, breadth first, so the first breach
+that is found is one of the shortest.
 
 Bounded: words and runs of each tree are counted, and the last few words of a run stay on the way.
 """
@@ -38,7 +39,7 @@ LONG = 1e9
 """[s] after which everybody is silent"""
 
 
-EVENTS = ('withdraw', 'park', 'silence', 'restart', 'set out')
+EVENTS = ('withdraw', 'park', 'silence', 'restart', 'set out', 'wrong fix')
 
 
 @dataclass(frozen=True)
@@ -185,9 +186,11 @@ class Search:
         if 'park' in events and not tree.parked:
             yield 'parks', lambda one: one.park()
         if 'silence' in events:
-            yield 'misses all', lambda one: one.peers.judge(LONG, line(one.held))
+            yield 'misses all', _miss_all
         if 'set out' in events:
             yield 'sets out', lambda one: one.set_out()
+        if 'wrong fix' in events:
+            yield from _wrong_fixes(tree)
 
     # Plumbing
 
@@ -233,11 +236,31 @@ class Search:
         return state
 
 
+def _miss_all(tree: RightOfWay) -> None:
+    tree.peers.judge(LONG, line(tree.held), tree._moved_since)  # noqa: SLF001
+
+
+def _wrong_fixes(tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
+    """A tree that believes to be elsewhere, and believes it never for long enough to be sure."""
+    x = tree.held[0][0]
+    if tree.doubt is None:
+        for cell in (x - 1.0, x + 1.0):
+            yield (
+                f'believes to be at {cell:.0f}',
+                partial(RightOfWay.locate, place=(cell, 0.0), now=0.0),
+            )
+        return
+    at_home = tree.doubt.before[0]
+    if tree.doubt.places[0] != at_home:
+        yield 'believes to be back', partial(RightOfWay.locate, place=at_home, now=0.0)
+    else:
+        yield 'is sure', partial(RightOfWay.locate, place=at_home, now=LONG)
+
+
 def _breached(state: _State) -> bool:
-    return not all(
-        apart(line(a.held), line(b.held), TRAFFIC.clearance)
-        for a, b in combinations(state.trees, 2)
-    )
+    """Return whether two trees hold the same floor, that on which one only believes to be apart."""
+    ways = [tree.held if tree.doubt is None else tree.doubt.before for tree in state.trees]
+    return not all(apart(line(a), line(b), TRAFFIC.clearance) for a, b in combinations(ways, 2))
 
 
 def _same_run(a: Claim, b: Claim) -> bool:
@@ -279,7 +302,7 @@ def _key(tree: RightOfWay) -> Hashable:
     peers = tuple(_peer_key(peer) for peer in tree.peers)
     return (
         tree.run, tree._number, tree.held, tree.asked, tree._asked_since, tree.parked,  # noqa: SLF001
-        tree.journey, peers,
+        tree.journey, tree.doubt, tree._moved_since, peers,  # noqa: SLF001
     )  # fmt: skip
 
 

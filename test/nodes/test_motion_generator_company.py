@@ -10,12 +10,15 @@ import pytest
 rclpy = pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
+from agv_motion.motion.traffic.claim import Claim, Word
 from agv_motion.nodes.company_keeper import WAYS
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.planar import REST, Pose, integrate
-from agv_motion.ros.messages import fill_pose, twist_of
+from agv_motion.ros.claims import claim_message
+from agv_motion.ros.messages import fill_pose, stamp_of, twist_of
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import StartError
 
@@ -47,8 +50,11 @@ class Tree:
         self.twist = twist_of(message.twist)
 
     def live(self, duration):
-        """Move for a while, and tell where it is and that the sap flows."""
-        self.pose = integrate(self.pose, self.twist, duration)
+        """Move for a while, and tell where it is and that the sap flows.
+
+        A hiccup of the machine is none of the tree: it drives no farther than it is looked after.
+        """
+        self.pose = integrate(self.pose, self.twist, min(duration, 0.05))
         pose = PoseWithCovarianceStamped()
         pose.header.frame_id = 'map'
         fill_pose(pose.pose.pose, self.pose)
@@ -152,6 +158,46 @@ def test_who_was_heard_is_waited_for_after_a_restart(tester, zone, tmp_path):
     again = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
     live_until(tester, [again], lambda: 'waits for the answer of pine' in again.node.diagnose()[1])
     assert again.pose == Pose(1.0, 2.0, 0.0)
+
+
+def test_a_tree_whose_simulated_clock_stands_still_speaks_and_finds_out_who_is_silent(tester, zone):
+    given = {'use_sim_time': True, 'traffic__silent_after': 1.0, 'traffic__expected': ['ash']}
+    oak = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
+    clock = tester.publisher(Clock, '/clock', SENSOR)
+    words = tester.node.create_publisher(MarkerArray, '/ways', WAYS)
+    claims = tester.listen(MarkerArray, '/ways', WAYS)
+    ash = Claim('ash', Word(1, 1), 0.35, ((6.0, 2.0),))
+
+    def heard():
+        clock.publish(Clock(clock=stamp_of(round((1e3 + time.monotonic()) * 1e9))))
+        words.publish(claim_message(ash, 'map', 0.0))
+        return oak.node.diagnose().values['other trees'] == 'ash'
+
+    live_until(tester, [oak], heard)
+    live_until(tester, [oak], lambda: oak.node.clock.fault)
+    claims.clear()
+    live_until(tester, [oak], lambda: len({m.markers[0].text for m in claims}) >= 3)
+    live_until(tester, [oak], lambda: oak.node.diagnose().values['other trees'] == 'ash (silent)')
+    assert oak.twist == REST
+
+
+def test_a_tree_whose_pose_jumps_to_and_fro_tells_both_places_and_stands(tester, zone):
+    given = {'traffic__silent_after': 1.5, 'traffic__expected': ['ash']}
+    oak = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
+    claims = tester.listen(MarkerArray, '/ways', WAYS)
+
+    def told(*places):
+        tells = [[(p.x, p.y) for p in m.markers[0].points] for m in claims[-1:]]
+        return bool(tells) and all(place in tells[0] for place in places)
+
+    live_until(tester, [oak], lambda: told((1.0, 2.0)))
+    oak.pose = Pose(4.0, 3.0, 0.0)
+    live_until(tester, [oak], lambda: told((4.0, 3.0), (1.0, 2.0)))
+    oak.pose = Pose(1.0, 2.0, 0.0)
+    live_until(tester, [oak], lambda: claims.clear() or stands(oak, 'off its way'))
+    live_until(tester, [oak], lambda: told((4.0, 3.0), (1.0, 2.0)))
+    live_until(tester, [oak], lambda: told((1.0, 2.0)) and not told((4.0, 3.0)))
+    live_until(tester, [oak], lambda: oak.node.diagnose().values['nobody moves'] == 'no')
 
 
 def test_a_tree_that_knows_of_no_other_does_not_start(tester, zone, tmp_path):

@@ -62,6 +62,15 @@ def test_a_quaternion_of_another_length_is_refused():
         pose_of(message)
 
 
+def test_a_pose_farther_than_any_map_reaches_is_refused_and_national_metres_are_not():
+    message = PoseMessage()
+    message.orientation.w, message.position.x, message.position.y = 1.0, 5e5, 6.8e6
+    assert pose_of(message).y == 6.8e6
+    message.position.y = -1.1e7
+    with pytest.raises(SignalError, match=r'must be within 1e\+07 m of the origin'):
+        pose_of(message)
+
+
 def test_joints_are_read_by_name_in_any_order():
     joints = TurretJoints(2)
     message = joints.message()

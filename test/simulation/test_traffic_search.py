@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import pytest
 
+from agv_motion.motion.traffic.doubt import Doubt
 from agv_motion.motion.traffic.peer import Peer
 from agv_motion.motion.traffic.peers import Peers
 from agv_motion.motion.traffic.right_of_way import RightOfWay
@@ -18,6 +19,8 @@ THREE = {
     'cells': (0, 2, 4), 'rounds': 2, 'asked': True, 'late': 1, 'words': 4, 'events': (),
 }  # fmt: skip
 PARKED = {'parked': True, 'events': ()}
+THREE_PARKED = THREE | {'parked': True}
+WRONG = {'cells': (1, 2), 'rounds': 2, 'events': ('wrong fix', 'withdraw')}
 
 
 @pytest.mark.parametrize(
@@ -30,7 +33,9 @@ PARKED = {'parked': True, 'events': ()}
         {'cells': (0, 2), **PARKED},
         {'cells': (0, 2), **RESTARTED},
         THREE,
-        {'cells': (0, 2, 4), **PARKED},
+        THREE_PARKED,
+        WRONG,
+        {'cells': (0, 2), 'rounds': 2, 'events': ('wrong fix', 'restart', 'silence')},
     ],
 )
 def test_no_order_of_events_lets_two_hold_the_same_floor(given):
@@ -39,7 +44,10 @@ def test_no_order_of_events_lets_two_hold_the_same_floor(given):
     assert found.complete or found.states == 1500
 
 
-@pytest.mark.parametrize(('given', 'states'), [({'cells': (0, 2), **MUTUAL}, 1500), (THREE, 9000)])
+@pytest.mark.parametrize(
+    ('given', 'states'),
+    [({'cells': (0, 2), **MUTUAL}, 1500), (THREE, 9000), (THREE_PARKED, 5500)],
+)
 def test_floor_is_taken_in_what_was_searched(given, states):
     """A search in which nobody may move proves nothing."""
     found = Search(SearchParameters(states=states, **given)).run()
@@ -60,10 +68,12 @@ def answers_to_any_run(peers, claim):
         (Peers, 'echo', answers_to_any_run, RESTARTED),
         (RightOfWay, 'precedence', property(lambda _: (0, '')), MUTUAL),
         (Peer, 'answered', lambda *_: True, MUTUAL),
+        (Peers, 'forget_agreements', lambda *_: None, THREE_PARKED),
+        (Doubt, 'floor', property(lambda doubt: doubt.places), WRONG),
     ],
-    ids=['parked', 'unparked', 'runs', 'precedence', 'answers'],
+    ids=['parked', 'unparked', 'runs', 'precedence', 'answers', 'three unparked', 'wrong fix'],
 )
 def test_a_rule_that_is_broken_is_seen(monkeypatch, thing, name, broken, given):
     monkeypatch.setattr(thing, name, broken)
-    found = Search(SearchParameters(states=15_000, cells=(0, 2), **given)).run()
+    found = Search(SearchParameters(**({'states': 15_000, 'cells': (0, 2)} | given))).run()
     assert found.breach

@@ -7,8 +7,6 @@ from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
-import shapely
-
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, joined, line
 from agv_motion.motion.traffic.separation import Floor
@@ -16,6 +14,8 @@ from agv_motion.planar import FARTHEST
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import shapely
 
 IDLE = 2**62
 """[1] Journey of a tree that has none: younger than any."""
@@ -139,12 +139,12 @@ class Claim:
     @cached_property
     def floor(self) -> Floor:
         """What it holds, and where it is."""
-        return Floor(self.held_line, shapely.Point(self.held[0]))
+        return Floor.of(self.held)
 
     @cached_property
     def most_floor(self) -> Floor:
         """All that it may hold by now, and where it was."""
-        return Floor(self.both, shapely.Point(self.held[0]))
+        return Floor.of(joined(self.held, self.asked))
 
     @cached_property
     def wish_line(self) -> shapely.Geometry:

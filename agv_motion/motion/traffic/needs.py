@@ -131,9 +131,9 @@ class Needs:
         first = self._goes_first(peer)
         floors = peer.floors()
         if claim.asked and not peer.silent and (first or not wishes):
-            floors.append(Floor(claim.asked_line, claim.floor.body))
+            floors.append(Floor(claim.asked_line, claim.floor.corners))
         if wishes and claim.wish and first and not peer.silent:
-            floors.append(Floor(line(cut(claim.wish, self.courtesy)[0]), claim.floor.body))
+            floors.append(Floor(line(cut(claim.wish, self.courtesy)[0]), claim.floor.corners))
         return floors
 
     def _goes_first(self, peer: Peer) -> bool:

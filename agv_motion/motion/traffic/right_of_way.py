@@ -89,6 +89,13 @@ GRANTED = Verdict(Answer.GRANTED)
 MOST_PEERS = 100
 """[1] other trees in one zone"""
 
+UNHEARD = (
+    'which has not spoken since this tree started: start it, or where it is gone for good take it '
+    'out of traffic.expected and peers_file'
+)
+"""What to do about a tree that is waited for. That one was parked and switched off is not kept on
+disk: where two take each other for parked and both start again, each would rely on the other."""
+
 MOST_WISHED = 500
 """[1] corners of the rest of a way that are told"""
 
@@ -293,7 +300,9 @@ class RightOfWay:
         self.peers.judge(now, self._held_line, self._moved_since)
         verdicts = [self._objection(peer) for peer in self.peers]
         verdicts += [
-            Verdict(Answer.PENDING, name) for name in self.awaited if name not in self.peers
+            Verdict(Answer.PENDING, f'{name}, {UNHEARD}')
+            for name in self.awaited
+            if name not in self.peers
         ]
         for answer in (Answer.TAKEN, Answer.PENDING):
             for verdict in verdicts:

@@ -26,8 +26,18 @@ class Floor(NamedTuple):
 
     line: shapely.Geometry
     """where its centre may be"""
-    body: shapely.Geometry
-    """where its centre is, as far as it said"""
+    corners: shapely.Geometry
+    """the points of that way: where its centre was, where it may have got to, and of one that does
+    not know where it is each place where it may be"""
+
+    @classmethod
+    def of(cls, way: Way) -> Floor:
+        """Return the floor of a tree whose centre may be anywhere on ``way``."""
+        return cls(line(way), shapely.multipoints(way))
+
+    def things(self) -> tuple[shapely.Geometry, ...]:
+        """Return the way, and each of its corners by itself."""
+        return self.line, *shapely.get_parts(self.corners)
 
 
 def apart(a: shapely.Geometry, b: shapely.Geometry, clearance: float) -> bool:
@@ -38,8 +48,8 @@ def apart(a: shapely.Geometry, b: shapely.Geometry, clearance: float) -> bool:
 def keeps_away(way: Way, floor: Floor, clearance: float) -> bool:
     """Return whether ``way`` keeps ``clearance`` [m] from ``floor``, or leads away from it.
 
-    Where it begins nearer, neither the floor nor the tree on it may come nearer on any metre of it:
-    so who stands on another's floor may leave, and nothing else.
+    Where it begins nearer, neither the floor nor any corner of it may come nearer on any metre: so
+    who stands on another's floor may leave it, not walk along it, and nothing else.
     """
     whole = line(way)
     if apart(whole, floor.line, clearance):
@@ -48,7 +58,7 @@ def keeps_away(way: Way, floor: Floor, clearance: float) -> bool:
     return all(
         bool(whole.distance(thing) >= min(float(away[0]), clearance) - TOUCH)
         and not _nearer(away, clearance).any()
-        for thing in floor
+        for thing in floor.things()
         for away in (shapely.distance(places, thing),)
     )
 
@@ -67,7 +77,7 @@ def free_part(way: Way, floor: Floor, clearance: float, least: float = 0.0) -> W
         return way
     places = _places(way)
     bad = np.zeros(len(places), bool)
-    for thing in floor:
+    for thing in floor.things():
         bad |= _nearer(shapely.distance(places, thing), clearance)
     first = int(np.flatnonzero(bad)[0]) if bad.any() else len(places)
     upto = length(way) * (first - 1) / (len(places) - 1)

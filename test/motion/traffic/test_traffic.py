@@ -144,6 +144,44 @@ def test_a_tree_that_was_carried_tells_where_it_is_and_stands_until_others_have_
     assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
 
 
+def test_nobody_walks_onto_the_floor_of_one_whose_fix_comes_and_goes():
+    """Ash stands in oak's way, and believes for 25 of 30 seconds to be far away."""
+    oak, ash = tree('oak', 2.0, 1.25, CORRIDOR), tree('ash', 6.0, 1.25, CORRIDOR)
+    place = (2.0, 1.25)
+    for now in range(400):
+        wrong = now > 5 and now % 30 < 25
+        ash.rest((20.0, 1.25) if wrong else (6.0, 1.25), now)
+        words = oak.claim(now), ash.claim(now)
+        oak.hear(words[1], now)
+        ash.hear(words[0], now)
+        target = oak.towards((12.0, 1.25), place, now).target
+        if target is not None and (away := dist(place, target)) > 0.0:
+            share = min(0.05 / away, 1.0)
+            place = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
+        assert 6.0 - place[0] >= 2 * 0.7 + 0.2
+
+
+def test_a_fix_that_was_wrong_once_costs_time_and_no_more():
+    oak = tree('oak', 2.0, 5.0)
+    place = walk(oak, (10.0, 5.0), 20)[-1]
+    for now in range(20, 25):
+        passage = oak.towards((10.0, 5.0), (15.0, 9.0), now)
+        assert passage.target is None
+    assert oak.right.claim(25).held == ((15.0, 9.0), *oak.right.doubt.before)
+    oak.towards((10.0, 5.0), place, 25)
+    places = [place]
+    for now in range(26, 300):
+        oak.claim(now)
+        target = oak.towards((10.0, 5.0), places[-1], now).target
+        assert target is None or now > 55
+        if target is not None and (away := dist(places[-1], target)) > 0.0:
+            share = min(0.05 / away, 1.0)
+            places.append(
+                tuple(p + share * (t - p) for p, t in zip(places[-1], target, strict=True))
+            )
+    assert places[-1] == pytest.approx((10.0, 5.0), abs=0.06)
+
+
 def test_a_request_is_never_taken_back_because_the_answer_is_slow():
     """An answer takes 10 minutes; the tree asks for the same all the time, and is not blocked."""
     oak = tree('oak', 2.0, 5.0)
