@@ -31,13 +31,14 @@ _LARGEST = 1 << 20
 def successive(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
     """Yield chunks in the order of their start; together those that overlap no other before."""
     group: list[Chunk] = []
-    size, latest = 0, -1
+    size, latest, others = 0, -1, -1
     for chunk in sorted(chunks, key=lambda chunk: chunk.start):
         size += chunk.size
-        follows = group and chunk.start >= latest and chunk.offset > group[-1].offset
+        follows = chunk.start >= latest and chunk.start > others  # else equal stamps change places
+        follows = follows and bool(group) and chunk.offset > group[-1].offset
         if group and not (follows and size <= _LARGEST):
             yield group
-            group, size = [], chunk.size
+            group, size, others = [], chunk.size, latest
         group.append(chunk)
         latest = max(latest, chunk.end)
     if group:
