@@ -69,6 +69,7 @@ class World:
 
     def stop(self) -> None:
         """Deactivate all nodes, first to last."""
+        self._pass_on()
         for node in self.nodes:
             node.on_deactivate(None)
             self._pass_on()
@@ -82,17 +83,22 @@ class World:
         """Let timers run up to ``stamp`` [ns], then let a message from outside be heard.
 
         A timer that is due at the same time comes first, as it does where `/clock` drives both;
-        but not before what its own node has made of that time when it was recorded.
+        but not before what its own node has made of that time when it was recorded. What the
+        nodes say to it is heard when all messages from outside of the same time have been: it took
+        one way more, and what was measured together arrives before what was computed of a part.
         """
+        if stamp > self.now:
+            self._pass_on()
         self.run(stamp - 1 if self.publishers.get(topic) else stamp)
         self.now = stamp
         for listener in self.listeners.get(topic, ()):
             listener.hear(data)
-        self._pass_on()
 
     def run(self, stamp: int) -> None:
         """Run the timers that are due until ``stamp`` [ns]."""
         timers = self._timers
+        if stamp > self.now:
+            self._pass_on()
         while timers and timers[0][0] <= stamp:
             due, order, timer = timers[0]
             if timer.callback is None:

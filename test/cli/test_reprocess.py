@@ -15,6 +15,7 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from geometry_msgs.msg import TwistStamped
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
@@ -27,7 +28,10 @@ from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.cli.reprocess_bag import Plan, Transcript, reprocess
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.nodes.omni_kinematics import OmniKinematics
+from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.cdr import codec
@@ -392,6 +396,41 @@ def test_the_time_is_that_of_the_clock_in_the_bag(recorded, tmp_path):
         for topic in diff(one, two, ['/odom', '/turrets/command'], Tolerance()):
             assert topic.same, topic
         assert abs(one.end - two.end) < SECOND
+
+
+OMNI = (
+    ('omni_kinematics', OmniKinematics),
+    ('localization', Localization),
+    ('omni_simulator', OmniSimulator),
+)
+
+
+def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(tmp_path):
+    """Odometry is derived in the run, the gyro is in the bag: who comes first is as it was."""
+    twists = codec(TwistStamped)
+    with BagWriter(tmp_path / 'live') as writer:
+        transcript = Transcript(writer)
+        world = World(transcript.record, NOON)
+        for name, kind in OMNI:
+            add(world, kind, parameters('omni.yaml', name), {})
+        world.start()
+        topic = writer.add_topic('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
+        for i in range(1, 200):
+            twist = TwistStamped()
+            twist.header.stamp = stamp_of(NOON + i * SECOND // 10)
+            twist.header.frame_id = 'base_link'
+            twist.twist.linear.x, twist.twist.angular.z = 0.3, 0.5
+            data = twists.encode(twist)
+            world.feed('/cmd_vel', NOON + i * SECOND // 10, data)
+            writer.write(topic, NOON + i * SECOND // 10, data)
+        world.stop()
+        transcript.flush()
+    plan = Plan('omni.yaml', ('omni_kinematics', 'localization'), (), 'zstd')
+    assert not reprocess(tmp_path / 'live', tmp_path / 'again', plan).failure
+    with BagReader(tmp_path / 'live') as live, BagReader(tmp_path / 'again') as again:
+        assert live.counts['/pose'] > 100
+        for found in diff(live, again, ['/odom', '/pose'], Tolerance()):
+            assert found.same, found
 
 
 def test_a_clock_that_goes_back_is_told(tmp_path):
