@@ -91,3 +91,38 @@ def test_who_distrusts_it_is_heard_until_it_ran_well():
     faults = looked(watch, running(10.1, 8), steady=0.1)
     assert faults[0] == '/clock told -5 s'
     assert [bool(fault) for fault in faults] == [True] * 5 + [False] * 3
+
+
+@pytest.mark.parametrize(('leap', 'told'), [(1.1, False), (1.5, True)])
+def test_a_clock_may_gain_a_second_and_three_times_what_passed(leap, told):
+    """Hand calculation: 1.0 s + 3 * 0.1 s at one look."""
+    times = running(100.0, 10)
+    assert bool(looked(ClockWatch(), [*times, times[-1] + leap])[-1]) is told
+
+
+def test_a_clock_that_stands_while_it_is_distrusted_keeps_its_first_fault():
+    watch = ClockWatch(stands_after=0.2)
+    watch.look(10.0, 0.0)
+    watch.distrust('/clock told -5 s', 0.05)
+    watch.look(10.0, 0.3)
+    assert watch.fault == '/clock told -5 s'
+    watch.look(10.0, 0.7)
+    assert 'stands still' in watch.fault
+
+
+def test_a_leap_at_the_second_look_does_not_pass_for_speed():
+    watch = ClockWatch()
+    looked(watch, [1000.0, 1000.1, 1e6])
+    assert watch.speed < 10.0
+
+
+def test_ages_count_no_less_where_a_clock_runs_slowly():
+    watch = ClockWatch()
+    looked(watch, running(1000.0, 20, speed=0.1))
+    assert watch.speed == 1.0
+
+
+def test_a_clock_that_begins_anew_has_no_speed_of_before():
+    watch = ClockWatch()
+    looked(watch, [*running(1000.0, 20, speed=60.0), 0.0, *running(5.0, 3)])
+    assert watch.speed == pytest.approx(1.0)
