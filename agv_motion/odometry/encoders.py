@@ -49,6 +49,8 @@ class Encoders:
         """[s] between the last two readings"""
         self.travel: Sequence[float] = ()
         """(n,) [m] distance that each wheel is known to have rolled meanwhile; empty at first"""
+        self.beyond: Sequence[float] = ()
+        """(n,) [m] at a leap of the clock: what each rolled before, in a time that nobody knows"""
         self.rolled = 0.0
         """[m] sum of the travels, all counted positive"""
         self.doubt = 0.0
@@ -110,8 +112,8 @@ class Encoders:
             return step
         if order.begun is not None and step in {Step.LEAP, Step.RESET}:
             since = order.begun.stamp
-            if step is Step.RESET:
-                before = order.begun.value
+            self.beyond = self._travel(before, order.begun.value)
+            before = order.begun.value
         elif step is Step.GAP and self._may_have_gone_round(stamp - since):
             step, before = Step.RESET, angles
         duration, travel = stamp - since, self._travel(before, angles)
@@ -131,8 +133,8 @@ class Encoders:
         """
         if step is Step.RESET or by_rate:
             return speed * self._order.unseen
-        share = {Step.GAP: self._gap_noise, Step.LEAP: 1.0}.get(step, 0.0)
-        return share * self.rolled / len(self._radii)
+        unsure = {Step.GAP: self._gap_noise * self.rolled, Step.LEAP: sum(map(abs, self.beyond))}
+        return unsure.get(step, 0.0) / len(self._radii)
 
     def _uneven(self, travel: Sequence[float], duration: float) -> float:
         """Return how far a wheel [m] may be wrong whose speed changed: when it did is not known."""

@@ -151,6 +151,8 @@ class WheelOdometry:
             self._steering = list(steering)
         if step is Step.FIRST:
             return step
+        if step is Step.LEAP:
+            self._go_beyond(halfway)
         variance, covariance = self._walk * encoders.rolled, base.unit_covariance
         dx, dy, angle, residual = base.displacement(encoders.travel, halfway)
         displacement, duration = (dx, dy, angle), encoders.duration
@@ -165,6 +167,13 @@ class WheelOdometry:
         self._noise = covariance, variance
         self._displacement, self._unexplained, self._duration = displacement, residual, duration
         return step
+
+    def _go_beyond(self, halfway: Sequence[float]) -> None:
+        """Carry the pose over what the wheels rolled while the clock leapt; no twist tells it."""
+        travel = self._encoders.beyond
+        dx, dy, angle, _ = self._base.displacement(travel, halfway)
+        variance = self._walk * sum(map(abs, travel))
+        self._reckoning.carry((dx, dy, angle), self._base.unit_covariance, variance)
 
     def _with_slip(self, variance: float, residual: float) -> float:
         """Return the variance [m2] of a travel: the usual one, or what the residual shows."""

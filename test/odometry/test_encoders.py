@@ -96,13 +96,17 @@ def test_a_gap_in_which_the_encoders_may_have_gone_round_loses_the_travel():
 
 @pytest.mark.parametrize('stamp', [-500.0, 7200.0, 2.1e9])
 def test_a_clock_that_leaps_loses_no_travel_and_costs_certainty(stamp):
-    """Two positions tell of 0.03 m and 0.04 m: the pose is as unsure as all of that, no more."""
+    """Two positions tell of 0.03 m and 0.04 m, of which 0.02 m and 0.02 m took 0.1 s.
+
+    The pose is as unsure as the rest, no more.
+    """
     encoders = started()
     assert encoders.read(stamp, [1.1, 2.1]) is Step.DOUBTED
     assert encoders.read(stamp + 0.1, [1.3, 2.2]) is Step.LEAP
-    assert encoders.travel == pytest.approx([0.03, 0.04], abs=1e-15)
+    assert encoders.beyond == pytest.approx([0.01, 0.02], abs=1e-15)
+    assert encoders.travel == pytest.approx([0.02, 0.02], abs=1e-15)
     assert encoders.duration == pytest.approx(0.1, abs=1e-6)
-    assert encoders.doubt == pytest.approx(0.035, abs=1e-12)
+    assert encoders.doubt == pytest.approx(0.015, abs=1e-12)
     assert encoders.read(stamp + 0.2, [1.4, 2.2]) is Step.MOVED
 
 
@@ -112,7 +116,7 @@ def test_a_clock_set_back_a_little_loses_no_travel():
     for i in range(1, 101):
         step = encoders.read(5.0 + 0.1 * i, [1.0 + 0.05 * i, 2.0])
         if step.used:
-            rolled += encoders.travel[0]
+            rolled += encoders.travel[0] + (encoders.beyond[0] if step is Step.LEAP else 0.0)
         assert step is (Step.LATE if i <= 6 else Step.LEAP if i == 7 else Step.MOVED)
     assert rolled == pytest.approx(100 * 0.05 * 0.1, abs=1e-12)
 

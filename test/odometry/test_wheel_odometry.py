@@ -104,6 +104,22 @@ def test_a_gap_is_bridged_with_doubt():
     assert odometry.covariance().xx == pytest.approx(0.5**2 / 2, rel=0.01)
 
 
+@pytest.mark.parametrize('leap', [-40.0, 40.0])
+def test_what_was_rolled_while_the_clock_leapt_is_travel_but_no_speed(leap):
+    """3 m in a time that nobody knows, at 0.2 m/s before and after."""
+    odometry = WheelOdometry(DifferentialBase(0.3), [0.05, 0.05])
+    rolled = [0.0, 0.02, 0.04, 3.04, 3.06, 3.08]
+    stamps = [0.0, 0.1, 0.2, 0.2 + leap, 0.3 + leap, 0.4 + leap]
+    twists, steps = [], []
+    for stamp, way in zip(stamps, rolled, strict=True):
+        steps.append(odometry.update(stamp + 100.0, [way / 0.05, way / 0.05]))
+        twists.append(odometry.twist.vx)
+    assert steps[3:] == [Step.DOUBTED, Step.LEAP, Step.MOVED]
+    assert twists[1:] == pytest.approx([0.2] * 5)
+    assert odometry.pose.x == pytest.approx(3.08)
+    assert sqrt(odometry.covariance().xx) >= 3.0
+
+
 def test_a_reset_leaves_the_pose_and_doubts_it_by_the_way_it_may_have_gone():
     """Hand calculation: at 1 m/s before, 0.2 s without knowledge are 0.2 m, of both wheels alike.
 
