@@ -27,6 +27,9 @@ FAREWELL = 1.0
 """[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
 
 
+INACTIVE = 'not active'
+"""What it says to be doing as long as nobody activates it."""
+
 LONGEST_STEP = 5
 """Cycles that pass at once at most: nothing runs away from a node that slept."""
 
@@ -107,8 +110,9 @@ class DrivingNode(ManagedNode[P]):
         self.guard.release()
 
     def halt(self) -> None:
-        """Send the last word: no motion."""
+        """Send the last word, no motion, and say so: who comes later hears what was said last."""
         self._send(REST)
+        self.tell(INACTIVE)
 
     def limits(self) -> TwistLimits:
         """Return what no command may pass."""

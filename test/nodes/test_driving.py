@@ -139,6 +139,7 @@ def test_activated_again_it_stands_until_it_is_told_anew(driver, capfd):
     far.robot.moves()
     far.node.trigger_deactivate()
     far.tester.graph.spin_until(lambda: not any(far.robot.commands[-1]))
+    far.tester.graph.spin_until(lambda: far.states[-1].data == 'not active')
     for _ in range(70):  # odom goes on meanwhile
         far.robot.report()
         far.tester.graph.spin_for(0.02)
@@ -148,6 +149,7 @@ def test_activated_again_it_stands_until_it_is_told_anew(driver, capfd):
         far.robot.report()
         far.tester.graph.spin_for(0.02)
     assert not any(map(any, far.robot.commands))
+    assert far.states[-1].data != 'not active'
     assert 'no odom for' not in capfd.readouterr().err
     far.go()
     far.robot.moves()
