@@ -12,8 +12,9 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Int32, String
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.bag.columns import read_topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.nodes.bag_recorder import BagRecorder
 from agv_motion.ros.run import StartError
@@ -224,3 +225,22 @@ def test_under_simulated_time_messages_stand_as_they_arrived(tester, record, tmp
     assert [m.connection.topic for m in found] == [*said, '/n3']
     assert {m.stamp for m in found[:-1]} == {5 * 10**9}
     assert found[-1].stamp == 6 * 10**9 + 7
+
+
+def test_events_of_services_are_recorded_though_their_topics_are_hidden(tester, tmp_path):
+    publisher = tester.node.create_publisher(SetBool.Event, 'set/_service_event', RELIABLE)
+    hidden = numbered(tester, '_n')
+    given = {'output': str(tmp_path / 'bag'), 'all': True, 'storage__keep_free': 0.0}
+    node = tester.start(BagRecorder, **given)
+    heard(tester, publisher)
+    event = SetBool.Event(request=[SetBool.Request(data=True)])
+    event.info.sequence_number = 7
+    publisher.publish(event)
+    send(hidden, 1)
+    tester.graph.spin_until(lambda: node.recording.messages >= 1)
+    node.trigger_deactivate()
+    with BagReader(tmp_path / 'bag') as bag:
+        assert '/_n' not in bag.topics
+        columns = read_topic(bag, '/set/_service_event')
+    assert columns.fields['info.sequence_number'].tolist() == [7]
+    assert columns.fields['request.data'].tolist() == [[True]]
