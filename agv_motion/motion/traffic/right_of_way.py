@@ -44,8 +44,7 @@ system", Communications of the ACM 21(7), 1978.
 from __future__ import annotations
 
 import secrets
-from enum import Enum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import Way, cut, joined, length, line
@@ -53,6 +52,7 @@ from agv_motion.motion.traffic.claim import IDLE, Claim, Word
 from agv_motion.motion.traffic.doubt import jumped
 from agv_motion.motion.traffic.peers import Peers
 from agv_motion.motion.traffic.separation import apart, keeps_away
+from agv_motion.motion.traffic.verdict import GRANTED, UNHEARD, Answer, Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,38 +63,8 @@ if TYPE_CHECKING:
     from agv_motion.motion.traffic.peer import Peer
 
 
-class Answer(Enum):
-    """What came of a request."""
-
-    GRANTED = 'granted'
-    PENDING = 'waits for the answer of'
-    TAKEN = 'waits for'
-    LISTENING = 'listens who else is there'
-    ALARM = 'stands:'
-
-
-class Verdict(NamedTuple):
-    """What came of a request, and through whom."""
-
-    answer: Answer
-    name: str = ''
-
-    def __str__(self) -> str:
-        """In words."""
-        return f'{self.answer.value} {self.name}'.rstrip()
-
-
-GRANTED = Verdict(Answer.GRANTED)
-
 MOST_PEERS = 100
 """[1] other trees in one zone"""
-
-UNHEARD = (
-    'which has not spoken since this tree started: start it, or where it is gone for good take it '
-    'out of traffic.expected and peers_file'
-)
-"""What to do about a tree that is waited for. That one was parked and switched off is not kept on
-disk: where two take each other for parked and both start again, each would rely on the other."""
 
 MOST_WISHED = 500
 """[1] corners of the rest of a way that are told"""

@@ -28,12 +28,13 @@ from agv_motion.motion.polyline import Way, cut, joined, length, line, nearest
 from agv_motion.motion.traffic.claim import IDLE, Claim
 from agv_motion.motion.traffic.detour import free_floor, refuge, taken, way_round
 from agv_motion.motion.traffic.needs import COURTESY, Needs
-from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
 from agv_motion.motion.traffic.separation import TOUCH, apart
+from agv_motion.motion.traffic.verdict import Answer
 
 if TYPE_CHECKING:
     from agv_motion.motion.paths import Paths
     from agv_motion.motion.polyline import Point
+    from agv_motion.motion.traffic.right_of_way import RightOfWay
     from agv_motion.motion.zone import Zone
 
 STRETCH = 1.0

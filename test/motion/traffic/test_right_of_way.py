@@ -15,8 +15,9 @@ from agv_motion.errors import SignalError
 from agv_motion.motion.polyline import line
 from agv_motion.motion.traffic.claim import Claim, Word
 from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.right_of_way import Answer, RightOfWay
+from agv_motion.motion.traffic.right_of_way import RightOfWay
 from agv_motion.motion.traffic.sides import Sides
+from agv_motion.motion.traffic.verdict import Answer
 from agv_motion.simulation.radio import Radio, RadioParameters
 
 PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
