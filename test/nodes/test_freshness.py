@@ -134,7 +134,7 @@ def test_a_publisher_that_begins_anew_with_its_clock_set_back_is_obeyed_after_a_
 
 def test_odometry_that_repeats_itself_stops_the_route(tester):
     commands = tester.listen(TwistStamped, 'cmd_vel')
-    tester.start(RouteFollowerNode, max_age=60.0, **LIMITS)
+    tester.start(RouteFollowerNode, max_age=60.0, blocked__after=0.0, **LIMITS)
     odom = tester.publisher(Odometry, 'odom', SENSOR)
     route = tester.publisher(Path, 'route')
     message = Odometry()
