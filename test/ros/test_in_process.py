@@ -116,6 +116,8 @@ def test_nodes_hear_each_other_but_nobody_hears_before_all_are_active(diary):
     assert diary.world.inputs() == {'/in'}
     diary.world.start()
     diary.feed('/in', 0.1, 1.0)
+    assert late.heard == []  # what nodes say is heard after all that was recorded at its time
+    diary.world.run(START + SECOND // 2)
     assert late.heard == [2.0]
 
 
