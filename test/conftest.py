@@ -42,9 +42,14 @@ os.environ['ROS_DOMAIN_ID'] = str(DOMAIN)
 os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
-settings.register_profile('agv_motion', deadline=None, derandomize=True)
+settings.register_profile(
+    'agv_motion',
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow],  # a busy machine is no fault of a test
+)
 settings.load_profile('agv_motion')
 
 

@@ -101,14 +101,16 @@ def test_pub(agv, graph):
 
 
 def test_pub_some_times_with_arrays(agv, graph):
+    """The first may come before the listener has found its sender: two seconds are enough."""
     node = graph.add(rclpy.create_node('listener', context=graph.context))
     heard = []
-    node.create_subscription(Float64MultiArray, 'array', heard.append, 10)
-    agv(
-        'topic', 'pub', '-t', '3', '-r', '20', '/array', 'std_msgs/Float64MultiArray',
+    node.create_subscription(Float64MultiArray, 'array', heard.append, 50)
+    status, out, _ = agv(
+        'topic', 'pub', '-t', '40', '-r', '20', '/array', 'std_msgs/Float64MultiArray',
         '{layout: {dim: [{label: a, size: 2}]}, data: [1, 2]}',
     )  # fmt: skip
-    graph.spin_until(lambda: len(heard) == 3)
+    assert (status, out.count('publishing #')) == (0, 40)
+    graph.spin_until(lambda: heard)
     assert list(heard[0].data) == [1.0, 2.0]
     assert heard[0].layout.dim[0].label == 'a'
 
