@@ -113,7 +113,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""
-        self._publish(self._limits.stop(), 'stopped', self.seconds())
+        self._publish(self._limits.stop(), 'stopped')
         if self._company is not None and self._pose is not None:
             self._company.park(self._pose)
         if self._keeper is not None:
@@ -144,7 +144,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         require_frame(message.header.frame_id, self.parameters.base_frame)
         if not watch.is_news(message.header.stamp):
             return
-        watch.note()
+        self._heard(watch)
         self._sap_flow = flow
         self._thought = None
         if self._obstacle:
@@ -162,7 +162,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         pose, watch = pose_of(message.pose.pose), self._watches['pose']
         if not watch.is_news(message.header.stamp):
             return
-        watch.note()
+        self._heard(watch)
         self._pose = pose
         self._thought = None
         self._judge()
@@ -225,6 +225,13 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if self._lost and (self.clock.fault or not before):
             self._tick()
 
+    def _heard(self, watch: InputWatch) -> None:
+        """Note news of an input; the tree waits for no look at the clock where it was the last."""
+        watch.note()
+        if self._lost:
+            silent = (n for n, one in self._watches.items() if one.silence() is Silence.LOST)
+            self._lost = next(silent, '')
+
     def _judge(self) -> None:
         """Find out whether the tree may move; again whenever what it knows has changed."""
         self._obstacle = self._find_obstacle()
@@ -241,16 +248,16 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
-        now = self.seconds()
         if self._obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(self._limits.stop(), self._obstacle, now)
+            self._publish(self._limits.stop(), self._obstacle)
             if self._company is not None and self._pose is not None:
                 self._company.stay(self._pose, fresh=not self._lost)
             return
+        now = self.seconds()
         thought = self._think(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity, now)
+        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
         if thought.goal is not self._told_goal:
             self._tell_goal(thought.goal)
         if thought.way[1:] != self._told_way[1:]:
@@ -264,8 +271,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             self._thought, self._thought_at = self._mind.think(now, pose, flow), now
         return self._thought
 
-    def _publish(self, limited: Limited, state: str, now: float) -> None:
-        self._limited_by, self._commanded_at = limited.by, now
+    def _publish(self, limited: Limited, state: str) -> None:
+        # when it is said, not when thinking of it began: by their stamps the rates hold
+        self._limited_by, self._commanded_at = limited.by, self.seconds()
         self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
         self._tell_twist(self._twist)
         if 'translation only' in limited.by:

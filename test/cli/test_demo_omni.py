@@ -25,12 +25,12 @@ def test_a_short_drive_leaves_a_bag_and_a_figure(alone, tmp_path):
     told = np.hypot(*run.error(run.pose)[:2])
     assert np.median(told) < 0.15
     assert re.search(r'errs +\d+\.\d cm', out)
-    with pytest.raises(ConfigurationError, match="no topic '/pos'; it has"):
+    with pytest.raises(ConfigurationError, match=r"no topic '/pos'; did you mean '/pose'\?"):
         pose_columns(tmp_path / 'bag', ['/pos'])
 
 
 def test_a_bag_that_is_none_is_refused(tmp_path):
-    with pytest.raises(SourceError, match='cannot read the bag'):
+    with pytest.raises(SourceError, match='does not exist: give the folder of a bag'):
         pose_columns(tmp_path / 'nothing', ['/pose'])
 
 

@@ -88,7 +88,7 @@ def test_a_bag_that_does_not_tell_is_refused(alone, tmp_path, options, reason):
 def test_no_bag_at_all(alone, tmp_path):
     status, _, errors = alone('plot', tmp_path / 'none')
     assert status == 1
-    assert 'cannot read the bag' in errors
+    assert 'does not exist: give the folder of a bag' in errors
     assert 'Traceback' not in errors
 
 
