@@ -5,8 +5,8 @@
 Each trial runs the nodes themselves, in simulated time, with limits, rates and phases by chance,
 until the robot drives; then one of their inputs falls silent, repeats its last message or comes
 with stamps that are too old or too far ahead. Exits with 1 where a wheel turns longer than the
-limit of that input plus one period of its watch; behind `cmd_vel` the turrets of a tree are braked
-within their limits as well.
+limit of that input plus one period of its watch; behind `cmd_vel` the wheels are braked within
+their limits as well.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.route_follower import RouteFollowerNode
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.nodes.wheels import WheelsParameters
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process import add
@@ -55,6 +56,10 @@ class Case:
 
 TREE = SteeringLimits()
 BRAKING = TREE.max_wheel_speed / TREE.wheel_acceleration
+WHEELS = WheelsParameters()
+ROUTE_SPEED = 0.5
+"""[m/s] of the route follower as it is by default"""
+ROUTE_BRAKING = ROUTE_SPEED / WHEELS.max_wheel_deceleration + 1.0 / WHEELS.rate
 CASES = {
     'differential, cmd_vel': Case((DifferentialKinematics,), ('cmd_vel',), 'cmd_vel'),
     'differential, wheels/state': Case(
@@ -65,7 +70,9 @@ CASES = {
     'turrets, turrets/state': Case(
         (WheelKinematics,), ('cmd_vel', 'turrets/state'), 'turrets/state'
     ),
-    'route, odom': Case((RouteFollowerNode, DifferentialKinematics), ('odom',), 'odom'),
+    'route, odom': Case(
+        (RouteFollowerNode, DifferentialKinematics), ('odom',), 'odom', ROUTE_BRAKING
+    ),
     'tree, sap flow': Case(
         (MotionGenerator, WheelKinematics),
         ('granier/sap_flow', 'pose'),
