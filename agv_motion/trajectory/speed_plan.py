@@ -70,7 +70,7 @@ def plan_speed(
         # the mean of a sharp profile over T seconds stands at most this far from its moments
         fastest = np.minimum(np.sqrt(lowest) + acceleration * rounding, np.sqrt(square.max()))
         reach = 0.5 * fastest * rounding
-        square = _lowest_within(way, square, reach)
+        square = _with_neighbours(_lowest_within(way, square, reach))
         start = 0.5 * start_speed * rounding
         after = way > start
         square = np.append(np.interp(start, way, square), square[after])
@@ -78,6 +78,13 @@ def plan_speed(
         lowest = _lowest(way, square, acceleration, start_speed)
     sharp = _with_corners(way, square, lowest, acceleration)
     return RoundedProfile(sharp, rounding) if rounding > 0.0 else sharp
+
+
+def _with_neighbours(square: Column) -> Column:
+    """Return the least of each node and the next ones: then no point between two is too high."""
+    padded = np.pad(square, 1, mode='edge')
+    least: Column = np.minimum(np.minimum(padded[:-2], padded[2:]), square)
+    return least
 
 
 def _trapezoid(
