@@ -70,7 +70,11 @@ class Tester:
 
     def wait(self, inbox, condition=lambda message: True, timeout=60.0):
         """Return the first message in ``inbox`` that fulfils ``condition``."""
-        self.graph.spin_until(lambda: any(map(condition, inbox)), timeout)
+        try:
+            self.graph.spin_until(lambda: any(map(condition, inbox)), timeout)
+        except AssertionError as error:
+            msg = f'{error}: of {len(inbox)} messages none fits; the last: {inbox[-3:]}'
+            raise AssertionError(msg) from error
         return next(message for message in inbox if condition(message))
 
 
