@@ -6,6 +6,7 @@ import atexit
 import gc
 import os
 import random
+import signal
 import socket
 import threading
 import time
@@ -35,6 +36,9 @@ def free_domain():
 
 
 DOMAIN, LOCK = free_domain()
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    # as nohup does: what the tests start would be deaf to it too; what is caught here is not
+    signal.signal(signal.SIGHUP, lambda *_: None)
 atexit.register(LOCK.close)
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['ROS_DOMAIN_ID'] = str(DOMAIN)
