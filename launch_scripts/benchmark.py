@@ -27,9 +27,7 @@ from sensor_msgs.msg import JointState
 from wpimath.geometry import Rotation2d, Translation2d
 from wpimath.kinematics import ChassisSpeeds, SwerveDrive3Kinematics
 
-from agv_motion.kinematics.steering import SteeringPlanner
-from agv_motion.kinematics.steering_limits import SteeringLimits
-from agv_motion.kinematics.steering_state import SteeringState
+from agv_motion.kinematics.steering import AtRest, SteeringLimits, SteeringPlanner
 from agv_motion.kinematics.turret_columns import polar_to_cartesian, turret_columns
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -76,7 +74,7 @@ def turret_rows() -> list[Row]:
 def steering_rows() -> list[Row]:
     """One step of the steering planner, beside all that WPILib does for one command."""
     tree = Turrets(POSITIONS)
-    planner, state = SteeringPlanner(tree, SteeringLimits()), SteeringState([0.0] * 3)
+    planner, phase = SteeringPlanner(tree, SteeringLimits()), AtRest.at([0.0] * 3)
     peer = SwerveDrive3Kinematics(*(Translation2d(x, y) for x, y in POSITIONS))
     angles = [Rotation2d(0.3 * i) for i in range(3)]
     twists = [
@@ -84,8 +82,8 @@ def steering_rows() -> list[Row]:
         for k in range(2000)
     ]
     for _ in range(400):
-        planner.step(state, twists[0], 0.1)
-    wandering = itertools.cycle(twists + twists[::-1])
+        phase = planner.step(phase, twists[0], 0.1)
+    wandering = itertools.cycle(twists + twists[::-1])  # it rolls all the while: one phase
 
     def theirs() -> list[tuple[float, float]]:
         states = peer.toSwerveModuleStates(ChassisSpeeds(*next(wandering)))
@@ -94,11 +92,11 @@ def steering_rows() -> list[Row]:
             each.optimize(angle)
         return [(each.angle.radians(), each.speed) for each in states]
 
-    turning = per_call(lambda: planner.step(state, next(wandering), 0.1))
+    turning = per_call(lambda: planner.step(phase, next(wandering), 0.1))
     steady = Twist(0.01, 0.004, 0.003)
     for _ in range(400):
-        planner.step(state, steady, 0.1)
-    resting = per_call(lambda: planner.step(state, steady, 0.1))
+        phase = planner.step(phase, steady, 0.1)
+    resting = per_call(lambda: planner.step(phase, steady, 0.1))
     wpimath = per_call(theirs)
     peer_name = 'robotpy-wpimath, no limits'
     return [

@@ -23,7 +23,7 @@ from agv_motion.odometry.gates import is_noise
 from agv_motion.odometry.odometry_intake import OdometryIntake
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.parameters import OdometryParameters
-from agv_motion.odometry.turret_reckoning import TurretReckoning
+from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.planar import Pose
@@ -45,7 +45,7 @@ class Fuzz:
         self._differential = WheelOdometry(DifferentialBase(0.5), [0.1, 0.1], given)
         omni = OmniWheels(wheels_on_circle([pi / 6, 5 * pi / 6, 3 * pi / 2], [0.3] * 3))
         self._omni = OmniOdometry(omni, [0.1] * 3, given)
-        self._turrets = TurretReckoning(Turrets([(0.8, -0.8), (0.8, 0.8), (-1.2, 0.0)]), 0.02)
+        self._turrets = TurretOdometry(Turrets([(0.8, -0.8), (0.8, 0.8), (-1.2, 0.0)]), 0.02)
         limits = FusionParameters(tag_x=0.8)
         self._fusion, self._plain = PoseFusion(limits), PoseFusion(limits)
         self._intake = OdometryIntake(limits, AssumedNoise())
@@ -98,7 +98,7 @@ class Fuzz:
 
     def _feed_turrets(self) -> None:
         speeds = self._numbers(0.5, 0.5, 0.5)
-        self._turrets.take(self._number(self._time), self._numbers(0.1, 0.1, 0.1), speeds)
+        self._turrets.update(self._number(self._time), self._numbers(0.1, 0.1, 0.1), speeds)
 
     def _feed_gyro(self) -> None:
         self._gyro.add(self._number(self._time), self._number(0.1))

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from geometry_msgs.msg import TwistStamped
     from numpy.typing import NDArray
 
-    from agv_motion.odometry.turret_reckoning import ReckonedColumns
+    from agv_motion.odometry.turret_odometry import ReckonedColumns
     from agv_motion.ros.world import Listener
 
 SECOND = 1_000_000_000
@@ -150,7 +150,7 @@ class RecordedWheels(WheelKinematics):
         news = self._state_watch.are_news(taken, np.array(stamps, np.int64))
         if not news or not self._reckoning.are_plain(times, speeds):
             return []
-        reckoned = self._reckoning.take_columns(times, angles, speeds)
+        reckoned = self._reckoning.update_columns(times, angles, speeds)
         fights = self._fights.table(len(messages))
         fights['data'] = reckoned.residual
         return list(

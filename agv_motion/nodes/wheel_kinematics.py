@@ -14,11 +14,10 @@ from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering_drive import SteeringDrive
-from agv_motion.kinematics.steering_state import Limiter
+from agv_motion.kinematics.steering import Limiter, SteeringController
 from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
-from agv_motion.odometry.turret_reckoning import TurretReckoning
+from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
@@ -61,7 +60,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         turrets = given.turrets()
         self._zero = given.steering_zero or (0.0,) * len(turrets)
         self._period = 1.0 / given.rate
-        self._driving = SteeringDrive(turrets, given, self._period, given.unwind_after)
+        self._driving = SteeringController(turrets, given, self._period, given.unwind_after)
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
         self._command_watch = InputWatch(self, 'cmd_vel', limits)
         self._state_watch = InputWatch(self, 'turrets/state', limits, 'look at the encoders')
@@ -69,7 +68,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
         self._residual = 0.0
-        self._reckoning = TurretReckoning(
+        self._reckoning = TurretOdometry(
             turrets, given.wheel_noise, given.max_measured_speed, given.max_gap
         )
         self._arrays_wanted = False
@@ -112,8 +111,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             'cmd_vel': silence.value,
             'limited by': self._limiter.value,
         }
-        if self._driving.plan is not None:
-            turns = max(self._driving.plan.angles, key=abs) / (2.0 * pi)
+        if (setpoints := self._driving.setpoints) is not None:
+            turns = max(setpoints.angles, key=abs) / (2.0 * pi)
             values['furthest turn of a turret'] = f'{turns:.2f}'
         if error := self._why_stopped():
             return Diagnosis(ERROR, error, values)
@@ -140,7 +139,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _take_twist(self, twist: Twist, frame: str, stamp: Any) -> None:
         """Drive as a twist says that is news; obey a stop however old it is."""
         if twist == REST:
-            self._driving.want(twist)
+            self._driving.set_target(twist)
         require_frame(frame, self.parameters.base_frame)
         if self._command_watch.is_news(stamp):
             self._drive(twist)
@@ -149,18 +148,18 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         """Answer a twist with a command at once, while the clock can be believed."""
         if self.clock.fault:
             return
-        driving = self._driving
-        driving.want(twist)
+        self._driving.set_target(twist)
+        setpoints = self._driving.setpoints
         self._command_watch.note()
-        if self._stopped_by or self._blind or driving.plan is None:
+        if self._stopped_by or self._blind or setpoints is None:
             self._stand_still()
             return
-        self._step(SOONEST * driving.plan.period)
+        self._step(SOONEST * setpoints.period)
         self._send()
 
     def _go_on(self) -> None:
         """Bring the wheels nearer to the wanted twist, also between two messages."""
-        if self._driving.plan is None or self._stopped_by or self._blind:
+        if self._driving.setpoints is None or self._stopped_by or self._blind:
             return
         lost = self._command_watch.silence() is Silence.LOST
         if lost and not self._driving.unwinding:
@@ -173,21 +172,21 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         now = self.stamp(self._message)  # a command is stamped with the instant it is planned for
         if not self._driving.step(now, soonest):
             return False
-        plan = self._driving.plan
-        if plan is not None and plan.limiter is not self._limiter:
-            self._limiter = plan.limiter
-            self._limits.publish(String(data=plan.limiter.value))
+        setpoints = self._driving.setpoints
+        if setpoints is not None and setpoints.limiter is not self._limiter:
+            self._limiter = setpoints.limiter
+            self._limits.publish(String(data=setpoints.limiter.value))
         return True
 
     def _send(self) -> None:
         """Command the turrets; the two plain arrays only where someone listens."""
-        plan = self._driving.plan
-        if plan is None:
+        setpoints = self._driving.setpoints
+        if setpoints is None:
             return
         share = self._driving.share()
         factor = share / self.parameters.wheel_radius
-        rates = [factor * speed for speed in plan.speeds]
-        angles = [angle - zero for angle, zero in zip(plan.angles, self._zero, strict=True)]
+        rates = [factor * speed for speed in setpoints.speeds]
+        angles = [angle - zero for angle, zero in zip(setpoints.angles, self._zero, strict=True)]
         self._tell_turrets(angles, rates)
         self._tell_limited()
         if self._arrays_wanted:
@@ -203,9 +202,9 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         if not self._limited.get_subscription_count():
             return
         driving, twist = self._driving, REST
-        if driving.plan is not None:
+        if driving.setpoints is not None:
             share = driving.share()
-            vx, vy, wz = driving.plan.twist(driving.planner.turrets)
+            vx, vy, wz = driving.setpoints.twist(driving.planner.turrets)
             twist = Twist(share * vx, share * vy, share * wz)
         fill_twist(self._limited_message.twist, twist)
         self._limited.publish(self._limited_message)
@@ -222,7 +221,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     def _stand_still(self) -> None:
         """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
         self._driving.stop()
-        if self._driving.plan is None:
+        if self._driving.setpoints is None:
             message = self._joints.standstill()
             message.header.frame_id = self.parameters.base_frame
             self.stamp(message)
@@ -258,7 +257,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         speeds = [rate * radius for rate in state.rates]
         rolled = [angle * radius for angle in state.turned]
         stamp, odometry = message.header.stamp, self._odometry_message
-        reckoned = self._reckoning.take(seconds_of(stamp), angles, speeds, rolled)
+        reckoned = self._reckoning.update(seconds_of(stamp), angles, speeds, rolled)
         if state.wrong:
             self.refuse(f'turrets/state: {state.wrong}; going by the angles of the wheels')
         if not reckoned.step.used:
@@ -275,7 +274,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _note_angles(self, angles: list[float]) -> None:
         first = self._driving.measured is None
-        self._driving.see(angles)
+        self._driving.set_measured(angles)
         self._state_watch.note()
         if first and self._driving.overturned():
             self.get_logger().warning(self._driving.overturned())

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import random
 from math import cos, pi, sin, tau
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.kinematics.steering import SteeringPlanner
-from agv_motion.kinematics.steering_limits import SteeringLimits
-from agv_motion.kinematics.steering_state import SteeringState
+from agv_motion.kinematics.steering import AtRest, SteeringLimits, SteeringPlanner
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import Twist
+
+if TYPE_CHECKING:
+    from agv_motion.kinematics.steering.state import Phase
 
 
 class Worst(NamedTuple):
@@ -50,7 +51,7 @@ class SteeringTrial:
         )
         self.planner = SteeringPlanner(self.turrets, self.limits)
         most = self.limits.turn_limit * tau
-        self.state = SteeringState([draw.uniform(-most, most) for _ in range(count)])
+        self.phase: Phase = AtRest.at([draw.uniform(-most, most) for _ in range(count)])
         self.period = draw.choice([0.01, 0.02, 0.05, 0.1])
         self._last = 0.0
 
@@ -85,20 +86,21 @@ class SteeringTrial:
 
     def step(self, wanted: Twist, period: float) -> Worst:
         """Take one step and measure it from outside, by differences."""
-        state, limits = self.state, self.limits
-        angles, rates, speeds = list(state.angles), list(state.rates), list(state.speeds)
-        self.planner.step(state, wanted, period)
+        before, limits = self.phase.setpoints, self.limits
+        angles, rates, speeds = list(before.angles), list(before.rates), list(before.speeds)
+        self.phase = self.planner.step(self.phase, wanted, period)
+        made = self.phase.setpoints
         passed = min(period, 0.5 * (period + self._last)) if self._last else period
         self._last = period
-        new_rates = [(b - a) / period for a, b in zip(angles, state.angles, strict=True)]
-        fastest = max(map(abs, state.speeds))
-        fit = self.turrets.twist(state.angles, state.speeds)
+        new_rates = [(b - a) / period for a, b in zip(angles, made.angles, strict=True)]
+        fastest = max(map(abs, made.speeds))
+        fit = self.turrets.twist(made.angles, made.speeds)
         return Worst(
             max(map(abs, new_rates)) / limits.steering_rate,
             _most_change(rates, new_rates) / passed / limits.steering_acceleration,
             fastest / limits.max_wheel_speed,
-            _most_change(speeds, state.speeds) / period / limits.wheel_acceleration,
-            max(map(abs, state.angles)) / (limits.turn_limit * tau),
+            _most_change(speeds, made.speeds) / period / limits.wheel_acceleration,
+            max(map(abs, made.angles)) / (limits.turn_limit * tau),
             fit.residual / fastest if fastest else 0.0,
         )
 
@@ -106,7 +108,7 @@ class SteeringTrial:
         """Return how far the commanded twist is from the wanted one, scaled to what is feasible."""
         held = [0.0] * len(self.turrets)
         scale = self.turrets.command(wanted, held, self.limits.max_wheel_speed).scale
-        made = self.state.twist(self.turrets)
+        made = self.phase.setpoints.twist(self.turrets)
         return max(abs(a - scale * b) for a, b in zip(made, wanted, strict=True))
 
     def settle(self, wanted: Twist, tolerance: float) -> float:
@@ -120,7 +122,7 @@ class SteeringTrial:
         most = brisk + 40.0 / self.limits.steering_rate
         time = 0.0
         while self.error(wanted) > tolerance:
-            self.planner.step(self.state, wanted, self.period)
+            self.phase = self.planner.step(self.phase, wanted, self.period)
             time += self.period
             assert time < most, f'{wanted} is not made within {most:.0f} s'
         return max(time - brisk, 0.0)

@@ -19,7 +19,7 @@ from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.base import DifferentialBase, OmniBase
 from agv_motion.odometry.covariance import is_positive_definite, rotate
 from agv_motion.odometry.parameters import OdometryParameters
-from agv_motion.odometry.turret_reckoning import TurretReckoning
+from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.odometry.wheel_angles import WheelAngles
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.planar import Pose, Twist, compose, integrate, wrap
@@ -62,10 +62,10 @@ class Turned:
     """Turrets, which tell the speeds of their wheels."""
 
     def __init__(self):
-        self.reckoning = TurretReckoning(TURRETS, NOISE.wheel_noise)
+        self.reckoning = TurretOdometry(TURRETS, NOISE.wheel_noise)
 
     def take(self, stamp, angles, rates, steering):
-        told = self.reckoning.take(stamp, steering, [RADIUS * rate for rate in rates])
+        told = self.reckoning.update(stamp, steering, [RADIUS * rate for rate in rates])
         return told.pose, told.covariance
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi
+from math import cos, isnan, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.planar import wrap
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:
     """Return the share of its speed with which a platform may roll while its turrets still turn.
 
-    The cosine of the worst error, 0 from a quarter turn on: all wheels slow down by one factor, so
-    a platform at rest steers before it rolls, and turrets under way hardly pull against each
-    other.
+    The cosine of the worst error, 0 from a quarter turn on and where one is NaN: all wheels slow
+    down by one factor, so a platform at rest steers before it rolls, and turrets under way hardly
+    pull against each other.
 
     Args:
         angles: (n,) commanded steering angles [rad].
@@ -28,6 +28,8 @@ def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:
         error = abs(a - b)
         if error > pi:
             error = abs(wrap(a - b))
-        if not error <= worst:  # also true when NaN
+        if not error <= worst:
+            if isnan(error):
+                return 0.0
             worst = error
     return max(cos(worst), 0.0)

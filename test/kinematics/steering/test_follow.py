@@ -8,15 +8,13 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agv_motion.kinematics.steering import SteeringPlanner
-from agv_motion.kinematics.steering_course import all_follow, longest_share
-from agv_motion.kinematics.steering_limits import SteeringLimits
-from agv_motion.kinematics.steering_state import SteeringState
+from agv_motion.kinematics.steering import AtRest, Rolling, SteeringLimits, SteeringPlanner
+from agv_motion.kinematics.steering.chassis import measure
+from agv_motion.kinematics.steering.follow import all_follow, longest_share
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import Twist
 
-CORNERS = [(cos(a), sin(a)) for a in (-pi / 3, pi / 3, pi)]
-"""[m] of turrets at the mean distance of 1 m from their centroid, but for rounding"""
+CORNERS = Turrets([(cos(a), sin(a)) for a in (-pi / 3, pi / 3, pi)])
 LIMITS = SteeringLimits()
 
 
@@ -24,14 +22,15 @@ LIMITS = SteeringLimits()
 @given(st.integers(0, 10**6))
 def test_all_follow_just_where_the_longest_share_is_the_whole(seed):
     chance = np.random.default_rng(seed)
-    planner, state = SteeringPlanner(Turrets(CORNERS), LIMITS), SteeringState([0.0] * 3)
+    planner, phase = SteeringPlanner(CORNERS, LIMITS), AtRest.at([0.0] * 3)
+    chassis = measure(CORNERS, LIMITS)
     heading, spin = chance.uniform(-pi, pi), 0.0
     for _ in range(150):
         heading, spin = heading + chance.normal(0.0, 0.03), spin + chance.normal(0.0, 2e-4)
-        planner.step(state, Twist(0.01 * cos(heading), 0.01 * sin(heading), spin), 0.1)
-        if state.speed == 0.0:
+        phase = planner.step(phase, Twist(0.01 * cos(heading), 0.01 * sin(heading), spin), 0.1)
+        if not isinstance(phase, Rolling):
             continue
         size = 10.0 ** chance.uniform(-3.0, 0.0)
         target = tuple(size * chance.uniform(-1.0, 1.0) for _ in range(3))
-        share = longest_share(CORNERS, state, LIMITS, target, 0.1)
-        assert all_follow(CORNERS, state, LIMITS, target, 0.1) == (share == 1.0)
+        share = longest_share(chassis, phase, target, 0.1)
+        assert all_follow(chassis, phase, target, 0.1) == (share == 1.0)

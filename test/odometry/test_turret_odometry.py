@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.continuity import Step
-from agv_motion.odometry.turret_reckoning import TurretReckoning
+from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.planar import Twist
 
 TURRETS = Turrets([(0.8, -0.8), (0.8, 0.8), (-1.2, 0.0)])
@@ -33,14 +33,14 @@ def numbers(reckoned):
 def test_by_columns_it_is_the_same_to_the_bit(states, cut):
     steps, angles, speeds = (np.array(column) for column in zip(*states, strict=True))
     times = 1.4e9 + np.cumsum(steps)
-    one, many = TurretReckoning(TURRETS, 0.02), TurretReckoning(TURRETS, 0.02)
+    one, many = TurretOdometry(TURRETS, 0.02), TurretOdometry(TURRETS, 0.02)
     expected = [
-        numbers(one.take(time, list(angle), list(speed)))
+        numbers(one.update(time, list(angle), list(speed)))
         for time, angle, speed in zip(times.tolist(), angles.tolist(), speeds.tolist(), strict=True)
     ]
     parts = [part for part in (slice(0, cut), slice(cut, None)) if len(times[part])]
     found = [
-        numbers(many.take_columns(times[part], angles[part].T, speeds[part].T)) for part in parts
+        numbers(many.update_columns(times[part], angles[part].T, speeds[part].T)) for part in parts
     ]
     assert np.array(expected).T.tobytes() == np.concatenate(found, axis=1).tobytes()
 
@@ -48,12 +48,12 @@ def test_by_columns_it_is_the_same_to_the_bit(states, cut):
 def test_a_quarter_turn_on_the_spot_by_hand():
     """Hand calculation: 1 rad/s for pi/2 s; the turret at (-1.2, 0) rolls 1.2 pi/2 = 1.88 m."""
     command = TURRETS.command(Twist(0.0, 0.0, 1.0), [0.0] * COUNT)
-    reckoning = TurretReckoning(TURRETS, 0.1)
-    start = reckoning.take(10.0, command.angle, command.speed)
+    reckoning = TurretOdometry(TURRETS, 0.1)
+    start = reckoning.update(10.0, command.angle, command.speed)
     assert start.pose == (0.0, 0.0, 0.0)
     assert start.covariance.tt == 0.0
     for i in range(1, 5):
-        end = reckoning.take(10.0 + i * pi / 8, command.angle, command.speed)
+        end = reckoning.update(10.0 + i * pi / 8, command.angle, command.speed)
     assert end.twist == pytest.approx((0.0, 0.0, 1.0))
     assert end.residual == pytest.approx(0.0, abs=1e-15)
     assert end.pose == pytest.approx((0.0, 0.0, pi / 2), abs=1e-12)
@@ -65,14 +65,14 @@ def test_a_quarter_turn_on_the_spot_by_hand():
 
 def rolling(stamps, speed=1.0, reckoning=None):
     """Take states of a platform that goes straight on at these stamps; return the last."""
-    reckoning = reckoning or TurretReckoning(TURRETS, 0.02)
+    reckoning = reckoning or TurretOdometry(TURRETS, 0.02)
     for stamp in stamps:
-        told = reckoning.take(stamp, [0.0] * COUNT, [speed] * COUNT)
+        told = reckoning.update(stamp, [0.0] * COUNT, [speed] * COUNT)
     return told
 
 
 def test_a_state_that_is_not_newer_does_not_move_the_pose():
-    reckoning = TurretReckoning(TURRETS, 0.02)
+    reckoning = TurretOdometry(TURRETS, 0.02)
     steps = [rolling([time], reckoning=reckoning).step for time in (1.0, 1.0, 0.9, 1.25)]
     assert steps == [Step.FIRST, Step.DUPLICATE, Step.LATE, Step.MOVED]
     assert rolling([1.25], reckoning=reckoning).pose == pytest.approx((0.25, 0, 0))
@@ -116,25 +116,25 @@ def test_a_clock_that_is_put_right_by_seconds_costs_what_may_be_lost(leap):
 
 @pytest.mark.parametrize('speed', [1e100, -1e30, 11.0, nan, inf])
 def test_an_impossible_speed_is_refused_and_nothing_has_changed(speed):
-    reckoning = TurretReckoning(TURRETS, 0.02, max_wheel_speed=10.0)
+    reckoning = TurretOdometry(TURRETS, 0.02, max_wheel_speed=10.0)
     rolling([0.0, 0.1], reckoning=reckoning)
     with pytest.raises(SignalError, match='wheel speeds'):
-        reckoning.take(0.2, [0.0] * COUNT, [1.0, speed, 1.0])
+        reckoning.update(0.2, [0.0] * COUNT, [1.0, speed, 1.0])
     assert rolling([0.2], reckoning=reckoning).pose.x == pytest.approx(0.2, abs=1e-12)
 
 
 def test_where_speeds_are_unknown_what_wheels_rolled_tells_them():
-    reckoning = TurretReckoning(TURRETS, 0.02)
+    reckoning = TurretOdometry(TURRETS, 0.02)
     with pytest.raises(SignalError, match='no wheel speeds'):
-        reckoning.take(0.0, [0.0] * COUNT, [], [5.0] * COUNT)
-    reckoning.take(0.0, [0.0] * COUNT, [1.0] * COUNT, [5.0] * COUNT)
-    told = reckoning.take(0.1, [0.0] * COUNT, [], [5.08] * COUNT)
+        reckoning.update(0.0, [0.0] * COUNT, [], [5.0] * COUNT)
+    reckoning.update(0.0, [0.0] * COUNT, [1.0] * COUNT, [5.0] * COUNT)
+    told = reckoning.update(0.1, [0.0] * COUNT, [], [5.08] * COUNT)
     assert told.pose.x == pytest.approx(0.08)
     assert told.twist.vx == pytest.approx(0.8)
 
 
 def test_states_that_are_late_or_beyond_limits_do_not_go_by_columns():
-    reckoning = TurretReckoning(TURRETS, 0.02)
+    reckoning = TurretOdometry(TURRETS, 0.02)
     rolling([1.0], reckoning=reckoning)
     still = np.zeros((COUNT, 2))
     assert reckoning.are_plain(np.array([1.1, 1.2]), still)
@@ -142,4 +142,4 @@ def test_states_that_are_late_or_beyond_limits_do_not_go_by_columns():
                           ([1.1, 1.2], still + 1e9)):  # fmt: skip
         assert not reckoning.are_plain(np.array(times), speeds)
         with pytest.raises(ConfigurationError, match='one by one'):
-            reckoning.take_columns(np.array(times), still, speeds)
+            reckoning.update_columns(np.array(times), still, speeds)

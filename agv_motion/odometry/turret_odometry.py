@@ -56,7 +56,7 @@ class ReckonedColumns(NamedTuple):
     covariance: Covariance
 
 
-class TurretReckoning:
+class TurretOdometry:
     """Takes states of the turrets, one by one or many together: to the bit the same."""
 
     def __init__(
@@ -83,7 +83,7 @@ class TurretReckoning:
         self._order = Continuity[tuple[float, Twist]](max_gap, lambda *_: True)
         self._rolled: Sequence[float] = ()
 
-    def take(
+    def update(
         self,
         time: float,
         angles: Sequence[float],
@@ -161,7 +161,7 @@ class TurretReckoning:
             and np.all(np.abs(speeds) <= self._max_speed)
         )
 
-    def take_columns(self, times: Column, angles: Column, speeds: Column) -> ReckonedColumns:
+    def update_columns(self, times: Column, angles: Column, speeds: Column) -> ReckonedColumns:
         """Take many states.
 
         Args:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import nan, pi
 
 import pytest
 
-from agv_motion.kinematics.turret_motion import alignment
+from agv_motion.kinematics.steering.alignment import alignment
 
 
 @pytest.mark.parametrize(
@@ -14,3 +14,7 @@ from agv_motion.kinematics.turret_motion import alignment
 )
 def test_it_rolls_with_the_cosine_of_the_worst_error(error, share):
     assert alignment([0.1, 1.0, 2.0], [0.1, 1.0 + error, 2.0]) == pytest.approx(share)
+
+
+def test_an_angle_that_is_no_number_stops_the_wheels():
+    assert alignment([0.0, 0.0], [0.0, nan]) == alignment([0.0, 0.0], [nan, 0.0]) == 0.0
