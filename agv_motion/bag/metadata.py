@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from agv_motion.bag.quality_of_service import OfferedQos
 
 FILE_NAME = 'metadata.yaml'
+UNFINISHED = f'{FILE_NAME}.tmp'
+"""what a killed writer may leave of it; the next one writes over it"""
 SIZE, ENTRIES = 64 << 20, 1_000_000
 """[bytes], and values, that a description may have: thousands of topics and files"""
 NEVER = 2**63 - 1
@@ -91,14 +93,14 @@ def inside_mcap(description: str) -> str:
 
 def save(bag: Path, description: str) -> None:
     """Put ``metadata.yaml`` into the folder of a bag, whole or not at all."""
-    unfinished = bag / f'{FILE_NAME}.tmp'
+    unfinished = bag / UNFINISHED
     try:
         with unfinished.open('w', encoding='utf-8') as file:
             file.write(description)
             file.flush()
             os.fsync(file.fileno())
         unfinished.replace(bag / FILE_NAME)
-    except OSError:
+    except BaseException:
         unfinished.unlink(missing_ok=True)
         raise
 

@@ -247,16 +247,22 @@ class BagWriter:
         self._file = self._open_next()
         for topic in self._topics:
             self._file.add_channel(topic)
+        self._save_metadata()
 
     def drop_oldest(self) -> bool:
         """Delete the oldest finished file; return whether there was one."""
         if not self._finished:
             return False
         oldest = self._finished.pop(0)
-        (self.path / oldest.summary.path).unlink(missing_ok=True)
+        path = self.path / oldest.summary.path
+        try:
+            self._save_metadata()  # first, so that it never names what is gone
+            path.unlink(missing_ok=True)
+        except OSError:  # no room for it on the disk, but soon there is
+            path.unlink(missing_ok=True)
+            self._save_metadata()
         for i, count in enumerate(oldest.counts):
             self.deleted[i] += count
-        metadata.save(self.path, self._describe(self._finished))
         return True
 
     def close(self) -> None:
@@ -308,6 +314,16 @@ class BagWriter:
         metadata.save(self.path, self._describe(files))
         file.close({'serialized_metadata': metadata.inside_mcap(self._describe([this]))})
         self._finished = files
+
+    def _save_metadata(self) -> None:
+        """Describe the finished files and name the present one, which a kill would leave torn.
+
+        A reader that goes by the names then meets the torn file, and cannot miss what is in it.
+        """
+        files = list(self._finished)
+        if not self._file.closed:
+            files.append(_Finished(metadata.FileSummary(self._file.path.name, 0, 0, 0), ()))
+        metadata.save(self.path, self._describe(files))
 
     def _describe(self, files: list[_Finished]) -> str:
         counts = [

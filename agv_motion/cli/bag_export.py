@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
 from collections import Counter
+from filecmp import cmp
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,7 +18,8 @@ from rich.progress import track
 
 from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, span
 from agv_motion.cli.terminal import terminal
-from agv_motion.errors import AgvMotionError, ConfigurationError, SourceError
+from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.files.unfinished import hidden_folder, told
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -50,7 +53,8 @@ def export(
     """Write topics as tables: a row a message, a column a field, log_time [ns] first.
 
     Arrays of constant length take a column for each element; others stay in one cell, as JSON in
-    CSV and as a list in Parquet, which needs pip install "agv_motion[parquet]". Examples:
+    CSV and as a list in Parquet, which needs pip install "agv_motion[parquet]". Tables appear when
+    all are whole; nothing is overwritten, and the same again is left as it is. Examples:
 
     agv bag export walk tables
 
@@ -61,36 +65,55 @@ def export(
     if table not in writers:
         msg = f"--format '{table}': choose csv or parquet"
         raise ConfigurationError(msg)
-    skipped = 0
     with opened(bag) as reader:
         limits = span(reader, start_offset, duration)
         reader.require(topics or ())
-        chosen = topics or sorted(reader.topics)
+        chosen = list(dict.fromkeys(topics or sorted(reader.topics)))
         names = file_names(reader.topics)
         paths = {topic: output / f'{names[topic]}.{table}' for topic in chosen}
-        for path in paths.values():
-            if path.exists():
-                msg = f'{path} exists: choose another folder, nothing is overwritten'
-                raise ConfigurationError(msg)
-        try:
+        with told(output):
             output.mkdir(parents=True, exist_ok=True)
+        rows: dict[Path, int] = {}
+        with hidden_folder(output / table) as folder:
             for topic in track(chosen, 'Exporting', console=console, transient=True):
                 columns = _read(reader, topic, field, limits, only=len(chosen) == 1)
                 if columns is None:
-                    skipped += 1
                     continue
-                unfinished = paths[topic].with_name(f'{paths[topic].name}.unfinished')
-                writers[table](unfinished, columns)
-                unfinished.replace(paths[topic])
-                typer.echo(f'{paths[topic]}: {len(columns.stamps)} rows')
-        except OSError as error:
-            if isinstance(error, SourceError):
-                raise
-            msg = f'{output} cannot be written: {error.strerror or error}'
-            raise SourceError(msg) from error
-    if skipped:
+                path = paths[topic]
+                with told(path):
+                    writers[table](folder / path.name, columns)
+                _is_there(path, folder / path.name)
+                rows[path] = len(columns.stamps)
+            notes = [_put(path, folder / path.name) for path in rows]
+        for (path, count), note in zip(rows.items(), notes, strict=True):
+            typer.echo(f'{path}: {count} rows{note}')
+    if skipped := len(chosen) - len(rows):
         typer.echo(f'error: {skipped} of {len(chosen)} topics were skipped', err=True)
         raise typer.Exit(1)
+
+
+def _put(path: Path, made: Path) -> str:
+    """Move a table to its place, unless it is there already; return a note of that."""
+    if _is_there(path, made):
+        return ', there already'
+    with told(path):
+        made.rename(path)
+    return ''
+
+
+def _is_there(path: Path, made: Path) -> bool:
+    """Return whether the same was made before: an earlier run may have been ended.
+
+    Raises:
+        ConfigurationError: Something else is there.
+
+    """
+    if not os.path.lexists(path):
+        return False
+    if path.is_file() and cmp(path, made, shallow=False):
+        return True
+    msg = f'{path} exists, with other content: choose another folder, nothing is overwritten'
+    raise ConfigurationError(msg)
 
 
 def _read(

@@ -22,9 +22,9 @@ def recover(
 ) -> None:
     """Save every message that can be read into a new bag, with a new index.
 
-    The damaged bag stays as it is. A file that was cut off is saved up to its last whole message;
-    chunks that are damaged, and rows of a damaged sqlite3 file, are left out and told. The exit
-    status is 1 if something is lost.
+    The damaged bag stays as it is, and the new one appears when it is whole. A file that was cut
+    off is saved up to its last whole message; chunks that are damaged, and rows of a damaged
+    sqlite3 file, are left out and told. The exit status is 1 if something is lost.
     For example:
 
     agv bag recover walk walk_saved
@@ -34,9 +34,14 @@ def recover(
     from agv_motion.bag.bag_files import find
     from agv_motion.bag.recovery import Recovery
     from agv_motion.bag.writer import BagWriter
+    from agv_motion.files.unfinished import beside, told
 
     find(damaged)
-    with BagWriter(saved, compression=compression) as writer:
+    with (
+        beside(saved) as made,
+        told(saved),
+        BagWriter(made, compression=compression) as writer,
+    ):
         recovery = Recovery(writer)
         with Progress(console=terminal(stderr=True), transient=True) as bar:
             task = bar.add_task('Saving', total=1.0)

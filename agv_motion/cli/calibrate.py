@@ -11,6 +11,7 @@ from rich.table import Table
 
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
+from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,7 +93,8 @@ def calibrate(
     _print(found, drive.topic)
     values = {unknown.name: unknown.value for unknown in found.unknowns}
     content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
-    output.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
+    with replacing(output) as made:
+        made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
     typer.echo(f'Parameters: {output}')
 
 

@@ -16,6 +16,7 @@ from math import inf
 from stat import S_ISREG
 from typing import TYPE_CHECKING, TextIO
 
+from agv_motion.bag.metadata import FILE_NAME, UNFINISHED
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 MARKER = '.agv_demo'
 BAG = 'bag'
-BAG_FILES = ('*.mcap', 'metadata.yaml')
+BAG_FILES = ('*.mcap', FILE_NAME, UNFINISHED)
 NEVER = 0.0
 SLACK = 2.0
 """[s] by which the times of some file systems are coarse"""
@@ -61,7 +62,8 @@ def _locked(folder: Path) -> Iterator[TextIO]:
     """Yield the marker of a folder, made where it is missing and locked until the end."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        marker = (folder / MARKER).open('a+', encoding='utf-8')
+        there = os.open(folder / MARKER, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        marker = os.fdopen(there, 'r+', encoding='utf-8')
     except OSError as error:
         msg = f"--output '{folder}' cannot be written ({error.strerror}): choose another"
         raise ConfigurationError(msg) from error
@@ -85,10 +87,9 @@ def _read(marker: TextIO) -> dict[str, float | None]:
 
 
 def _note(marker: TextIO, written: dict[str, float | None]) -> None:
-    marker.seek(0)
-    marker.truncate()
-    json.dump(written, marker)
-    marker.flush()
+    """Write over the marker in one piece, so that whoever kills this leaves the old or the new."""
+    content = json.dumps(written).encode()
+    os.pwrite(marker.fileno(), content.ljust(os.fstat(marker.fileno()).st_size), 0)
 
 
 def _require_own(folder: Path, name: str, written: dict[str, float | None]) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.errors import ConfigurationError
+from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def figure(path: Path, mosaic: list[Any], **options: Any) -> Iterator[dict[str, Any]]:
-    """Yield the axes of a mosaic by name, and write them to ``path`` as a picture.
+    """Yield the axes of a mosaic by name, and write them to ``path`` as a picture, whole or not.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -32,12 +33,10 @@ def figure(path: Path, mosaic: list[Any], **options: Any) -> Iterator[dict[str, 
     drawn, axes = plt.subplot_mosaic(mosaic, constrained_layout=True, **options)
     try:
         yield axes
-        drawn.savefig(path, dpi=110)
+        with replacing(path) as made:
+            drawn.savefig(made, dpi=110)
     except ValueError as error:
         msg = f"cannot draw '{path}': {error}"
         raise ConfigurationError(msg) from error
-    except OSError as error:
-        msg = f"cannot write '{path}': {error}"
-        raise SourceError(msg) from error
     finally:
         plt.close(drawn)

@@ -86,7 +86,8 @@ def main() -> None:
         sys.exit(INTERRUPTED)
     except OSError as error:
         if error.errno not in {errno.EPIPE, errno.EIO}:  # nobody reads on; the terminal is gone
-            raise
+            typer.echo(f'error: {error}', err=True)
+            sys.exit(1)
         for stream in (sys.stdout, sys.stderr) if error.errno == errno.EIO else (sys.stdout,):
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
         sys.exit(0)

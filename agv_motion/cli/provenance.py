@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import agv_motion
 from agv_motion.errors import AgvMotionError
 from agv_motion.files import json_text
+from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,7 +38,8 @@ def fingerprint(source: Path, made_by: Any) -> str:
 def note(target: Path, source: Path, digest: str) -> None:
     """Write into a finished bag what it was made of."""
     content = {'source': str(source), 'fingerprint': digest}
-    (target / FILE_NAME).write_text(json.dumps(content, indent=1) + '\n', 'utf-8')
+    with replacing(target / FILE_NAME) as made:
+        made.write_text(json.dumps(content, indent=1) + '\n', 'utf-8')
 
 
 def is_made(target: Path, digest: str) -> bool:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.bag.reader import BagReader
-from agv_motion.bag.unfinished import beside
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli import provenance
 from agv_motion.cli.bag_clock import BagClock
 from agv_motion.cli.recorded import node_class, parameters
 from agv_motion.errors import AgvMotionError
+from agv_motion.files.unfinished import beside
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process import add, full_name

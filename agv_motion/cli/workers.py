@@ -16,9 +16,9 @@ from contextlib import suppress
 from multiprocessing.connection import wait
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from agv_motion.bag.unfinished import sweep
 from agv_motion.cli.reprocess_bag import Abandoned, Outcome, Plan, reprocess
 from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.files.unfinished import sweep
 from agv_motion.ros.stop import SIGNALS, end_no_more
 
 if TYPE_CHECKING:
@@ -162,7 +162,11 @@ def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Out
         try:
             for future in distributed.as_completed(waiting):
                 death = future.exception()
-                outcome = future.result() if death is None else _lost(waiting[future], death)
+                if death is None:
+                    outcome = future.result()
+                else:
+                    sweep(waiting[future][1])
+                    outcome = _lost(waiting[future], death)
                 yield outcome._replace(source=str(waiting[future][0]))
         finally:
             client.cancel([future for future in waiting if not future.done()], force=True)

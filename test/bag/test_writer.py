@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 from rosbags.highlevel import AnyReader
-from rosbags.rosbag2 import Reader
+from rosbags.rosbag2 import Reader, ReaderError
 from rosbags.typesys import Stores, get_typestore
 
+from agv_motion.bag.reader import BagReader
 from agv_motion.bag.together import Together
 from agv_motion.bag.writer import BagWriter, OfferedQos
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
@@ -231,3 +233,41 @@ def test_short_chunks_cost_no_look_at_all_the_messages_after_them():
     while first < count:
         first = columns.first_from(first, count, first + 99) + 1
     assert sum(looked_at) < 3 * count
+
+
+def test_a_reader_that_goes_by_the_metadata_cannot_miss_the_file_that_a_kill_tore(tmp_path):
+    """As after kill -9: nothing is closed. A split bag without its last file looked whole."""
+    writer = BagWriter(tmp_path / 'bag')
+    topic = writer.add_topic('/a', TEXT, **known(TEXT))
+    for i in range(2):
+        writer.write(topic, i, text(i))
+        writer.flush()
+        if i == 0:
+            writer.split()
+    with pytest.raises(ReaderError), Reader(tmp_path / 'bag'):
+        pass
+    with BagReader(tmp_path / 'bag') as bag:
+        assert [message.stamp for message in bag.messages()] == [0, 1]
+        assert bag.lossy
+    writer.close()
+    with Reader(tmp_path / 'bag') as reader:
+        assert [stamp for _, stamp, _ in reader.messages()] == [0, 1]
+
+
+def test_metadata_never_names_an_oldest_file_that_is_gone(tmp_path, monkeypatch):
+    def end(*_, **__):
+        raise KeyboardInterrupt
+
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/a', TEXT, **known(TEXT))
+        for i in range(3):
+            writer.write(topic, i, text(i))
+            if i < 2:
+                writer.split()
+        with monkeypatch.context() as patch:
+            patch.setattr(Path, 'unlink', end)
+            with pytest.raises(KeyboardInterrupt):
+                writer.drop_oldest()
+        description = yaml.safe_load((tmp_path / 'bag' / 'metadata.yaml').read_text())
+    named = description['rosbag2_bagfile_information']['relative_file_paths']
+    assert named == ['bag_1.mcap', 'bag_2.mcap']

@@ -133,8 +133,15 @@ def test_export_as_csv(bag, tmp_path):
     assert int(rows[2]['log_time']) == BEGIN + 2 * TENTH
     assert [float(rows[2][f'position[{i}]']) for i in range(3)] == [2.0, 3.0, 4.0]
     assert [rows[2]['name[1]'], rows[2]['header.frame_id']] == ['b', 'base_link']
-    with pytest.raises(ConfigurationError, match='nothing is overwritten'):
-        run('export', bag, tmp_path / 'tables')
+    before = (tmp_path / 'tables' / 'joints.csv').read_bytes()
+    assert 'joints.csv: 80 rows, there already' in run('export', bag, tmp_path / 'tables')
+    (tmp_path / 'tables' / 'cmd_vel.csv').unlink()
+    with pytest.raises(ConfigurationError, match=r'joints\.csv exists, with other content'):
+        run('export', bag, tmp_path / 'tables', '--start-offset', '2')
+    assert not (tmp_path / 'tables' / 'cmd_vel.csv').exists()
+    assert [(p.name, p.read_bytes()) for p in (tmp_path / 'tables').iterdir()] == [
+        ('joints.csv', before)
+    ]
 
 
 def test_export_as_parquet(bag, tmp_path):

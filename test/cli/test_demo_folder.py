@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -10,6 +11,7 @@ import time
 
 import pytest
 
+from agv_motion.bag.metadata import UNFINISHED
 from agv_motion.cli.demo_folder import results
 from agv_motion.errors import ConfigurationError
 
@@ -78,6 +80,7 @@ def test_what_a_killed_run_left_is_replaced(tmp_path):
     code = f"""
 import os, signal
 from pathlib import Path
+from agv_motion.bag.metadata import UNFINISHED
 from agv_motion.cli.demo_folder import results
 with results(Path({str(tmp_path)!r}), 'walk.png') as bag:
     bag.mkdir()
@@ -88,6 +91,29 @@ with results(Path({str(tmp_path)!r}), 'walk.png') as bag:
     assert killed.returncode == -signal.SIGKILL
     _run(tmp_path)
     assert (tmp_path / 'bag' / 'bag_0.mcap').read_text() == 'messages'
+
+
+def test_half_a_description_that_a_killed_run_left_is_the_demos_own(tmp_path):
+    _run(tmp_path)
+    (tmp_path / 'bag' / UNFINISHED).write_text('half')
+    _run(tmp_path)
+    assert not (tmp_path / 'bag' / UNFINISHED).exists()
+
+
+def test_the_marker_is_never_empty(tmp_path, monkeypatch):
+    """A run that is killed while it writes the marker leaves the old one, or the new one."""
+    seen = []
+
+    def look(descriptor, content, place):
+        seen.append((tmp_path / '.agv_demo').read_text())
+        return write(descriptor, content, place)
+
+    write = os.pwrite
+    _run(tmp_path)
+    monkeypatch.setattr(os, 'pwrite', look)
+    _run(tmp_path)
+    assert len(seen) == 2
+    assert all(json.loads(text).keys() == {'bag', 'walk.png'} for text in seen)
 
 
 def test_two_demos_never_write_to_one_folder(tmp_path):
