@@ -61,7 +61,10 @@ class BagReader:
         except BaseException:
             self.close()
             raise
-        self.problems = [*found.problems, *(p for file in self.files for p in file.problems)]
+        self.problems: list[SourceError] = [
+            *found.problems,
+            *(problem for file in self.files for problem in file.problems),
+        ]
         """what is amiss in the bag, though it can be read"""
         self.connections: tuple[Connection, ...] = tuple(
             dict.fromkeys(c for file in self.files for c in file.channels.values())

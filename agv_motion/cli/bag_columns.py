@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from agv_motion.bag.reader import BagReader
 from agv_motion.cli.bag_messages import decoded
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-    from pathlib import Path
+    from collections.abc import Callable, Collection, Iterable
+
+    from agv_motion.bag.reader import BagReader
 
 Array = NDArray[np.float64]
 
@@ -43,17 +43,17 @@ class JointColumns(NamedTuple):
     """(joints, n); NaN where the messages have none"""
 
 
-def topics_of(bag: Path) -> dict[str, str]:
-    """Return the topics of a bag with their types."""
-    with BagReader(bag) as reader:
-        return {topic: connection.type for topic, connection in reader.topics.items()}
+def topics_of(bag: BagReader, types: Collection[str]) -> list[str]:
+    """Return the topics of a bag all of whose messages are of some types."""
+    others = {connection.topic for connection in bag.connections if connection.type not in types}
+    return [topic for topic in bag.topics if topic not in others]
 
 
-def pose_columns(bag: Path, topics: Iterable[str]) -> list[PoseColumns]:
+def pose_columns(bag: BagReader, topics: Iterable[str]) -> list[PoseColumns]:
     """Return topics of nav_msgs/Odometry or geometry_msgs/PoseWithCovarianceStamped.
 
     Raises:
-        SourceError: The bag cannot be read.
+        SourceError: The bag is damaged.
         ConfigurationError: It does not have one of the topics, or one is of another type.
 
     """
@@ -65,11 +65,11 @@ def pose_columns(bag: Path, topics: Iterable[str]) -> list[PoseColumns]:
     return columns
 
 
-def joint_columns(bag: Path, topic: str, names: list[str]) -> JointColumns:
+def joint_columns(bag: BagReader, topic: str, names: list[str]) -> JointColumns:
     """Return a topic of sensor_msgs/JointState; messages that lack one of ``names`` are left out.
 
     Raises:
-        SourceError: The bag cannot be read.
+        SourceError: The bag is damaged.
         ConfigurationError: It does not have the topic, that is of another type, or no message has
             all the names.
 
@@ -97,28 +97,26 @@ def joint_columns(bag: Path, topic: str, names: list[str]) -> JointColumns:
     return JointColumns(*_in_order(table[0], table[1 : 1 + len(names)], table[1 + len(names) :]))
 
 
-def _require_type(bag: Path, topics: Iterable[str], types: Sequence[str]) -> None:
-    known = topics_of(bag)
-    for topic in topics:
-        if known.get(topic, types[0]) not in types:
-            fitting = sorted(name for name, kind in known.items() if kind in types)
-            msg = f'{topic} is {known[topic]}, expected {" or ".join(types)}: ' + (
+def _require_type(bag: BagReader, topics: Collection[str], types: Collection[str]) -> None:
+    bag.require(topics)
+    for connection in bag.connections:
+        if connection.topic in topics and connection.type not in types:
+            fitting = sorted(topics_of(bag, types))
+            msg = f'{connection.topic} is {connection.type}, expected {" or ".join(types)}: ' + (
                 f'choose one of {", ".join(fitting)}' if fitting else 'the bag has none'
             )
             raise ConfigurationError(msg)
 
 
 def _rows(
-    bag: Path, topics: Iterable[str], row: Callable[[Any], tuple[float, ...] | None]
+    bag: BagReader, topics: Iterable[str], row: Callable[[Any], tuple[float, ...] | None]
 ) -> list[list[tuple[float, ...]]]:
-    names = list(topics)
-    rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in names}
-    with BagReader(bag) as reader:
-        for connection, message in decoded(reader, rows):
-            found = row(message)
-            if found is not None:
-                rows[connection.topic].append(found)
-    return [rows[name] for name in names]
+    rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in topics}
+    for message, content in decoded(bag, rows):
+        found = row(content)
+        if found is not None:
+            rows[message.connection.topic].append(found)
+    return list(rows.values())
 
 
 def _pose_row(message: Any) -> tuple[float, ...]:

@@ -10,7 +10,7 @@ import typer
 from rich.progress import track
 from rich.table import Table
 
-from agv_motion.cli.bag_options import tell
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
@@ -57,7 +57,6 @@ def diff(
     """
     from agv_motion.bag import diff as comparison
     from agv_motion.bag.pairing import Pairing
-    from agv_motion.bag.reader import BagReader
 
     for option, value in (('tolerance', tolerance), ('relative', relative), ('within', within)):
         if value is not None and not isfinite(value):
@@ -65,10 +64,7 @@ def diff(
             raise ConfigurationError(msg)
     pairing = Pairing(by_place, None if within is None else round(within * 1e9))
     console = terminal()
-    with BagReader(first) as one, BagReader(second) as other:
-        tell(one)
-        tell(other)
-        lossy = one.lossy or other.lossy
+    with opened(first) as one, opened(second) as other:
         chosen = topics or sorted(
             set(one.topics) & set(other.topics) if common else {*one.topics, *other.topics}
         )
@@ -78,17 +74,16 @@ def diff(
             for name in track(chosen, 'Comparing', console=terminal(stderr=True), transient=True)
             for topic in comparison.diff(one, other, [name], limits, pairing)
         ]
-        start = one.start
-    console.print(_overview(found))
-    for topic in found:
-        _details(console, topic, start)
-    unpaired = sum(topic.unpaired for topic in found)
-    if unpaired and pairing == Pairing():
-        console.print(
-            f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs the '
-            'nearest, --by-place the first with the first'
-        )
-    if lossy or not all(topic.same for topic in found):
+        console.print(_overview(found))
+        for topic in found:
+            _details(console, topic, one.start)
+        unpaired = sum(topic.unpaired for topic in found)
+        if unpaired and pairing == Pairing():
+            console.print(
+                f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs '
+                'the nearest, --by-place the first with the first'
+            )
+    if not all(topic.same for topic in found):
         raise typer.Exit(1)
 
 

@@ -16,9 +16,9 @@ import numpy as np
 import typer
 from rich.progress import track
 
-from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, span
+from agv_motion.cli.bag_options import Bag, Duration, StartOffset, opened, readable, span
 from agv_motion.cli.terminal import terminal
-from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.errors import ConfigurationError
 from agv_motion.files.unfinished import hidden_folder, told
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.column import Column
     from agv_motion.bag.columns import Columns
-    from agv_motion.bag.reader import BagReader
 
 MOST_COLUMNS = 64
 """Longer arrays stay in one cell."""
@@ -60,6 +59,8 @@ def export(
 
     agv bag export walk tables --topics /odom --field header.stamp --field pose.pose -f parquet
     """
+    from agv_motion.bag.columns import read_topic
+
     console = terminal(stderr=True)
     writers = {'csv': _csv, 'parquet': _parquet}
     if table not in writers:
@@ -75,10 +76,10 @@ def export(
             output.mkdir(parents=True, exist_ok=True)
         rows: dict[Path, int] = {}
         with hidden_folder(output / table) as folder:
-            for topic in track(chosen, 'Exporting', console=console, transient=True):
-                columns = _read(reader, topic, field, limits, only=len(chosen) == 1)
-                if columns is None:
-                    continue
+            found = readable(reader, chosen, lambda t: read_topic(reader, t, field, *limits))
+            for topic, columns in track(
+                found, 'Exporting', total=len(chosen), console=console, transient=True
+            ):
                 path = paths[topic]
                 with told(path):
                     writers[table](folder / path.name, columns)
@@ -87,9 +88,6 @@ def export(
             notes = [_put(path, folder / path.name) for path in rows]
         for (path, count), note in zip(rows.items(), notes, strict=True):
             typer.echo(f'{path}: {count} rows{note}')
-    if skipped := len(chosen) - len(rows):
-        typer.echo(f'error: {skipped} of {len(chosen)} topics were skipped', err=True)
-        raise typer.Exit(1)
 
 
 def _put(path: Path, made: Path) -> str:
@@ -114,31 +112,6 @@ def _is_there(path: Path, made: Path) -> bool:
         return True
     msg = f'{path} exists, with other content: choose another folder, nothing is overwritten'
     raise ConfigurationError(msg)
-
-
-def _read(
-    bag: BagReader,
-    topic: str,
-    fields: list[str] | None,
-    limits: tuple[int | None, int | None],
-    *,
-    only: bool,
-) -> Columns | None:
-    """Return the columns of a topic; None, and the reason on stderr, where it cannot be read.
-
-    Raises:
-        AgvMotionError: It is the only one.
-
-    """
-    from agv_motion.bag.columns import read_topic
-
-    try:
-        return read_topic(bag, topic, fields, *limits)
-    except AgvMotionError as error:
-        if only:
-            raise
-        typer.echo(f'{topic} is skipped: {error}', err=True)
-        return None
 
 
 def file_names(topics: Iterable[str]) -> dict[str, str]:

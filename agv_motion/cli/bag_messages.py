@@ -10,7 +10,7 @@ from agv_motion.bag.message_type import NOTHING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from agv_motion.bag.connection import Connection
+    from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.reader import BagReader
 
 _ROS_NAMES = {'float32': 'float', 'float64': 'double', 'bool': 'boolean', 'byte': 'octet'}
@@ -32,8 +32,8 @@ def decoder(connection: Connection) -> MessageDecoder:
     return decode
 
 
-def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Connection, Any]]:
-    """Yield the messages of some topics as objects, by log time, each with its connection.
+def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Message, Any]]:
+    """Yield the messages of some topics by log time, as they were recorded and as objects.
 
     Raises:
         ConfigurationError: A topic is not there, or its type cannot be understood.
@@ -48,7 +48,7 @@ def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Connection,
         key = connection.topic, connection.type, connection.definition
         if key not in decoders:
             decoders[key] = MessageDecoder(connection)
-        yield connection, decoders[key](message)
+        yield message, decoders[key](message)
 
 
 def _constant(types: dict[str, str]) -> Any:

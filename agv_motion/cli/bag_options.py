@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from datetime import datetime, timezone
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
+from agv_motion.errors import AgvMotionError, SourceError
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Collection, Iterable, Iterator
 
     from agv_motion.bag.reader import BagReader
 
@@ -26,15 +28,15 @@ Duration = Annotated[
 ]
 
 
-def tell(bag: BagReader) -> None:
-    """Tell on stderr what is amiss in a bag."""
-    for problem in bag.problems:
-        typer.echo(f'warning: {problem}', err=True)
+Read = TypeVar('Read')
 
 
 @contextmanager
 def opened(path: Path, *, validate: bool = True) -> Iterator[BagReader]:
-    """Open a bag and tell what is amiss; the command ends with status 1 where something is lost.
+    """Open a bag and tell on stderr what is amiss: the one door to a bag of every command.
+
+    After the block, in which the command says what it found, it ends with status 1 where something
+    is lost.
 
     Raises:
         SourceError: There is no bag, or it cannot be read at all.
@@ -43,11 +45,42 @@ def opened(path: Path, *, validate: bool = True) -> Iterator[BagReader]:
     from agv_motion.bag.reader import BagReader
 
     with BagReader(path, validate=validate) as bag:
-        tell(bag)
+        tell(bag.problems)
         yield bag
         lossy = bag.lossy
     if lossy:
         raise typer.Exit(1)
+
+
+def tell(problems: Iterable[object]) -> None:
+    """Tell on stderr what is amiss in a bag."""
+    for problem in problems:
+        typer.echo(f'warning: {problem}', err=True)
+
+
+def readable(
+    bag: BagReader, topics: Collection[str], read: Callable[[str], Read]
+) -> Iterator[tuple[str, Read]]:
+    """Yield what is read of each topic; one that cannot be read is skipped, and named on stderr.
+
+    That is a problem of the bag then: see :func:`opened`.
+
+    Raises:
+        AgvMotionError: The only topic cannot be read.
+
+    """
+    for topic in topics:
+        with nullcontext() if len(topics) == 1 else _skipping(bag, topic):
+            yield topic, read(topic)
+
+
+@contextmanager
+def _skipping(bag: BagReader, topic: str) -> Iterator[None]:
+    try:
+        yield
+    except AgvMotionError as error:
+        bag.problems.append(SourceError(f'{topic} is skipped: {error}'))
+        typer.echo(f'error: {bag.problems[-1]}', err=True)
 
 
 def span(bag: BagReader, start_offset: float, duration: float) -> tuple[int | None, int | None]:

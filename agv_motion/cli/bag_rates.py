@@ -8,7 +8,7 @@ import numpy as np
 import typer
 from rich.table import Table
 
-from agv_motion.cli.bag_options import Bag, Topics, opened
+from agv_motion.cli.bag_options import Bag, Topics, opened, readable
 from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
@@ -99,8 +99,8 @@ def _times(
         return stamps(bag, topics), bag.start
     bag.require(topics or ())
     chosen = topics or [t for t, c in bag.topics.items() if begins_with_header(c.definition)]
-    times = {
-        topic: read_topic(bag, topic, ['header.stamp']).nanoseconds('header.stamp')
-        for topic in chosen
-    }
-    return times, bag.start
+
+    def times(topic: str) -> NDArray[np.int64]:
+        return read_topic(bag, topic, ['header.stamp']).nanoseconds('header.stamp')
+
+    return dict(readable(bag, chosen, times)), bag.start

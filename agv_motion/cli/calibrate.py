@@ -9,6 +9,7 @@ import typer
 import yaml
 from rich.table import Table
 
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.unfinished import replacing
@@ -16,6 +17,7 @@ from agv_motion.files.unfinished import replacing
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.bag.reader import BagReader
     from agv_motion.cli.calibrate_bag import Wheels
     from agv_motion.odometry.calibration import Calibration
     from agv_motion.odometry.calibration_models import CalibrationModel
@@ -81,34 +83,33 @@ def calibrate(
     from agv_motion.ros.config import find_config
 
     prefix = f'/{namespace.strip("/")}'.rstrip('/')
-    name = node or _node_of(bag, prefix)
-    if name not in CONFIGS:
-        msg = f"node = '{name}': choose one of {', '.join(CONFIGS)}"
-        raise ConfigurationError(msg)
-    drawing = _drawing(find_config(config or CONFIGS[name]), name, prefix)
-    drive = read_drive(bag, drawing.wheels, reference, prefix)
-    for note in drive.notes:
-        typer.echo(note, err=True)
-    found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
-    _print(found, drive.topic)
-    values = {unknown.name: unknown.value for unknown in found.unknowns}
-    content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
-    with replacing(output) as made:
-        made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
-    typer.echo(f'Parameters: {output}')
+    with opened(bag) as reader:
+        name = node or _node_of(reader, prefix)
+        if name not in CONFIGS:
+            msg = f"node = '{name}': choose one of {', '.join(CONFIGS)}"
+            raise ConfigurationError(msg)
+        drawing = _drawing(find_config(config or CONFIGS[name]), name, prefix)
+        drive = read_drive(reader, drawing.wheels, reference, prefix)
+        for note in drive.notes:
+            typer.echo(note, err=True)
+        found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
+        _print(found, drive.topic)
+        values = {unknown.name: unknown.value for unknown in found.unknowns}
+        content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
+        with replacing(output) as made:
+            made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
+        typer.echo(f'Parameters: {output}')
 
 
-def _node_of(bag: Path, prefix: str) -> str:
+def _node_of(bag: BagReader, prefix: str) -> str:
     """Return whose robot is in the bag, by its topics and joints."""
-    from agv_motion.cli.bag_columns import topics_of
-
-    topics = topics_of(bag)
+    topics, path = bag.topics, bag.path
     if f'{prefix}/turrets/state' in topics:
         return 'wheel_kinematics'
     if f'{prefix}/wheels/state' in topics:
         free = f'{prefix}/wheels/free_speed' in topics
         return 'omni_kinematics' if free else 'differential_kinematics'
-    msg = f'{bag} has neither turrets/state nor wheels/state: it has {", ".join(sorted(topics))}'
+    msg = f'{path} has neither turrets/state nor wheels/state: it has {", ".join(sorted(topics))}'
     raise ConfigurationError(msg)
 
 

@@ -19,10 +19,10 @@ from agv_motion.odometry.calibration_recording import Recording
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.reader import BagReader
     from agv_motion.cli.bag_columns import Array
 
 TRUSTED = ('fix', 'pose', 'ground_truth')
@@ -59,17 +59,17 @@ class Drive(NamedTuple):
     """what was left out"""
 
 
-def read_drive(bag: Path, wheels: Wheels, reference: str = '', prefix: str = '') -> Drive:
+def read_drive(bag: BagReader, wheels: Wheels, reference: str = '', prefix: str = '') -> Drive:
     """Return a drive.
 
     Args:
-        bag: Folder or file.
+        bag: Open.
         wheels: Where the wheels are.
         reference: Topic of the places; empty: found by its name.
         prefix: Namespace of the robot, such as ``/oak``: no other robot's places are taken.
 
     Raises:
-        SourceError: The bag cannot be read.
+        SourceError: The bag is damaged.
         ConfigurationError: A topic or a joint is missing, nothing moved, or the two do not overlap
             in time.
 
@@ -124,9 +124,9 @@ def _finite(
     return (np.asarray(column)[..., whole] for column in columns)
 
 
-def _trusted(bag: Path, prefix: str) -> str:
+def _trusted(bag: BagReader, prefix: str) -> str:
     """Return the topic of places of the robot in a namespace, by its name."""
-    topics = [name for name, kind in topics_of(bag).items() if kind in POSES]
+    topics = topics_of(bag, POSES)
     mine = [
         name
         for name in topics
@@ -137,8 +137,8 @@ def _trusted(bag: Path, prefix: str) -> str:
             if name.endswith(f'/{end}'):
                 return name
     whose = f' of {prefix}' if prefix else ''
-    msg = f'{bag} has no fix, pose or ground_truth{whose}: name a topic with --reference, or the '
-    msg += f'robot with --namespace; there is {", ".join(topics) or "no topic of places"}'
+    msg = f'{bag.path} has no fix, pose or ground_truth{whose}: name a topic with --reference, or '
+    msg += f'the robot with --namespace; there is {", ".join(topics) or "no topic of places"}'
     raise ConfigurationError(msg)
 
 

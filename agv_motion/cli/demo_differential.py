@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -50,8 +51,9 @@ def differential(
     with results(output, 'run.png') as bag:
         told, success = _perform(sequence, time_factor, seed, bag, console)
         console.print(told)
-        draw(read_run(bag), None, output / 'run.png')
-    console.print(f'Bag: {bag}\nFigure: {output / "run.png"}')
+        with opened(bag) as reader:
+            draw(read_run(reader), None, output / 'run.png')
+            console.print(f'Bag: {bag}\nFigure: {output / "run.png"}')
     if not success:
         raise typer.Exit(1)
 

@@ -15,6 +15,7 @@ from rich.live import Live
 from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.demo_figure import draw
 from agv_motion.cli.demo_parameters import configured
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
@@ -150,10 +151,11 @@ class DemoGraph:
     def report(self, console: Console, output: pathlib.Path) -> None:
         """Print the summary, and draw the figure beside the bag."""
         limit = self._wheels.max_wheel_speed
-        run = read_run(self._bag, self._wheels.wheel_radius)
-        console.print(summary(run, self._outcome, self._zone, limit, self._wheels.rim))
-        draw(run, self._zone, limit, output / 'walk.png', self._wheels.rim)
-        console.print(f'\nBag: {self._bag}\nFigure: {output / "walk.png"}')
+        with opened(self._bag) as reader:
+            run = read_run(reader, self._wheels.wheel_radius)
+            console.print(summary(run, self._outcome, self._zone, limit, self._wheels.rim))
+            draw(run, self._zone, limit, output / 'walk.png', self._wheels.rim)
+            console.print(f'\nBag: {self._bag}\nFigure: {output / "walk.png"}')
 
     def _factor(self) -> float:
         return self._simulator.elapsed / max(time.perf_counter() - self._begun, 1e-9)

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -41,7 +42,8 @@ def omni(
     carried = seconds / 1.5 if carry else 2 * seconds
     with results(output, 'path.png') as bag:
         OmniGraph(seed, time_factor, bag).run(seconds, carried, console)
-        run = read_run(bag)
-        console.print(summary(run))
-        draw(run, output / 'path.png')
-    console.print(f'\nBag: {bag}\nFigure: {output / "path.png"}')
+        with opened(bag) as reader:
+            run = read_run(reader)
+            console.print(summary(run))
+            draw(run, output / 'path.png')
+            console.print(f'\nBag: {bag}\nFigure: {output / "path.png"}')

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.reader import BagReader
+
     Array = NDArray[np.float64]
 
 TOPICS = ('/ground_truth', '/pose', '/fix', '/odom')
@@ -51,7 +53,7 @@ class Run(NamedTuple):
         return PoseColumns(self.odom.stamp, laid, self.odom.covariance)
 
 
-def read_run(bag: Path) -> Run:
+def read_run(bag: BagReader) -> Run:
     """Read the bag back."""
     columns = pose_columns(bag, TOPICS)
     begin = columns[0].stamp[0]

@@ -6,16 +6,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from rich.table import Table
-from rosbags.highlevel import AnyReader
 
+from agv_motion.cli.bag_messages import decoded
 from agv_motion.motion.polar import PLATFORM_RADIUS
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from numpy.typing import NDArray
 
+    from agv_motion.bag.reader import BagReader
     from agv_motion.motion.zone import Zone
 
 
@@ -83,24 +82,20 @@ class Run(NamedTuple):
         )
 
 
-def read_run(bag: Path, wheel_radius: float) -> Run:
+def read_run(bag: BagReader, wheel_radius: float) -> Run:
     """Read the bag back."""
     rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in READ}
     states: list[tuple[float, str]] = []
     maps: dict[str, Remembered] = {}
-    with AnyReader([bag]) as reader:
-        start = reader.start_time
-        names = {*rows, 'state', 'memory/sap_flow', 'memory/last_visit'}
-        wanted = [c for c in reader.connections if c.topic.lstrip('/') in names]
-        for connection, stamp, data in reader.messages(wanted):
-            message: Any = reader.deserialize(data, connection.msgtype)
-            name, time = connection.topic.lstrip('/'), (stamp - start) * 1e-9
-            if name == 'state':
-                states.append((time, message.data))
-            elif name in rows:
-                rows[name].append((time, *_numbers(name, message, wheel_radius)))
-            else:
-                maps[name] = _remembered(message)
+    names = {*rows, 'state', 'memory/sap_flow', 'memory/last_visit'}
+    for message, content in decoded(bag, [t for t in bag.topics if t.lstrip('/') in names]):
+        name, time = message.connection.topic.lstrip('/'), (message.stamp - bag.start) * 1e-9
+        if name == 'state':
+            states.append((time, content.data))
+        elif name in rows:
+            rows[name].append((time, *_numbers(name, content, wheel_radius)))
+        else:
+            maps[name] = _remembered(content)
     columns = (
         np.array(rows[name] or np.empty((0, width)), dtype=float) for name, width in READ.items()
     )

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from agv_motion.cli.bag_options import opened
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -42,11 +43,12 @@ def trees(
     with results(output, 'trees.png') as bag:
         graph = TreesGraph(count, zone, seed, time_factor, bag)
         graph.run(60.0 * minutes, console)
-        walks = read_walks(bag, graph.names)
-        if not all(len(walk.time) for walk in walks):
-            console.print(f'Ended before every tree had told where it is.\n\nBag: {bag}')
-            return
-        console.print(summary(walks))
-        console.print(nearest(walks, graph.traffic))
-        draw(walks, graph.zone, graph.traffic, output / 'trees.png')
-    console.print(f'\nBag: {bag}\nFigure: {output / "trees.png"}')
+        with opened(bag) as reader:
+            walks = read_walks(reader, graph.names)
+            if not all(len(walk.time) for walk in walks):
+                console.print(f'Ended before every tree had told where it is.\n\nBag: {bag}')
+                return
+            console.print(summary(walks))
+            console.print(nearest(walks, graph.traffic))
+            draw(walks, graph.zone, graph.traffic, output / 'trees.png')
+            console.print(f'\nBag: {bag}\nFigure: {output / "trees.png"}')

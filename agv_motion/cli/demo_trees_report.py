@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from rich.table import Table
-from rosbags.highlevel import AnyReader
 
 from agv_motion.cli.bag_columns import pose_columns
+from agv_motion.cli.bag_messages import decoded
 from agv_motion.cli.figure import figure
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.reader import BagReader
     from agv_motion.motion.traffic.parameters import TrafficParameters
     from agv_motion.motion.zone import Zone
 
@@ -67,24 +68,21 @@ def doing_of(state: str) -> str:
     return 'walks' if state.startswith(('walking', 'turning', 'returning')) else 'rests'
 
 
-def read_walks(bag: Path, names: Sequence[str]) -> list[Walk]:
+def read_walks(bag: BagReader, names: Sequence[str]) -> list[Walk]:
     """Read the bag back."""
     truths = pose_columns(bag, [f'/{name}/ground_truth' for name in names])
     goals: dict[str, list[tuple[float, float, float]]] = {name: [] for name in names}
     doings: dict[str, list[tuple[float, str]]] = {name: [] for name in names}
-    with AnyReader([bag]) as reader:
-        begin = reader.start_time
-        wanted = [c for c in reader.connections if c.topic.endswith(('/goal', '/state'))]
-        for connection, stamp, data in reader.messages(wanted):
-            _, name, topic = connection.topic.split('/', 2)
-            message: Any = reader.deserialize(data, connection.msgtype)
-            time = (stamp - begin) * 1e-9
-            if topic == 'goal':
-                goals[name].append((time, message.pose.position.x, message.pose.position.y))
-            elif topic == 'state':
-                doings[name].append((time, doing_of(message.data)))
+    told = {f'/{name}/{topic}' for name in names for topic in ('goal', 'state')}
+    for message, content in decoded(bag, [topic for topic in bag.topics if topic in told]):
+        _, name, topic = message.connection.topic.split('/')
+        time = (message.stamp - bag.start) * 1e-9
+        if topic == 'goal':
+            goals[name].append((time, content.pose.position.x, content.pose.position.y))
+        else:
+            doings[name].append((time, doing_of(content.data)))
     return [
-        Walk(name, truth.stamp - begin * 1e-9, truth.pose[:2], goals[name], doings[name])
+        Walk(name, truth.stamp - bag.start * 1e-9, truth.pose[:2], goals[name], doings[name])
         for name, truth in zip(names, truths, strict=True)
     ]
 

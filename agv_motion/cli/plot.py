@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
+
+from agv_motion.cli.bag_options import opened
+
+if TYPE_CHECKING:
+    from agv_motion.cli.run_bag import RunBag
+    from agv_motion.cli.run_errors import Errors
 
 
 def plot(
@@ -34,28 +40,35 @@ def plot(
     agv plot lap --driven odom
     """
     from agv_motion.cli.run_bag import read_run
-    from agv_motion.cli.run_errors import errors_between
     from agv_motion.cli.run_figure import draw
 
-    run = read_run(bag, planned, driven)
+    with opened(bag) as reader:
+        run = read_run(reader, planned, driven)
+        draw(run, _told(run), output)
+        typer.echo(f'Figure: {output}')
+
+
+def _told(run: RunBag) -> Errors | None:
+    """Print how long and far the robot went, and its errors, which are returned if there are."""
+    from agv_motion.cli.run_errors import errors_between
+
     way = float(np.hypot(*np.diff(run.driven.pose[:, :2], axis=0).T).sum())
     lasted = run.driven.time[-1] - run.driven.time[0]
     typer.echo(f'{run.driven.topic}: {lasted:.1f} s, {way:.2f} m')
-    errors = None
-    if run.planned is not None:
-        if run.planned.frame != run.driven.frame:
-            typer.echo(
-                f"warning: {run.planned.topic} is in '{run.planned.frame}', {run.driven.topic} in "
-                f"'{run.driven.frame}': choose another --driven", err=True,
-            )  # fmt: skip
-        found = errors_between(run.planned, run.driven)
-        if len(found.time):
-            errors = found
-            worst = int(errors.distance.argmax())
-            typer.echo(
-                f'from {run.planned.topic}: root mean square {100 * errors.rms():.2f} cm, '
-                f'at most {100 * errors.distance[worst]:.2f} cm '
-                f'({errors.time[worst] - run.driven.time[0]:.1f} s after the start)'
-            )
-    draw(run, errors, output)
-    typer.echo(f'Figure: {output}')
+    if run.planned is None:
+        return None
+    if run.planned.frame != run.driven.frame:
+        typer.echo(
+            f"warning: {run.planned.topic} is in '{run.planned.frame}', {run.driven.topic} in "
+            f"'{run.driven.frame}': choose another --driven", err=True,
+        )  # fmt: skip
+    errors = errors_between(run.planned, run.driven)
+    if not len(errors.time):
+        return None
+    worst = int(errors.distance.argmax())
+    typer.echo(
+        f'from {run.planned.topic}: root mean square {100 * errors.rms():.2f} cm, '
+        f'at most {100 * errors.distance[worst]:.2f} cm '
+        f'({errors.time[worst] - run.driven.time[0]:.1f} s after the start)'
+    )
+    return errors

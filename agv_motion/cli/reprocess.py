@@ -10,6 +10,7 @@ import typer
 from rich.progress import Progress
 from rich.table import Table
 
+from agv_motion.cli.bag_options import tell
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
@@ -87,7 +88,7 @@ def reprocess(
                 found.append(outcome)
                 show(0.0)
     _tell(sorted(found))
-    if any(one.failure for one in found):
+    if any(one.failure or one.lossy for one in found):
         raise typer.Exit(1)
 
 
@@ -134,6 +135,7 @@ def _tell(found: list[Outcome]) -> None:
     for title in ('bag', 'in', 'out', 'of time', 'took'):
         table.add_column(title, justify='left' if title == 'bag' else 'right')
     for one in found:
+        tell(one.problems)
         if one.failure:
             typer.echo(f'error: {one.source}: {one.failure}', err=True)
             continue

@@ -71,6 +71,10 @@ class Outcome(NamedTuple):
     """whether an earlier run has made the same"""
     simulated: bool = False
     """whether the time was that of `/clock` in the bag"""
+    problems: tuple[str, ...] = ()
+    """what is amiss in the bag"""
+    lossy: bool = False
+    """whether something that the bag should hold could not be read"""
 
 
 class Abandoned(BaseException):
@@ -157,33 +161,47 @@ def _run(source: Path, target: Path, plan: Plan, tell: Callable[[float], None] |
     given = {name: parameters(plan.config, name, plan.namespace) for name in plan.nodes}
     made_by = given, plan._replace(config=''), _contents(given)
     digest = provenance.fingerprint(source, made_by)
-    if provenance.is_made(target, digest):
-        return Outcome(str(source), made_before=True)
-    with BagReader(source) as bag, beside(target) as made:
-        with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
-            transcript = Transcript(writer)
-            clock = BagClock(bag)
-            world = World(transcript.record, clock.start)
-            world.recorded = bag.topics
-            for name in plan.nodes:
-                add(world, node_class(name), given[name], plan.names(), plan.namespace)
-            world.start()
-            inputs, heard = world.inputs(), 0
-            wanted = sorted((inputs | clock.topics) & set(bag.topics))
-            for count, now in _feed(world, bag.messages(wanted), clock):
-                heard += count
-                if tell is not None:
-                    tell((now - bag.start) / max(bag.end - bag.start, 1))
-            world.run(clock.end())
-            world.stop()
-            transcript.flush()
-        provenance.note(made, source, digest)
-        missing = tuple(sorted(inputs - set(bag.topics)))
-        span = (clock.end() - clock.start) * 1e-9
-        counts = heard, transcript.messages
-        return Outcome(
-            str(source), *counts, span, 0.0, missing, world.complaints, simulated=bool(clock.topics)
-        )
+    with BagReader(source) as bag:
+        if provenance.is_made(target, digest):
+            outcome = Outcome(str(source), made_before=True)
+        else:
+            with beside(target) as made:
+                outcome = _played(bag, made, plan, given, tell)
+                provenance.note(made, source, digest)
+        return outcome._replace(problems=tuple(map(str, bag.problems)), lossy=bag.lossy)
+
+
+def _played(
+    bag: BagReader,
+    made: Path,
+    plan: Plan,
+    given: Mapping[str, Mapping[str, Any]],
+    tell: Callable[[float], None] | None,
+) -> Outcome:
+    """Run the nodes, with the parameters given to each, over an open bag."""
+    with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
+        transcript = Transcript(writer)
+        clock = BagClock(bag)
+        world = World(transcript.record, clock.start)
+        world.recorded = bag.topics
+        for name in plan.nodes:
+            add(world, node_class(name), given[name], plan.names(), plan.namespace)
+        world.start()
+        inputs, heard = world.inputs(), 0
+        wanted = sorted((inputs | clock.topics) & set(bag.topics))
+        for count, now in _feed(world, bag.messages(wanted), clock):
+            heard += count
+            if tell is not None:
+                tell((now - bag.start) / max(bag.end - bag.start, 1))
+        world.run(clock.end())
+        world.stop()
+        transcript.flush()
+    missing = tuple(sorted(inputs - set(bag.topics)))
+    span = (clock.end() - clock.start) * 1e-9
+    counts = heard, transcript.messages
+    return Outcome(
+        str(bag.path), *counts, span, 0.0, missing, world.complaints, simulated=bool(clock.topics)
+    )
 
 
 def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]:

@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from agv_motion.bag.reader import BagReader
+from agv_motion.cli.bag_columns import topics_of
 from agv_motion.cli.bag_messages import decoded
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from agv_motion.bag.reader import BagReader
 
     Column = NDArray[np.float64]
 
@@ -52,28 +53,26 @@ class RunBag(NamedTuple):
     """(n, 2) places of each path that was shown [m], by topic"""
 
 
-def read_run(bag: Path, planned: str = '', driven: str = '') -> RunBag:
+def read_run(bag: BagReader, planned: str = '', driven: str = '') -> RunBag:
     """Read a run.
 
     Args:
-        bag: Folder or file.
+        bag: Open.
         planned: Topic of the Ghost; empty: found by its name, if there is one.
         driven: Topic of the robot; empty: found by name, in the frame of the Ghost where it can.
 
     Raises:
-        SourceError: The bag cannot be read.
+        SourceError: The bag is damaged.
         ConfigurationError: It has no such topic, or nothing that tells where the robot was.
 
     """
-    with BagReader(bag) as reader:
-        kinds = {topic: connection.type for topic, connection in reader.topics.items()}
-        told = _tell(reader, [topic for topic, kind in kinds.items() if kind in POSES])
-        shown = [topic for topic, kind in kinds.items() if kind == 'nav_msgs/msg/Path']
-        ways = {topic: _ways(reader, topic) for topic in shown}
+    told = _tell(bag, topics_of(bag, POSES))
+    ways = {topic: _ways(bag, topic) for topic in topics_of(bag, ['nav_msgs/msg/Path'])}
     ghost = _pick(told, planned, PLANNED, '')
     robot = _pick(told, driven, DRIVEN, ghost.frame if ghost else '')
     if robot is None:
-        msg = f'{bag} does not tell where the robot was; it has {", ".join(sorted(kinds))}'
+        has = ', '.join(sorted(bag.topics))
+        msg = f'{bag.path} does not tell where the robot was; it has {has}'
         raise ConfigurationError(msg)
     return RunBag(ghost, robot, ways)
 
@@ -94,12 +93,13 @@ def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -
 def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
     rows: dict[str, list[tuple[float, ...]]] = {topic: [] for topic in topics}
     frames: dict[str, str] = {}
-    for connection, message in decoded(reader, topics):
-        pose = POSES[connection.type](message)
-        q, p, stamp = pose.orientation, pose.position, message.header.stamp
+    for message, content in decoded(reader, topics):
+        topic = message.connection.topic
+        pose = POSES[message.connection.type](content)
+        q, p, stamp = pose.orientation, pose.position, content.header.stamp
         heading = atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
-        rows[connection.topic].append((stamp.sec + 1e-9 * stamp.nanosec, p.x, p.y, heading))
-        frames[connection.topic] = message.header.frame_id
+        rows[topic].append((stamp.sec + 1e-9 * stamp.nanosec, p.x, p.y, heading))
+        frames[topic] = content.header.frame_id
     told = {}
     for topic, found in rows.items():
         if found:
@@ -111,8 +111,8 @@ def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
 
 def _ways(reader: BagReader, topic: str) -> list[Column]:
     ways = []
-    for _, message in decoded(reader, [topic]):
-        places = [(p.pose.position.x, p.pose.position.y) for p in message.poses]
+    for _, content in decoded(reader, [topic]):
+        places = [(p.pose.position.x, p.pose.position.y) for p in content.poses]
         if len(places) > 1:
             ways.append(np.array(places))
     return ways

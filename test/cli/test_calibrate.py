@@ -106,11 +106,11 @@ def test_what_is_missing_is_told(alone, tmp_path, options, word):
     assert 'Traceback' not in errors
 
 
-def calibrated(alone, tmp_path, *options):
+def calibrated(alone, tmp_path, *options, expected=0):
     """Return what the command says, and the parameters it writes."""
     asked = 'calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml', *options
     status, out, errors = alone(*asked, timeout=60.0)
-    assert status == 0, errors
+    assert status == expected, errors
     (given,) = yaml.safe_load((tmp_path / 'new.yaml').read_text()).values()
     return out + errors, given['ros__parameters']
 
@@ -170,5 +170,14 @@ def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
     data = file.read_bytes()
     (tmp_path / 'bag').mkdir()
     (tmp_path / 'bag' / 'bag_0.mcap').write_bytes(data[: len(data) * 3 // 4])
-    _, given = calibrated(alone, tmp_path)
+    told, given = calibrated(alone, tmp_path, expected=1)
+    assert 'bag_0.mcap, byte ' in told
     assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
+
+
+def test_a_place_that_cannot_be_written_is_told(alone, tmp_path):
+    differential(tmp_path / 'bag', 0.8)
+    asked = '-o', tmp_path / 'nowhere' / 'new.yaml'
+    status, _, errors = alone('calibrate', tmp_path / 'bag', *asked)
+    assert status == 1
+    assert 'cannot be written (No such file or directory): choose another' in ' '.join(errors.split())

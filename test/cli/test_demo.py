@@ -12,6 +12,7 @@ pytest.importorskip('rclpy')
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
+from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.demo_figure import draw
 from agv_motion.cli.demo_report import Outcome, read_run, summary
@@ -79,7 +80,8 @@ def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path, wait_until):
 def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp_path):
     with BagWriter(tmp_path / 'bag') as bag:
         bag.add_topic('/goal', 'geometry_msgs/msg/PoseStamped')
-    run = read_run(tmp_path / 'bag', 0.1)
+    with BagReader(tmp_path / 'bag') as bag:
+        run = read_run(bag, 0.1)
     zone = Zone([[0, 0], [4, 0], [4, 3], [0, 3]])
     assert run.distance() == 0.0
     outcome = Outcome(0.0, 0.0, np.empty(0), {})

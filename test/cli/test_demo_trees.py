@@ -24,14 +24,14 @@ def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     )  # fmt: skip
     assert status == 0, errors
     assert (tmp_path / 'trees.png').stat().st_size > 10_000
-    walks = read_walks(tmp_path / 'bag', ['oak', 'ash'])
+    with BagReader(tmp_path / 'bag') as bag:
+        walks = read_walks(bag, ['oak', 'ash'])
+        assert bag.counts['/ways'] > 100
     assert all(walk.distance() > 0.5 for walk in walks)
     assert all(walk.goals for walk in walks)
     assert re.search(r'oak and ash came nearest: \d+\.\d\d m from rim to rim', out)
     _, between = gaps(walks, TrafficParameters().body)
     assert between['oak and ash'].min() > TrafficParameters().margin
-    with BagReader(tmp_path / 'bag') as bag:
-        assert bag.counts['/ways'] > 100
 
 
 def test_ctrl_c_at_the_very_beginning_is_no_error(alone, tmp_path, wait_until):
