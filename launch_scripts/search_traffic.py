@@ -17,20 +17,21 @@ from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameter
 
 BEGINNINGS = {
     'two, anything happens': {'cells': (0, 3), 'events': EVENTS},
-    'two, silence': {'cells': (0, 3), 'rounds': 2, 'words': 6, 'events': ('silence',)},
+    'two, silence': {'cells': (0, 3), 'rounds': 2, 'messages': 6, 'events': ('silence',)},
     'two, near, anything but silence': {
         'cells': (0, 2), 'rounds': 2, 'events': ('restart', 'park', 'withdraw'),
     },
-    'two, near, late and lost words': {'cells': (0, 2), 'rounds': 2, 'words': 8, 'events': ()},
-    'two, both parked': {'cells': (0, 2), 'parked': True, 'words': 6, 'events': ('park',)},
+    'two, near, late and lost words': {'cells': (0, 2), 'rounds': 2, 'messages': 8, 'events': ()},
+    'two, both parked': {'cells': (0, 2), 'parked': True, 'messages': 6, 'events': ('park',)},
     'two, one just started again': {
         'cells': (0, 2), 'restarted': True, 'rounds': 3, 'events': ('restart',), 'runs': 3,
     },
     'three, late and lost words': {
-        'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'words': 4, 'asked': True, 'events': (),
+        'cells': (0, 2, 4), 'rounds': 2, 'late': 1, 'messages': 4, 'requested': True, 'events': (),
     },
     'three, all parked, set out at once': {
-        'cells': (0, 2, 4), 'parked': True, 'asked': True, 'late': 1, 'words': 4, 'events': (),
+        'cells': (0, 2, 4), 'parked': True, 'requested': True, 'late': 1, 'messages': 4,
+        'events': (),
     },
     'two, wrong fixes': {
         'cells': (1, 2), 'rounds': 2, 'late': 1, 'events': ('wrong fix', 'withdraw'),

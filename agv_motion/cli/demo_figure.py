@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.cli.figure import figure
-from agv_motion.motion.polar import PLATFORM_RADIUS
+from agv_motion.motion.command.polar import PLATFORM_RADIUS
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.cli.demo_report import Run
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.zone import Zone
 
 PLATFORMS = 5
 """Times at which the platform is drawn."""

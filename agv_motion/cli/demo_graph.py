@@ -21,7 +21,7 @@ from agv_motion.cli.demo_parameters import configured
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
 from agv_motion.cli.demo_report import Outcome, read_run, summary
 from agv_motion.cli.demo_view import DemoView
-from agv_motion.motion.zone_file import load_zone
+from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
@@ -49,7 +49,7 @@ TOPICS = [
     Topic('cmd_vel', TwistStamped),
     Topic('goal', PoseStamped, latched=True),
     Topic('state', String, latched=True),
-    Topic('way', Path, latched=True),
+    Topic('path', Path, latched=True),
     Topic('memory/sap_flow', OccupancyGrid, latched=True),
     Topic('memory/last_visit', OccupancyGrid, latched=True),
     Topic('turrets/command', JointState),

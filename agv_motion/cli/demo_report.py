@@ -8,14 +8,14 @@ import numpy as np
 from rich.table import Table
 
 from agv_motion.cli.bag_messages import decoded
-from agv_motion.motion.polar import PLATFORM_RADIUS
+from agv_motion.motion.command.polar import PLATFORM_RADIUS
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.zone import Zone
 
 
 READ = {

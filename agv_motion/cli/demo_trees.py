@@ -27,8 +27,8 @@ def trees(
 ) -> None:
     """Let several trees share a zone for forty minutes, in two: five real nodes each.
 
-    Each goes where its own sap and memory draw it, tells on /ways which floor it holds, and walks
-    only where no other objects. Leaves a bag (MCAP) and a figure.
+    Each goes where its own sap and memory draw it, tells on /reservations which floor it holds, and
+    walks only where no other objects. Leaves a bag (MCAP) and a figure.
 
     For example:
 

@@ -22,7 +22,7 @@ from visualization_msgs.msg import MarkerArray
 from agv_motion.cli.demo_parameters import configured
 from agv_motion.cli.demo_recorder import DemoRecorder, Topic
 from agv_motion.cli.demo_trees_view import TreesView
-from agv_motion.motion.zone_file import load_zone
+from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
@@ -48,7 +48,7 @@ OF_EACH = (
     ('cmd_vel', TwistStamped, False),
     ('goal', PoseStamped, True),
     ('state', String, True),
-    ('way', Path, True),
+    ('path', Path, True),
     ('turrets/command', JointState, False),
     ('turrets/state', JointState, False),
     ('pose', PoseWithCovarianceStamped, False),
@@ -103,7 +103,7 @@ class TreesGraph:
         for node in (*self._nodes, *self._simulators):
             start(node)
         topics = [Topic(f'{name}/{t}', *rest) for name in self.names for t, *rest in OF_EACH]
-        topics += [Topic('/ways', MarkerArray), Topic('/diagnostics', DiagnosticArray)]
+        topics += [Topic('/reservations', MarkerArray), Topic('/diagnostics', DiagnosticArray)]
         self._leader = self._simulators[0]
         self._recorder = DemoRecorder(bag, topics, lambda: self._leader.time)
 

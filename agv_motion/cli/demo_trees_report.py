@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
-    from agv_motion.motion.traffic.parameters import TrafficParameters
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+    from agv_motion.motion.navigation.zone import Zone
 
     Array = NDArray[np.float64]
 

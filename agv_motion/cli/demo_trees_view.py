@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from agv_motion.cli.demo_recorder import DemoRecorder
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.zone import Zone
 
 COLOURS = ('green', 'magenta', 'cyan', 'yellow', 'blue')
 

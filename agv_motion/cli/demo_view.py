@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from agv_motion.cli.demo_recorder import DemoRecorder
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.zone import Zone
     from agv_motion.nodes.simulator import SimulatorParameters
     from agv_motion.planar import Pose
 

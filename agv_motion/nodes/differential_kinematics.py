@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
 from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
 from agv_motion.odometry.base import DifferentialBase
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.run import run
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -11,7 +11,6 @@ from std_msgs.msg import String
 
 from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.motion.watchdog import Silence
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.input_watch import Freshness, InputWatch
@@ -19,6 +18,7 @@ from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.twist_publisher import TwistPublisher
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from agv_motion.twist_limits import TwistLimits

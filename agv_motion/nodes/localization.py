@@ -12,7 +12,6 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.localization_parameters import LocalizationParameters
 from agv_motion.odometry.assumed_noise import AssumedNoise
 from agv_motion.odometry.continuity import Step
@@ -31,6 +30,7 @@ from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.transforms import Transforms
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from agv_motion.odometry.history import Waypoint

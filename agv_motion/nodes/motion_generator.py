@@ -10,15 +10,14 @@ from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.blocked import BlockedGuard
-from agv_motion.motion.generator import SapFlow, checked_sap_flow
-from agv_motion.motion.limits import Limited, Limits
-from agv_motion.motion.mind import Mind
-from agv_motion.motion.polar import to_twist
-from agv_motion.motion.watchdog import Silence
-from agv_motion.motion.zone_file import load_zone
-from agv_motion.nodes.company_keeper import CompanyKeeper
-from agv_motion.nodes.memory_keeper import MemoryKeeper
+from agv_motion.motion.behavior.agent import Agent
+from agv_motion.motion.behavior.sap_flow import SapFlow, checked_sap_flow
+from agv_motion.motion.command.limits import Limited, Limits
+from agv_motion.motion.command.polar import to_twist
+from agv_motion.motion.navigation.zone_file import load_zone
+from agv_motion.nodes.memory_store import MemoryStore
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
+from agv_motion.nodes.reservation_exchange import ReservationExchange
 from agv_motion.planar import REST, Pose, Twist
 from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
@@ -28,20 +27,21 @@ from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.twist_publisher import TwistPublisher
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
-    from agv_motion.motion.goals import Goal
-    from agv_motion.motion.thought import Thought
+    from agv_motion.motion.behavior.decision import Decision
+    from agv_motion.motion.behavior.goals import Goal
 
 THINK_PERIOD = 1.0
-"""[s] after which the tree thinks again though nothing is new: of the hour, and of other ways."""
+"""[s] after which the tree thinks again though nothing is new: of the hour, and of other paths."""
 
 RELEASE = 'clear its way, then call ~/pause with data: false'
 """What a person does to let a blocked tree go on."""
 
 
 class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
-    """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal`, `way` and `state`.
+    """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal`, `path` and `state`.
 
     Without a fresh and valid sap flow, or without a pose, the command is an explicit zero.
     """
@@ -51,22 +51,22 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         super().__init__('motion_generator', MotionGeneratorParameters, **kwargs)
 
     def open(self) -> None:
-        """Build the mind, give it back its memory, and open the topics."""
+        """Build the agent, give it back its memory, and open the topics."""
         given = self.parameters
         self._rim = given.rim
         zone = load_zone(find_config(given.zone_file), self._rim) if given.zone_file else None
-        self._mind = Mind(zone, given.mind())
+        self._agent = Agent(zone, given.agent())
         self._company = self._join(given) if given.share_zone else None
         self._limits = Limits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
         self._valid = True
         self._paused = False
-        self._thought: Thought | None = None
+        self._thought: Decision | None = None
         self._thought_at = 0.0
         self._told = ''
         self._told_goal: Goal | None = None
-        self._told_way: tuple[tuple[float, float], ...] = ()
+        self._published_path: tuple[tuple[float, float], ...] = ()
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = self.seconds()
         self._twist = REST
@@ -76,14 +76,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
         self._watches = {name: InputWatch(self, name, limits) for name in ('sap flow', 'pose')}
         self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
-        self._way = self.publisher(Path, 'way', LATCHED, sole=True)
+        self._path = self.publisher(Path, 'path', LATCHED, sole=True)
         self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
         self._state = self.publisher(String, 'state', LATCHED, sole=True)
         self._keeper = (
             None
-            if self._mind.memory is None
-            else MemoryKeeper(
-                self, self._mind.memory, given.memory_file, given.map_frame, given.last_visit_span
+            if self._agent.memory is None
+            else MemoryStore(
+                self, self._agent.memory, given.memory_file, given.map_frame, given.last_visit_span
             )
         )
         self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
@@ -96,9 +96,9 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self.every(1.0 / given.rate, self._tick)
         self.watch_inputs(given.stop_after, self._watch)
 
-    def _join(self, given: MotionGeneratorParameters) -> CompanyKeeper:
+    def _join(self, given: MotionGeneratorParameters) -> ReservationExchange:
         name = given.tree_name or self.get_namespace().strip('/')
-        return CompanyKeeper(self, self._mind, given.sharing(), name, given.peers_file)
+        return ReservationExchange(self, self._agent, given.sharing(), name, given.peers_file)
 
     def begin(self) -> None:
         """Know nothing of before; tell where the tree means to go, and what it remembers."""
@@ -107,7 +107,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._guard.release()
         self._lost = 'sap flow'
         self._judge()
-        self._tell_goal(self._mind.goal)
+        self._tell_goal(self._agent.goal)
         if self._keeper is not None:
             self._keeper.begin()
 
@@ -121,14 +121,14 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def accept(self, parameters: MotionGeneratorParameters) -> None:
         """Take over new thresholds."""
-        self._mind.rest = parameters.rest
+        self._agent.rest = parameters.rest
         self._thought = None
 
     def diagnose(self) -> Diagnosis:
         """Tell what the tree does, why, and what it misses."""
         values = {'limits in force': ', '.join(self._limited_by) or 'none'}
-        if self._mind.goal is not None:
-            values['goal'] = self._mind.goal.reason
+        if self._agent.goal is not None:
+            values['goal'] = self._agent.goal.reason
         if self._keeper is not None:
             values |= self._keeper.report()
         if self._company is not None:
@@ -170,11 +170,11 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _on_goal(self, message: PoseStamped) -> None:
         require_frame(message.header.frame_id, self.parameters.map_frame)
         goal = pose_of(message.pose)
-        self._mind.set_goal(goal.x, goal.y, 'asked for')
+        self._agent.set_goal(goal.x, goal.y, 'asked for')
         self._guard.release()
         self._judge()
         self._thought = None
-        self._tell_goal(self._mind.goal)
+        self._tell_goal(self._agent.goal)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
@@ -185,15 +185,15 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         return 'paused' if self._paused else 'going on'
 
     def _on_next_goal(self, _: Any) -> str:
-        self._mind.next_goal()
+        self._agent.next_goal()
         self._guard.release()
         self._judge()
         self._thought = None
         self._move()
-        return self._mind.goal.reason if self._mind.goal else f'chosen later; {self._told}'
+        return self._agent.goal.reason if self._agent.goal else f'chosen later; {self._told}'
 
     def _on_go_home(self, _: Any) -> str:
-        self._mind.go_home()
+        self._agent.go_home()
         self._guard.release()
         self._judge()
         self._thought = None
@@ -254,21 +254,21 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
                 self._company.stay(self._pose, fresh=not self._lost)
             return
         now = self.seconds()
-        thought = self._think(now, self._pose, self._sap_flow)
+        decision = self._decide(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._publish(self._limits.apply(thought.wanted, thought.place, dt), thought.activity)
-        if thought.goal is not self._told_goal:
-            self._tell_goal(thought.goal)
-        if thought.way[1:] != self._told_way[1:]:
-            self._tell_way(thought.way)
+        self._publish(self._limits.apply(decision.wanted, decision.place, dt), decision.activity)
+        if decision.goal is not self._told_goal:
+            self._tell_goal(decision.goal)
+        if decision.path[1:] != self._published_path[1:]:
+            self._publish_path(decision.path)
 
-    def _think(self, now: float, pose: Pose, flow: SapFlow) -> Thought:
+    def _decide(self, now: float, pose: Pose, flow: SapFlow) -> Decision:
         """Think when something is new; also now and then, and always where others walk."""
         if self._company is not None:
-            return self._company.think(now, pose, flow)
+            return self._company.decide(now, pose, flow)
         if self._thought is None or not 0.0 <= now - self._thought_at < THINK_PERIOD:
-            self._thought, self._thought_at = self._mind.think(now, pose, flow), now
+            self._thought, self._thought_at = self._agent.decide(now, pose, flow), now
         return self._thought
 
     def _publish(self, limited: Limited, state: str) -> None:
@@ -288,7 +288,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
     def _tell_goal(self, goal: Goal | None) -> None:
         """Publish and log a new goal with its reason, and why others were not taken."""
         self._told_goal = goal
-        for refusal in self._mind.refusals:
+        for refusal in self._agent.refusals:
             self.get_logger().info(f'no goal: {refusal}')
         if goal is None:
             return
@@ -299,13 +299,13 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         fill_pose(message.pose, Pose(*goal.place, 0.0))
         self._goal_publisher.publish(message)
 
-    def _tell_way(self, way: tuple[tuple[float, float], ...]) -> None:
-        self._told_way = way
+    def _publish_path(self, path: tuple[tuple[float, float], ...]) -> None:
+        self._published_path = path
         message = Path()
         message.header.frame_id = self.parameters.map_frame
         self.stamp(message)
-        fill_path(message, [Pose(x, y, 0.0) for x, y in way])
-        self._way.publish(message)
+        fill_path(message, [Pose(x, y, 0.0) for x, y in path])
+        self._path.publish(message)
 
 
 def main() -> None:

@@ -8,15 +8,15 @@ from typing import Annotated
 from agv_motion.blocked import SlowlyBlockedParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import Outline
-from agv_motion.motion.generator import RestParameters
-from agv_motion.motion.goals import GoalParameters
-from agv_motion.motion.homing import HomeParameters
-from agv_motion.motion.limits import LimitParameters
-from agv_motion.motion.memory import MemoryParameters
-from agv_motion.motion.mind import MindParameters
-from agv_motion.motion.polar import LINEAR_SPEED
-from agv_motion.motion.schedule import ScheduleParameters
-from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.behavior.agent import AgentParameters
+from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.memory import MemoryParameters
+from agv_motion.motion.behavior.sap_flow import RestParameters
+from agv_motion.motion.behavior.schedule import ScheduleParameters
+from agv_motion.motion.command.limits import LimitParameters
+from agv_motion.motion.command.polar import LINEAR_SPEED
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.parameters import Spec
 
 
@@ -51,7 +51,10 @@ class MotionGeneratorParameters(Outline):
         str, Spec('where to keep the memory of places over a restart; empty: nowhere')
     ] = ''
     share_zone: Annotated[
-        bool, Spec('other trees walk here: tell them the way on /ways, and keep clear of theirs')
+        bool,
+        Spec(
+            'other trees walk here: tell them the path on /reservations, and keep clear of theirs'
+        ),
     ] = False
     tree_name: Annotated[
         str, Spec('by which the other trees know this one; empty: its namespace')
@@ -83,9 +86,9 @@ class MotionGeneratorParameters(Outline):
             msg = f'goal = {list(self.goal)}: give x and y in metres'
             raise ConfigurationError(msg)
 
-    def mind(self) -> MindParameters:
-        """Return what the mind needs of these."""
-        return MindParameters(
+    def agent(self) -> AgentParameters:
+        """Return what the agent needs of these."""
+        return AgentParameters(
             goals=self.goals,
             memory=self.memory,
             rest=self.rest,

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
-from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
 from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
 from agv_motion.odometry.omni_odometry import OmniOdometry
@@ -17,6 +16,7 @@ from agv_motion.parameters import Spec
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import run
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -15,7 +15,6 @@ from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering import Limiter, SteeringController
-from agv_motion.motion.watchdog import Silence
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.planar import REST, Twist
@@ -33,6 +32,7 @@ from agv_motion.ros.messages import (
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
+from agv_motion.watchdog import Silence
 
 SOONEST = 0.4
 """[-] A step shorter than this share of the last one waits: limits of acceleration want even steps.

@@ -26,7 +26,6 @@ from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.twist_ramp import TwistRamp
 from agv_motion.kinematics.wheel_limits import WheelLimits
-from agv_motion.motion.watchdog import Silence
 from agv_motion.odometry.continuity import Step
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.odometry.parameters import OdometryParameters
@@ -46,6 +45,7 @@ from agv_motion.ros.messages import (
 from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.wheel_joints import WheelJoints
+from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,13 +10,13 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from agv_motion.motion.clock_watch import STANDS_AFTER, ClockWatch
+from agv_motion.clock_watch import STANDS_AFTER, ClockWatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.motion.watchdog import Watchdog
     from agv_motion.ros.timed_node import TimedNode
+    from agv_motion.watchdog import Watchdog
 
 LOOK_PERIOD = 0.1
 """[s] between two looks at the node's clock."""

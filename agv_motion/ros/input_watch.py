@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.watchdog import Silence, Watchdog
+from agv_motion.watchdog import Silence, Watchdog
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,8 +11,8 @@ from rclpy.lifecycle import LifecycleNode
 from agv_motion.ros.clock_guard import CLOCK_TOPIC, ClockGuard, if_possible
 
 if TYPE_CHECKING:
-    from agv_motion.motion.clock_watch import ClockWatch
-    from agv_motion.motion.watchdog import Watchdog
+    from agv_motion.clock_watch import ClockWatch
+    from agv_motion.watchdog import Watchdog
 
 
 class TimedNode(LifecycleNode):

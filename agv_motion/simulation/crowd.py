@@ -16,19 +16,19 @@ import numpy as np
 import shapely
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.paths import Paths
-from agv_motion.motion.polar import LINEAR_SPEED
-from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.right_of_way import RightOfWay
-from agv_motion.motion.traffic.traffic import Passage, Traffic
+from agv_motion.motion.command.polar import LINEAR_SPEED
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.traffic import Passage, Traffic
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.radio import Radio, RadioParameters
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from agv_motion.motion.polyline import Point
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.polyline import Point
+    from agv_motion.motion.navigation.zone import Zone
 
 ARRIVAL = 1.0
 """[m] A goal counts as reached from here."""
@@ -123,7 +123,7 @@ class Crowd:
         clearance = parameters.traffic.clearance
         places = places or scattered(zone, parameters.trees, clearance, chance)
         names = [f'tree_{i}' for i in range(len(places))]
-        paths = Paths(zone)
+        paths = PathPlanner(zone)
         self.walkers = []
         for i, (name, place) in enumerate(zip(names, places, strict=True)):
             right = RightOfWay(name, place, parameters.traffic)
@@ -151,9 +151,9 @@ class Crowd:
         given = self.parameters
         self.now += given.step
         by_name = {walker.name: walker for walker in self.walkers}
-        for receiver, claim in self.radio.receive(self.now):
+        for receiver, reservation in self.radio.receive(self.now):
             walker = by_name[receiver]
-            walker.traffic.hear(claim, self.now + walker.skew)
+            walker.traffic.receive(reservation, self.now + walker.skew)
         for walker in self.walkers:
             believed = walker.supposed(given.step, given.error)
             if walker.resting:
@@ -163,7 +163,7 @@ class Crowd:
                 walker.decide(believed, self.candidates, self.now)
                 share = max(walker.speed, given.slowest)
                 walker.move(believed, share * LINEAR_SPEED * given.step, self.now)
-            self.radio.send(walker.traffic.claim(self.now + walker.skew), self.now)
+            self.radio.send(walker.traffic.reservation(self.now + walker.skew), self.now)
         self._measure()
 
     def _measure(self) -> None:

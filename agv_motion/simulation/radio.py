@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
-    from agv_motion.motion.traffic.claim import Claim
+    from agv_motion.motion.navigation.reservations.reservation import Reservation
 
 
 @dataclass(frozen=True)
@@ -28,11 +28,11 @@ class RadioParameters:
 class _Letter(NamedTuple):
     due: float
     receiver: str
-    claim: Claim
+    reservation: Reservation
 
 
 class Radio:
-    """Carries claims between trees; each pair has luck of its own, so order may change."""
+    """Carries reservations between trees; each pair has luck of its own, so order may change."""
 
     def __init__(self, names: list[str], parameters: RadioParameters, seed: int) -> None:
         """Start with nothing on the way.
@@ -49,23 +49,23 @@ class Radio:
         self.deaf: set[tuple[str, str]] = set()
         """Pairs (sender, receiver) between which nothing passes."""
 
-    def send(self, claim: Claim, now: float) -> None:
-        """Send ``claim`` to all others."""
+    def send(self, reservation: Reservation, now: float) -> None:
+        """Send ``reservation`` to all others."""
         given = self.parameters
         for name in self._names:
-            lost = (claim.name, name) in self.deaf or self._random.random() < given.loss
-            if name == claim.name or lost:
+            lost = (reservation.name, name) in self.deaf or self._random.random() < given.loss
+            if name == reservation.name or lost:
                 continue
             twice = given.doubled > 0.0 and self._random.random() < given.doubled
             for _ in range(1 + twice):
                 due = now + self._random.uniform(0.0, given.delay)
-                self._letters.append(_Letter(due, name, claim))
+                self._letters.append(_Letter(due, name, reservation))
 
-    def receive(self, now: float) -> list[tuple[str, Claim]]:
-        """Return receiver and claim of all that has arrived by ``now`` [s], earliest first."""
+    def receive(self, now: float) -> list[tuple[str, Reservation]]:
+        """Return receiver and reservation of all that has come by ``now`` [s], earliest first."""
         arrived = sorted((letter for letter in self._letters if letter.due <= now), key=_due)
         self._letters = [letter for letter in self._letters if letter.due > now]
-        return [(letter.receiver, letter.claim) for letter in arrived]
+        return [(letter.receiver, letter.reservation) for letter in arrived]
 
 
 def _due(letter: _Letter) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from agv_motion.motion.generator import SapFlow
+from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.probe.granier import flow_index, flux_density
 from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
 

@@ -1,7 +1,7 @@
-"""Days of several trees in one zone, by their real minds, in seconds: what must hold, counted.
+"""Days of several trees in one zone, by the agents of the nodes, in seconds: what must hold, counted.
 
 Kinematic and without ROS: sun and shade make sap flow, sap flow and memory make goals, traffic
-makes way, and the platform follows exactly what it is told, off by the error of its position. Only
+makes path, and the platform follows exactly what it is told, off by the error of its position. Only
 the opening hours are played; at night the trees stand and speak on.
 """
 
@@ -13,15 +13,15 @@ from itertools import combinations
 from math import hypot, inf
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from agv_motion.motion.goals import GoalParameters
-from agv_motion.motion.homing import HomeParameters
-from agv_motion.motion.mind import Mind, MindParameters
-from agv_motion.motion.paths import Paths
-from agv_motion.motion.schedule import DAYS, ScheduleParameters
-from agv_motion.motion.traffic.company import Company
-from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.right_of_way import RightOfWay
-from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.motion.behavior.agent import Agent, AgentParameters
+from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.schedule import DAYS, ScheduleParameters
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.reservations.company import Company
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.traffic import Traffic
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.crowd import scattered
 from agv_motion.simulation.radio import Radio, RadioParameters
@@ -34,7 +34,7 @@ from agv_motion.simulation.sun import sun
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.zone import Zone
     from agv_motion.planar import Pose
     from agv_motion.simulation.sun import Sun
 
@@ -105,13 +105,13 @@ class Season:
         clearance = given.traffic.clearance + HomeParameters().arrival + 0.1
         homes = scattered(self.zone, given.trees, clearance, chance)
         self._obstacles = _obstacles(self.zone, chance)
-        paths = Paths(self.zone)
+        paths = PathPlanner(self.zone)
         names = [f'tree_{i}' for i in range(given.trees)]
         self.trees = []
         for name, home in zip(names, homes, strict=True):
-            mind = Mind(plan.zone(home), _mind(given, chance))
+            agent = Agent(plan.zone(home), _agent(given, chance))
             traffic = Traffic(RightOfWay(name, home, given.traffic), self.zone, paths)
-            self.trees.append(SeasonTree(name, Company(mind, traffic), home, chance))
+            self.trees.append(SeasonTree(name, Company(agent, traffic), home, chance))
         self._by_name = {tree.name: tree for tree in self.trees}
         self._radio = Radio(names, given.radio, given.seed)
         self._chance = chance
@@ -155,7 +155,7 @@ class Season:
                 for tree in self.trees:
                     tree.count_from(now)
             now += given.step if moving else PERIOD
-        memory = self.trees[0].company.mind.memory
+        memory = self.trees[0].company.agent.memory
         assert memory is not None
         self._coverage.append(memory.coverage()[0])
 
@@ -165,10 +165,10 @@ class Season:
         self._radio.deaf = set()
         self._radio.receive(inf)
         for speaker in self.trees:
-            claim = speaker.company.traffic.claim(now)
+            reservation = speaker.company.traffic.reservation(now)
             for listener in self.trees:
                 if listener is not speaker:
-                    listener.company.traffic.hear(claim, now)
+                    listener.company.traffic.receive(reservation, now)
         for tree in self.trees:
             tree.live(now, lambda _x, _y: 1.0, given.step, given.error)
 
@@ -179,8 +179,8 @@ class Season:
     def _step(self, now: float, sky: Sun) -> bool:
         """Let one step pass; return whether any tree moves."""
         given = self.parameters
-        for receiver, claim in self._radio.receive(now):
-            self._by_name[receiver].company.traffic.hear(claim, now)
+        for receiver, reservation in self._radio.receive(now):
+            self._by_name[receiver].company.traffic.receive(reservation, now)
 
         def light(x: float, y: float) -> float:
             return light_factor(x, y, sky, self._obstacles)
@@ -189,7 +189,7 @@ class Season:
         for tree in self.trees:
             moving |= tree.live(now, light, given.step, given.error)
             if len(self.trees) > 1:
-                self._radio.send(tree.company.traffic.claim(now), now)
+                self._radio.send(tree.company.traffic.reservation(now), now)
             self._least_inside = min(self._least_inside, self._inside(tree.pose))
         allowed = 2.0 * given.traffic.body + given.traffic.margin
         for a, b in combinations(self.trees, 2):
@@ -203,8 +203,8 @@ class Season:
         return sign * self.zone.edge_distance(pose.x, pose.y) - self.zone.rim
 
 
-def _mind(given: SeasonParameters, chance: random.Random) -> MindParameters:
-    return MindParameters(
+def _agent(given: SeasonParameters, chance: random.Random) -> AgentParameters:
+    return AgentParameters(
         goals=GoalParameters(strategy=given.strategy, seed=chance.randrange(2**20)),
         schedule=ScheduleParameters(enabled=True, days=DAYS),
     )

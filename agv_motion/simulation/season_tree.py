@@ -1,11 +1,11 @@
-"""One tree of a season: where it is, where it believes it is, its sap, its mind, its tally."""
+"""One tree of a season: where it is, where it believes it is, its sap, its agent, its tally."""
 
 from __future__ import annotations
 
 from math import exp, hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
-from agv_motion.motion.polar import LINEAR_SPEED, STILL, to_twist
+from agv_motion.motion.command.polar import LINEAR_SPEED, STILL, to_twist
 from agv_motion.planar import Pose, integrate
 from agv_motion.simulation.sap import SapSense
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     import random
     from collections.abc import Callable
 
-    from agv_motion.motion.polyline import Point
-    from agv_motion.motion.thought import Thought
-    from agv_motion.motion.traffic.company import Company
+    from agv_motion.motion.behavior.decision import Decision
+    from agv_motion.motion.navigation.polyline import Point
+    from agv_motion.motion.navigation.reservations.company import Company
 
 STEPPED = 0.1
 """[m] A tree that has moved so far does not stand."""
@@ -57,13 +57,13 @@ class SeasonTree:
         dx, dy = (keep * e + self._chance.gauss(0.0, fresh) for e in self._error)
         shrink = min(3.0 * deviation / max(hypot(dx, dy), 1e-9), 1.0)
         self._error = dx, dy = shrink * dx, shrink * dy
-        thought = self.company.think(now, Pose(x + dx, y + dy, theta), flow, now)
-        self._count(thought, now, flow.s1)
-        command = thought.wanted
+        decision = self.company.decide(now, Pose(x + dx, y + dy, theta), flow, now)
+        self._count(decision, now, flow.s1)
+        command = decision.wanted
         if command == STILL:
             return False
-        if len(thought.way) > 1:  # a step never leads past the corner it heads for
-            (ax, ay), (bx, by) = thought.way[:2]
+        if len(decision.path) > 1:  # a step never leads past the corner it heads for
+            (ax, ay), (bx, by) = decision.path[:2]
             most = hypot(bx - ax, by - ay) / (LINEAR_SPEED * step)
             command = command._replace(v=min(command.v, most))
         twist = to_twist(command)
@@ -75,13 +75,13 @@ class SeasonTree:
         """Count how long the tree stands from now [s] on: so far it could not help it."""
         self._moved_at = now
 
-    def _count(self, thought: Thought, now: float, speed: float) -> None:
+    def _count(self, decision: Decision, now: float, speed: float) -> None:
         """Count goals, and how long the tree has stood with somewhere to go."""
-        if thought.goal is not self._goal and thought.goal is not None:
-            self._goal = thought.goal
-            self.goals += thought.goal.wish is not None
+        if decision.goal is not self._goal and decision.goal is not None:
+            self._goal = decision.goal
+            self.goals += decision.goal.objective is not None
         here = self.pose.x, self.pose.y
-        seeks = speed > 0.0 and thought.goal is not None and bool(thought.way)
+        seeks = speed > 0.0 and decision.goal is not None and bool(decision.path)
         if not seeks or hypot(here[0] - self._anchor[0], here[1] - self._anchor[1]) > STEPPED:
             self._anchor, self._moved_at = here, now
         self._moved_at = min(self._moved_at, now)

@@ -6,8 +6,8 @@ import random
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.polar import PLATFORM_RADIUS
-from agv_motion.motion.zone import MARGIN, Zone
+from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.motion.navigation.zone import MARGIN, Zone
 
 if TYPE_CHECKING:
     from collections.abc import Callable

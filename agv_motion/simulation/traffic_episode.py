@@ -13,20 +13,20 @@ from itertools import combinations
 from math import cos, hypot, inf, sin, tau
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from agv_motion.motion.paths import Paths
-from agv_motion.motion.polar import LINEAR_SPEED
-from agv_motion.motion.traffic.lived_time import LivedTime
-from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.right_of_way import RightOfWay
-from agv_motion.motion.traffic.traffic import Traffic
+from agv_motion.motion.command.polar import LINEAR_SPEED
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.reservations.lived_time import LivedTime
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.traffic import Traffic
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.crowd import Walker, grid, scattered
 from agv_motion.simulation.radio import Radio, RadioParameters
 from agv_motion.simulation.season_zones import MOST_TREES, plan_of
 
 if TYPE_CHECKING:
-    from agv_motion.motion.polyline import Point
-    from agv_motion.motion.zone import Zone
+    from agv_motion.motion.navigation.polyline import Point
+    from agv_motion.motion.navigation.zone import Zone
 
 STEP = 5.0
 """[s]"""
@@ -89,7 +89,7 @@ class Episode:
         self._chance = chance = random.Random(given.seed)  # noqa: S311 - a simulation, no secret
         kind = chance.choice(KINDS)
         self._zone: Zone = plan_of(kind, given.seed).zone()
-        self._paths = Paths(self._zone)
+        self._paths = PathPlanner(self._zone)
         self._candidates = grid(self._zone, 0.5)
         count = chance.randint(2, MOST_TREES[kind])
         self._traffic = [self._drawn() for _ in range(count)]
@@ -136,11 +136,11 @@ class Episode:
             self._let_clock_go(tree)
             if tree.off_until <= self.now and tree.starts_again:
                 self._start_again(tree)
-        for receiver, claim in self.radio.receive(self.now):
+        for receiver, reservation in self.radio.receive(self.now):
             tree = by_name[receiver]
             if tree.off_until <= self.now:
-                tree.known.add(claim.name)
-                tree.walker.traffic.hear(claim, tree.lived.seconds)
+                tree.known.add(reservation.name)
+                tree.walker.traffic.receive(reservation, tree.lived.seconds)
         for tree in self.trees:
             if tree.off_until <= self.now:
                 self._live(tree)
@@ -169,7 +169,7 @@ class Episode:
         elif dice < 0.006:
             tree.off_until = self.now + self._chance.uniform(5.0, 120.0)
             tree.starts_again = True
-        self.radio.send(traffic.claim(tree.lived.seconds), self.now)
+        self.radio.send(traffic.reservation(tree.lived.seconds), self.now)
 
     def _off(self, tree: _Tree) -> Point:
         """Return by how much a wrong fix puts the tree elsewhere.

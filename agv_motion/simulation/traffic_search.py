@@ -19,18 +19,18 @@ from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar
 
-from agv_motion.motion.polyline import line
-from agv_motion.motion.traffic.parameters import TrafficParameters
-from agv_motion.motion.traffic.right_of_way import RightOfWay
-from agv_motion.motion.traffic.separation import apart
+from agv_motion.motion.navigation.polyline import line
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.separation import apart
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
 
-    from agv_motion.motion.polyline import Point
-    from agv_motion.motion.traffic.claim import Claim
-    from agv_motion.motion.traffic.peer import Peer
+    from agv_motion.motion.navigation.polyline import Point
+    from agv_motion.motion.navigation.reservations.peer import Peer
+    from agv_motion.motion.navigation.reservations.reservation import Reservation
 
 TRAFFIC = TrafficParameters(body=0.2, tolerance=0.1, margin=0.3, listen=0.0)
 """Two trees keep 0.9 m; cells are 1 m apart."""
@@ -48,7 +48,7 @@ class SearchParameters:
 
     cells: Annotated[tuple[int, ...], Spec('where the trees stand', '1', (0, 100))] = (0, 3)
     states: Annotated[int, Spec('most states to look at', '1', (1, 10**8))] = 20_000
-    words: Annotated[int, Spec('told by a run at most', '1', (1, 100))] = 5
+    messages: Annotated[int, Spec('told by a run at most', '1', (1, 100))] = 5
     late: Annotated[int, Spec('last words of a run that are still on the way', '1', (1, 100))] = 2
     runs: Annotated[int, Spec('of each tree at most', '1', (1, 10))] = 2
     rounds: Annotated[int, Spec('in which all heard all before the search', '1', (0, 10))] = 1
@@ -56,7 +56,7 @@ class SearchParameters:
     restarted: Annotated[
         bool, Spec('the first has just started again; its old words are on the way')
     ] = False
-    asked: Annotated[bool, Spec('all ask for a cell beside them before the search')] = False
+    requested: Annotated[bool, Spec('all ask for a cell beside them before the search')] = False
     events: Annotated[tuple[str, ...], Spec('that may happen', choices=EVENTS)] = EVENTS[:4]
 
     def __post_init__(self) -> None:
@@ -89,11 +89,13 @@ class _State(NamedTuple):
     trees: tuple[RightOfWay, ...]
     keys: tuple[Hashable, ...]
     """what tells two states of each tree apart"""
-    mail: tuple[Claim, ...]
+    mail: tuple[Reservation, ...]
 
     def key(self) -> Hashable:
         """Return what tells two states apart."""
-        return self.keys, tuple((claim.name, claim.word) for claim in self.mail)
+        return self.keys, tuple(
+            (reservation.name, reservation.message_id) for reservation in self.mail
+        )
 
 
 class Search:
@@ -119,10 +121,10 @@ class Search:
         if given.restarted:
             again = self._new(self._names[0], start.trees[0].held[0], 2)
             start = self._put(start, 0, again)
-        for i, tree in enumerate(start.trees if given.asked else ()):
+        for i, tree in enumerate(start.trees if given.requested else ()):
             x = tree.held[0][0]
             piece = ((x, 0.0), (x + (1.0 if i == 0 else -1.0), 0.0))
-            start = self._act(start, i, partial(RightOfWay.ask, piece=piece))
+            start = self._act(start, i, partial(RightOfWay.request, piece=piece))
         self._start = start
         self._before = {tree.name: tree._number for tree in start.trees}  # noqa: SLF001
 
@@ -149,9 +151,9 @@ class Search:
     def _steps(self, state: _State) -> Iterator[tuple[str, _State]]:
         for i, tree in enumerate(state.trees):
             told = tree._number - (self._before[tree.name] if tree.run == 1 else 0)  # noqa: SLF001
-            if told >= self.parameters.words:
+            if told >= self.parameters.messages:
                 continue
-            events = (*self._moves(tree), *self._words(tree, state), *self._troubles(tree))
+            events = (*self._moves(tree), *self._messages(tree, state), *self._troubles(tree))
             for event, act in events:
                 yield f'{tree.name} {event}', self._act(state, i, act)
             if 'restart' in self.parameters.events and tree.run < self.parameters.runs:
@@ -160,7 +162,7 @@ class Search:
                     yield f'{tree.name} starts again at {place[0]:.0f}', self._put(state, i, again)
 
     def _moves(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
-        if tree.asked:
+        if tree.requested:
             yield SETTLES, self._settle
         elif len(tree.held) == 1:
             x = tree.held[0][0]
@@ -168,20 +170,20 @@ class Search:
                 if 0.0 <= cell <= self._last_cell:
                     yield (
                         f'asks for {cell:.0f}',
-                        partial(RightOfWay.ask, piece=((x, 0.0), (cell, 0.0))),
+                        partial(RightOfWay.request, piece=((x, 0.0), (cell, 0.0))),
                     )
         if len(tree.held) > 1:
             yield 'walks', lambda one: one.pass_by(one.ahead)
 
-    def _words(self, tree: RightOfWay, state: _State) -> Iterator[tuple[str, _Act]]:
-        for claim in state.mail:
-            if claim.name != tree.name:
-                event = f'hears {claim.name} {claim.word.run}:{claim.word.number}'
-                yield event, partial(RightOfWay.hear, claim=claim, now=0.0)
+    def _messages(self, tree: RightOfWay, state: _State) -> Iterator[tuple[str, _Act]]:
+        for reservation in state.mail:
+            if reservation.name != tree.name:
+                event = 'hears {} {}:{}'.format(reservation.name, *reservation.message_id)
+                yield event, partial(RightOfWay.receive, reservation=reservation, now=0.0)
 
     def _troubles(self, tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
         events = self.parameters.events
-        if 'withdraw' in events and tree.asked:
+        if 'withdraw' in events and tree.requested:
             yield 'withdraws', lambda one: one.withdraw()
         if 'park' in events and not tree.parked:
             yield 'parks', lambda one: one.park()
@@ -210,29 +212,33 @@ class Search:
 
     def _put(self, state: _State, i: int, tree: RightOfWay) -> _State:
         mail, before = state.mail, tree.__dict__.copy()
-        claim = tree.claim(0.0)
-        if _news(claim, mail):  # whether and when it is heard is another matter
-            mail = self._posted(mail, claim)
+        reservation = tree.reservation(0.0)
+        if _news(reservation, mail):  # whether and when it is heard is another matter
+            mail = self._posted(mail, reservation)
         else:
             tree.__dict__ = before
         trees = (*state.trees[:i], tree, *state.trees[i + 1 :])
         return _State(trees, (*state.keys[:i], _key(tree), *state.keys[i + 1 :]), mail)
 
-    def _posted(self, mail: tuple[Claim, ...], claim: Claim) -> tuple[Claim, ...]:
+    def _posted(
+        self, mail: tuple[Reservation, ...], reservation: Reservation
+    ) -> tuple[Reservation, ...]:
         """Return ``mail`` with one more word; older ones of that run than the last few are lost."""
-        same = [old for old in mail if _same_run(old, claim)]
+        same = [old for old in mail if _same_run(old, reservation)]
         lost = same[: max(len(same) + 1 - self.parameters.late, 0)]
-        return (*(old for old in mail if old not in lost), claim)
+        return (*(old for old in mail if old not in lost), reservation)
 
     def _talk(self, state: _State) -> _State:
         """Return what comes of it when every tree hears every other's last word."""
         for i in range(len(state.trees)):
             state = self._put(state, i, _clone(state.trees[i]))
-        last = {claim.name: claim for claim in state.mail}
+        last = {reservation.name: reservation for reservation in state.mail}
         for i, tree in enumerate(state.trees):
-            for claim in last.values():
-                if claim.name != tree.name:
-                    state = self._act(state, i, partial(RightOfWay.hear, claim=claim, now=0.0))
+            for reservation in last.values():
+                if reservation.name != tree.name:
+                    state = self._act(
+                        state, i, partial(RightOfWay.receive, reservation=reservation, now=0.0)
+                    )
         return state
 
 
@@ -259,18 +265,18 @@ def _wrong_fixes(tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
 
 def _breached(state: _State) -> bool:
     """Return whether two trees hold the same floor, that on which one only believes to be apart."""
-    ways = [tree.held if tree.doubt is None else tree.doubt.before for tree in state.trees]
-    return not all(apart(line(a), line(b), TRAFFIC.clearance) for a, b in combinations(ways, 2))
+    paths = [tree.held if tree.doubt is None else tree.doubt.before for tree in state.trees]
+    return not all(apart(line(a), line(b), TRAFFIC.clearance) for a, b in combinations(paths, 2))
 
 
-def _same_run(a: Claim, b: Claim) -> bool:
-    return a.name == b.name and a.word.run == b.word.run
+def _same_run(a: Reservation, b: Reservation) -> bool:
+    return a.name == b.name and a.message_id.run == b.message_id.run
 
 
-def _news(claim: Claim, mail: tuple[Claim, ...]) -> bool:
-    """Return whether ``claim`` says what the last word of its run did not."""
-    last = next((old for old in reversed(mail) if _same_run(old, claim)), None)
-    return last is None or _said(last) != _said(claim)
+def _news(reservation: Reservation, mail: tuple[Reservation, ...]) -> bool:
+    """Return whether ``reservation`` says what the last word of its run did not."""
+    last = next((old for old in reversed(mail) if _same_run(old, reservation)), None)
+    return last is None or _said(last) != _said(reservation)
 
 
 def _clone(tree: RightOfWay) -> RightOfWay:
@@ -294,23 +300,29 @@ def _copied(thing: T) -> T:
     return new
 
 
-def _said(claim: Claim) -> tuple[Hashable, ...]:
-    return claim.held, claim.asked, claim.journey, claim.heard, claim.parked
+def _said(reservation: Reservation) -> tuple[Hashable, ...]:
+    return (
+        reservation.held,
+        reservation.requested,
+        reservation.journey,
+        reservation.received,
+        reservation.parked,
+    )
 
 
 def _key(tree: RightOfWay) -> Hashable:
     peers = tuple(_peer_key(peer) for peer in tree.peers)
     return (
-        tree.run, tree._number, tree.held, tree.asked, tree._asked_since, tree.parked,  # noqa: SLF001
+        tree.run, tree._number, tree.held, tree.requested, tree._requested_since, tree.parked,  # noqa: SLF001
         tree.journey, tree.doubt, tree._moved_since, peers,  # noqa: SLF001
     )  # fmt: skip
 
 
 def _peer_key(peer: Peer) -> Hashable:
-    runs = tuple((r.claim.word, r.since) for _, r in sorted(peer._runs.items()))  # noqa: SLF001
+    runs = tuple((r.reservation.message_id, r.since) for _, r in sorted(peer._runs.items()))  # noqa: SLF001
     ended = tuple(sorted(peer._ended.items()))  # noqa: SLF001
     sides = peer.sides and (peer.sides.own.wkb, peer.sides.theirs.wkb)
     return (
-        runs, ended, peer.claim.word, peer.echo, peer.mutual_from, peer.silent, sides,
+        runs, ended, peer.reservation.message_id, peer.echo, peer.mutual_from, peer.silent, sides,
         peer.doubled_at,
     )  # fmt: skip

@@ -16,7 +16,7 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.demo_figure import draw
 from agv_motion.cli.demo_report import Outcome, read_run, summary
-from agv_motion.motion.zone import Zone
+from agv_motion.motion.navigation.zone import Zone
 
 
 def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):

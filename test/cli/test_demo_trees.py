@@ -12,7 +12,7 @@ pytest.importorskip('rclpy')
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.cli.demo_trees_report import Walk, doing_of, gaps, nearest, read_walks
-from agv_motion.motion.traffic.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 
 TRAFFIC = TrafficParameters(body=1.0, margin=0.2)
 
@@ -26,7 +26,7 @@ def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     assert (tmp_path / 'trees.png').stat().st_size > 10_000
     with BagReader(tmp_path / 'bag') as bag:
         walks = read_walks(bag, ['oak', 'ash'])
-        assert bag.counts['/ways'] > 100
+        assert bag.counts['/reservations'] > 100
     assert all(walk.distance() > 0.5 for walk in walks)
     assert all(walk.goals for walk in walks)
     assert re.search(r'oak and ash came nearest: \d+\.\d\d m from rim to rim', out)

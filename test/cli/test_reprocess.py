@@ -287,7 +287,9 @@ def test_a_result_is_made_anew_for_another_configuration_only(recorded, tmp_path
 
 
 def test_a_failure_leaves_no_half_result(recorded, tmp_path):
-    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(remap=(('/way', '/way'),)))
+    outcome = reprocess(
+        recorded / 'a', tmp_path / 'out', PLAN._replace(remap=(('/path', '/path'),))
+    )
     assert not outcome.failure
     shutil.rmtree(tmp_path / 'out')
     outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(nodes=('nothing',)))

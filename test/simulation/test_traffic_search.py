@@ -7,16 +7,16 @@ from __future__ import annotations
 
 import pytest
 
-from agv_motion.motion.traffic.doubt import Doubt
-from agv_motion.motion.traffic.peer import Peer
-from agv_motion.motion.traffic.peers import Peers
-from agv_motion.motion.traffic.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.doubt import Doubt
+from agv_motion.motion.navigation.reservations.peer import Peer
+from agv_motion.motion.navigation.reservations.peers import Peers
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameters
 
-RESTARTED = {'restarted': True, 'rounds': 3, 'words': 4, 'events': ()}
+RESTARTED = {'restarted': True, 'rounds': 3, 'messages': 4, 'events': ()}
 MUTUAL = {'rounds': 2, 'events': ()}
 THREE = {
-    'cells': (0, 2, 4), 'rounds': 2, 'asked': True, 'late': 1, 'words': 4, 'events': (),
+    'cells': (0, 2, 4), 'rounds': 2, 'requested': True, 'late': 1, 'messages': 4, 'events': (),
 }  # fmt: skip
 PARKED = {'parked': True, 'events': ()}
 THREE_PARKED = THREE | {'parked': True}
@@ -55,15 +55,15 @@ def test_floor_is_taken_in_what_was_searched(given, states):
     assert found.breach == ()
 
 
-def answers_to_any_run(peers, claim):
-    word = claim.heard.get(peers._name)  # noqa: SLF001
-    return word.number if word is not None else -1
+def answers_to_any_run(peers, reservation):
+    message_id = reservation.received.get(peers._name)  # noqa: SLF001
+    return message_id.number if message_id is not None else -1
 
 
 @pytest.mark.parametrize(
     ('thing', 'name', 'broken', 'given'),
     [
-        (Peer, 'stays', property(lambda peer: peer.claim.parked), PARKED),
+        (Peer, 'stays', property(lambda peer: peer.reservation.parked), PARKED),
         (Peers, 'forget_agreements', lambda *_: None, PARKED),
         (Peers, 'echo', answers_to_any_run, RESTARTED),
         (RightOfWay, 'precedence', property(lambda _: (0, '')), MUTUAL),

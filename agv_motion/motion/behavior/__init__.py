@@ -1,0 +1,1 @@
+"""What to do now: goals, memory, hours, home and rest of one tree."""

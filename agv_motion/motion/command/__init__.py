@@ -1,0 +1,1 @@
+"""The command of the tree, its limits, and the twist it means."""

@@ -1,0 +1,1 @@
+"""Where the tree may go, and by which path."""

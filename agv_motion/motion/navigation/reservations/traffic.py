@@ -1,0 +1,323 @@
+"""One tree among others: which path it takes, when it waits, and when it gives way.
+
+Safety is the matter of :class:`RightOfWay`; what is here only decides what to ask for, so a defect
+here can cost time but no bark. Five habits let all go on:
+
+- Who set out first goes first; the others keep off the next metres of its path.
+- Who cannot go on takes a way round what the others hold.
+- Who cannot go on and stands in the way of one that goes first walks to a refuge, and out of a
+  narrow passage backwards if need be.
+- Who is blocked for long looks for another goal, and is then the youngest.
+- Who goes first, yet is blocked for longer still, and has only that goal, becomes the youngest:
+  where the others found no refuge, it may.
+
+The oldest journey has everybody's way out of it, and each journey becomes the oldest.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import shapely
+
+from agv_motion.errors import GeometryError
+from agv_motion.motion.navigation.path_follower import Waypoints
+from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line, nearest
+from agv_motion.motion.navigation.reservations.detour import detour, free_floor, refuge, taken
+from agv_motion.motion.navigation.reservations.needs import COURTESY, Needs
+from agv_motion.motion.navigation.reservations.reservation import IDLE, Reservation
+from agv_motion.motion.navigation.reservations.separation import TOUCH, apart
+from agv_motion.motion.navigation.reservations.verdict import Answer
+
+if TYPE_CHECKING:
+    from agv_motion.motion.navigation.path_planner import PathPlanner
+    from agv_motion.motion.navigation.polyline import Point
+    from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+    from agv_motion.motion.navigation.zone import Zone
+
+STRETCH = 1.0
+"""[m] asked for at a time, and held ahead: a minute's walk at the most."""
+
+ARRIVED = 0.05
+"""[m] The end of what is held counts as reached from here."""
+
+STUCK = 5.0
+"""[s] without floor ahead after which another path is sought, and time between two searches."""
+
+LONG_WAY = 60.0
+"""[s] A way round of more than twice the length is taken only when stuck for so long."""
+
+CORNER = 0.3
+"""[m] A corner counts as reached from here, or from half the tolerance if that is less ..."""
+
+SLACK = 0.01
+"""[m] ... unless the short cut would cut so deep into the margin."""
+
+
+class Passage(NamedTuple):
+    """How far the tree may go now."""
+
+    target: Point | None
+    """where to head for, straight; None: stay"""
+    reason: str
+    """why it stays or gives way; empty while it goes towards its goal"""
+    blocked: float
+    """[s] for how long it could not go towards its goal"""
+    path: Path
+    """corners from here on to the goal, or to where it gives way"""
+    gives_way: bool = False
+    """whether it goes out of the way of others, not towards its goal"""
+
+
+class Traffic:
+    """What one tree asks for, on its path to its goals."""
+
+    def __init__(self, right: RightOfWay, zone: Zone, paths: PathPlanner) -> None:
+        """Stand where ``right`` says.
+
+        Args:
+            right: What the tree holds.
+            zone: Where it walks.
+            paths: The paths in it.
+
+        """
+        self.right, self._needs = right, Needs(right)
+        self._spare = right.parameters.tolerance / 2.0  # the other half is for errors of position
+        self._zone, self._paths = zone, paths
+        self._waypoints = Waypoints(zone, min(CORNER, self._spare), SLACK)
+        self._goal: Point | None = None
+        self._route: Path = ()
+        self._after_piece: Path = ()
+        self._yielding = False
+        self._reason = ''
+        self._going_at = self._planned_at = self._counted_at = 0.0
+
+    def receive(self, reservation: Reservation, now: float) -> None:
+        """Take up the message of another tree; see :meth:`RightOfWay.receive`."""
+        self.right.receive(reservation, now)
+
+    def reservation(self, now: float) -> Reservation:
+        """Return what to tell the others, every second or two and after every step of interest."""
+        right = self.right
+        return right.reservation(now, joined(right.held, self._route))
+
+    def towards(self, goal: Point | None, place: Point, now: float) -> Passage:
+        """Return how to go on to ``goal``.
+
+        Args:
+            goal: Where to go in the map [m]; None: nowhere, but give way to others.
+            place: Where the centre is [m].
+            now: Time of this tree's steady clock [s].
+
+        """
+        right = self.right
+        along = self._track(place, now)
+        if right.doubt is not None:
+            blocked = now - self._going_at if self._goal is not None else 0.0
+            return Passage(None, f'stands: {right.obstacle(now)}', blocked, (place,))
+        if goal != self._goal or self._has_waited(now):
+            self._set_out(goal, along, now)
+            along = 0.0
+        self._settle(now)
+        ahead = right.ahead - along
+        stuck = now - self._going_at
+        if not right.requested and ahead <= ARRIVED and min(stuck, now - self._planned_at) >= STUCK:
+            self._plan_again(along, stuck, now)
+            along, ahead = 0.0, 0.0
+        if not right.requested and ahead < STRETCH:
+            self._ask()
+            self._settle(now)
+        return self._passage(place, along, now)
+
+    def _passage(self, place: Point, along: float, now: float) -> Passage:
+        """Return how far the tree may go on the path it holds, as far as the last guard lets it."""
+        right = self.right
+        path = joined(self._waypoints.ahead(place, cut(right.held, along)[1]), self._route)
+        holds = right.ahead - along > ARRIVED
+        free = self._needs.step((place, path[0]), self._spare)
+        obstacle = right.obstacle(now)
+        walks = holds and not obstacle and length(free.path) > TOUCH
+        self._count(now, walks=walks and not self._yielding)
+        if holds and free.by and not walks:
+            self._let_go(along)
+            self._reason = f'waits for {free.by}, which is on its floor'
+        blocked = now - self._going_at if self._goal is not None else 0.0
+        if not walks:
+            return Passage(None, f'stands: {obstacle}' if obstacle else self._reason, blocked, path)
+        reason = 'gives way' if self._yielding else ''
+        return Passage(free.path[-1], reason, blocked, path, self._yielding)
+
+    def _count(self, now: float, *, walks: bool) -> None:
+        """Count for how long the tree could not go on; waiting for an answer does not count.
+
+        Else a tree on a slow network would take back each request before its answer can come.
+        """
+        if walks:
+            self._going_at = now
+        elif self.right.requested:
+            self._going_at = min(self._going_at + max(now - self._counted_at, 0.0), now)
+        self._counted_at = now
+
+    def rest(self, place: Point, now: float, *, fresh: bool = True) -> None:
+        """Hold nothing but the place where the tree is: it does not move for a while.
+
+        Args:
+            place: Where the centre is in the map [m].
+            now: Time of this tree's steady clock [s].
+            fresh: See :meth:`RightOfWay.locate`.
+
+        """
+        self._let_go(self._track(place, now, fresh=fresh))
+        self._goal = None
+        self.right.set_out(IDLE)
+
+    def park(self, place: Point, now: float) -> None:
+        """Rest, and promise to stay: nobody needs to wait for an answer of this tree."""
+        self.rest(place, now, fresh=False)
+        self.right.park()
+
+    def occupied(self) -> shapely.Geometry:
+        """Return the floor that others hold or ask for, with the clearance to keep from it."""
+        return taken(self._needs.of_all(plans=False))
+
+    def closed(self) -> shapely.Geometry:
+        """Return the floor on which no goal makes sense now: occupied, or left to a silent tree."""
+        sides = [
+            peer.sides.closed(self._zone.bounds, self._needs.clearance(peer))
+            for peer in self.right.peers
+            if peer.sides is not None
+        ]
+        return shapely.union_all([self.occupied(), *sides])
+
+    # Where the tree is on the path it holds
+
+    def _track(self, place: Point, now: float, *, fresh: bool = True) -> float:
+        """Return how far along the path it holds the tree is, and let go of what lies behind.
+
+        A tree that is farther off than the tolerance stands, and has another path to find once it
+        is sure where it is.
+        """
+        right = self.right
+        was_sure = right.doubt is None
+        if not right.locate(place, now, fresh=fresh):
+            self._route, self._yielding = (), False
+            return 0.0
+        if not was_sure:
+            self._plan()
+        along, _ = nearest(right.held, place)
+        passed = max(along - right.parameters.tolerance, 0.0)
+        right.pass_by(passed)
+        return along - passed
+
+    def _let_go(self, along: float) -> None:
+        """Hold nothing but the place reached, ask for nothing, and have no way to go."""
+        self.right.pass_by(along)
+        self.right.stop()
+        self._route, self._yielding = (), False
+
+    # Which path to take
+
+    def _set_out(self, goal: Point | None, along: float, now: float) -> None:
+        """Begin another journey."""
+        self._let_go(along)
+        self.right.set_out(IDLE if goal is None else None)
+        self._goal, self._going_at, self._planned_at = goal, now, now
+        self._reason, self._needs.courtesy = '', COURTESY
+        self._plan()
+
+    def _has_waited(self, now: float) -> bool:
+        """Return whether those who go after this tree have had time to get out of its way."""
+        begun = self._needs.last_begun()
+        if begun is None:
+            return False
+        return now - max(begun, self._going_at) > 2.0 * self.right.parameters.patience
+
+    def _plan(self) -> None:
+        """Take the shortest path, unless it leads past a tree that stands there."""
+        self._go_direct()
+        path = line(self._route)
+        if not all(apart(path, *need) for need in self._needs.of_all(standing=True)):
+            self._take_detour(length(self._route))
+
+    def _plan_again(self, along: float, stuck: float, now: float) -> None:
+        """Find a way round, or out of the way of who goes first."""
+        self._let_go(along)
+        self._planned_at = now
+        place, goal = self.right.held[0], self._goal
+        far = 0.0
+        if goal is not None and stuck < LONG_WAY:
+            far = hypot(goal[0] - place[0], goal[1] - place[1])
+        if not self._take_detour(far or np.inf) and not self._give_way():
+            self._go_direct()
+
+    def _go_direct(self) -> None:
+        """Take the shortest path there is, whoever may be on it."""
+        if self._goal is None:
+            return
+        try:
+            self._route = tuple(self._paths.path(self.right.held[0], self._goal))
+        except GeometryError as error:
+            self._reason = str(error)
+
+    def _take_detour(self, direct: float) -> bool:
+        """Take the shortest path past all that others need; return whether there is one."""
+        if self._goal is None:
+            return False
+        place = self.right.held[0]
+        needs = self._needs
+        floor = free_floor(self._zone, place, taken(needs.of_all()), needs.held())
+        if floor is None:
+            return False
+        path = detour(self._zone, place, self._goal, floor, near=0.8)
+        if path is None or length(path) > 2.0 * direct + 2.0:
+            return False
+        self._route, self._yielding = path, False
+        return True
+
+    def _give_way(self) -> bool:
+        """Walk to a refuge if the tree stands in the way of one that goes first; return whether."""
+        place = self.right.held[0]
+        here = shapely.Point(place)
+        if all(apart(here, *planned) for planned in self._needs.plans(np.inf, 0.0)):
+            return False
+        floor = free_floor(self._zone, place, self.occupied(), self._needs.held())
+        if floor is None:
+            return False
+        for reach in (np.inf, COURTESY):
+            wished = taken(self._needs.plans(reach, 2.0 * ARRIVED))
+            path = refuge(self._zone, place, floor, wished)
+            if path is not None:
+                self._route, self._yielding = path, True
+                self._needs.courtesy = np.inf
+                return True
+        return False
+
+    # What to ask for
+
+    def _ask(self) -> None:
+        """Ask for the next stretch of the route, as far as it is free by all that is known."""
+        if len(self._route) < 2:
+            return
+        piece, blocker = self._needs.leave(
+            cut(self._route, STRETCH)[0], ARRIVED, plans=not self._yielding
+        )
+        if length(piece) > ARRIVED:
+            self._after_piece = cut(self._route, length(piece))[1]
+            self.right.request(piece)
+        else:
+            self._reason = f'waits for {blocker}'
+
+    def _settle(self, now: float) -> None:
+        right = self.right
+        if not right.requested:
+            return
+        verdict = right.settle(now)
+        if verdict.answer is Answer.GRANTED:
+            self._route = self._after_piece
+            self._reason = ''
+        else:
+            self._reason = str(verdict)
+            if verdict.answer is Answer.TAKEN:
+                right.withdraw()

@@ -1,0 +1,145 @@
+"""What `motion_generator` does with its memory of places: show it as maps, keep it on disk."""
+
+from __future__ import annotations
+
+from array import array
+from concurrent import futures
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from nav_msgs.msg import OccupancyGrid
+from rclpy.clock import Clock, ClockType
+
+from agv_motion.motion.behavior.memory_file import restore, save
+from agv_motion.ros.qos import LATCHED
+
+if TYPE_CHECKING:
+    from agv_motion.motion.behavior.memory import Map, Mask, Memory
+    from agv_motion.ros.node import ManagedNode
+
+SAVE_PERIOD = 15.0
+"""[s] A power cut loses this much, and what the disk was still writing: less than 30 s."""
+
+CHECK_PERIOD = 0.5
+"""[s] within which a disk that does not take the memory is told."""
+
+FIRST_PERIOD = 0.1
+"""[s] at which the first map is tried until there is a time to stamp it with."""
+
+PATIENCE = 5.0
+"""[s] How long a stopping node waits for the disk."""
+
+
+class MemoryStore:
+    """Publishes `memory/sap_flow` and `memory/last_visit`, and saves in a thread of its own.
+
+    The disk may take its time: the node only copies the maps.
+    """
+
+    def __init__(
+        self, node: ManagedNode[Any], memory: Memory, file: str, frame: str, span: float
+    ) -> None:
+        """Restore the memory and open its topics on ``node``.
+
+        Args:
+            node: The node that is being configured.
+            memory: To show and to keep.
+            file: Where to keep it; empty: nowhere.
+            frame: Of the maps.
+            span: Time since a visit that is shown as 100 [h].
+
+        """
+        self._node, self._memory, self._file, self._span = node, memory, file, span
+        self._frame = frame
+        self._message = self._empty_map()
+        self._flow = node.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
+        self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._shown = False
+        node.every(node.parameters.map_period, self.publish, steady)
+        node.every(FIRST_PERIOD, self._publish_first, steady)
+        self._writer: futures.ThreadPoolExecutor | None = None
+        self._saved: float | None = None
+        self._writing: futures.Future[None] | None = None
+        self._trouble = ''
+        if file:
+            complaint = restore(file, memory)
+            if complaint:
+                node.get_logger().warning(complaint)
+            self._writer = futures.ThreadPoolExecutor(1, 'memory')
+            node.every(SAVE_PERIOD, self.save, steady)
+            node.every(CHECK_PERIOD, self._check, steady)
+
+    def begin(self) -> None:
+        """Show both maps; and save at once, so that a full disk is told before it matters."""
+        self._shown = False
+        self.publish()
+        self.save()
+
+    def publish(self) -> None:
+        """Show both maps: 0 to 100, unknown -1."""
+        memory, now = self._memory, self._node.seconds()
+        if now <= 0.0:
+            return  # no /clock yet: a map of 1970 would be latched
+        self._shown = True
+        self._publish(self._flow, 100.0 * memory.remembered(now), memory.felt)
+        hours = (now - memory.visited_at) / 3600.0
+        self._publish(self._visit, 100.0 * hours / self._span, memory.visited)
+
+    def _publish_first(self) -> None:
+        if not self._shown:
+            self.publish()
+
+    def save(self) -> None:
+        """Let the thread write what is remembered now, if that is new and the last is written."""
+        self._check()
+        if self._memory.newest == self._saved or self._writer is None:
+            return
+        if self._writing is not None:
+            self._node.refuse(f'the disk is slow: {self._file} is still being written')
+            return
+        self._saved = self._memory.newest
+        self._writing = self._writer.submit(save, self._file, self._memory.grid())
+
+    def save_at_last(self) -> None:
+        """Write what is remembered and wait for the disk."""
+        if self._writer is not None:
+            self._check(PATIENCE)
+            self._writing = self._writer.submit(save, self._file, self._memory.grid())
+            self._check(PATIENCE)
+
+    def _check(self, patience: float = 0.0) -> None:
+        """Tell what came of the last save, waiting for it at most ``patience`` [s]."""
+        if self._writing is None or (patience == 0.0 and not self._writing.done()):
+            return
+        try:
+            self._writing.result(patience)
+            self._trouble = ''
+        except (OSError, futures.TimeoutError) as error:
+            self._trouble, self._saved = f'cannot keep the memory of places: {error!r}', None
+            self._node.refuse(self._trouble)
+        self._writing = None
+
+    def report(self) -> dict[str, str]:
+        """Return how much is remembered, for the diagnostics, and whether the disk keeps it."""
+        visited, felt = self._memory.coverage()
+        shares = {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
+        return shares | ({'memory_file': self._trouble} if self._trouble else {})
+
+    def _empty_map(self) -> OccupancyGrid:
+        memory, message = self._memory, OccupancyGrid()
+        message.header.frame_id = self._frame
+        message.info.map_load_time = message.header.stamp
+        message.info.resolution = memory.parameters.cell
+        message.info.height, message.info.width = memory.flow.shape
+        message.info.origin.position.x = memory.west
+        message.info.origin.position.y = memory.south
+        return message
+
+    def _publish(self, publisher: Any, values: Map, known: Mask) -> None:
+        message = self._message
+        self._node.stamp(message)
+        cells = np.full(values.shape, -1, np.int8)
+        cells[known] = np.clip(np.rint(values[known]), 0, 100).astype(np.int8)
+        message.data = array('b', cells.tobytes())
+        publisher.publish(message)

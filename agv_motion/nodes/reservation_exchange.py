@@ -1,0 +1,180 @@
+"""What `motion_generator` does for a tree among others: its reservations out, theirs in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import QoSProfile
+from visualization_msgs.msg import MarkerArray
+
+from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.reservations.company import Company
+from agv_motion.motion.navigation.reservations.lived_time import LivedTime
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.roster import Roster
+from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.ros.reservations import reservation_message, reservation_of
+
+if TYPE_CHECKING:
+    from agv_motion.motion.behavior.agent import Agent
+    from agv_motion.motion.behavior.decision import Decision
+    from agv_motion.motion.behavior.sap_flow import SapFlow
+    from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+    from agv_motion.planar import Pose
+    from agv_motion.ros.node import ManagedNode
+
+WAYS = QoSProfile(depth=50)
+"""All trees speak on one topic; none of their words may be dropped for another's."""
+
+TELL_EVERY = 1.0
+"""[s] between two reservations, unless there is something new to ask."""
+
+
+class ReservationExchange:
+    """Joins a node to the other trees on `/reservations`, once the tree knows where it is."""
+
+    def __init__(
+        self,
+        node: ManagedNode[Any],
+        agent: Agent,
+        parameters: TrafficParameters,
+        name: str,
+        peers_file: str,
+    ) -> None:
+        """Open the topic.
+
+        Args:
+            node: Which needs the company.
+            agent: What decides, in a zone.
+            parameters: How trees share the zone.
+            name: Of this tree, different from every other's.
+            peers_file: Where the names of the others are kept over a restart; empty: nowhere.
+
+        Raises:
+            ConfigurationError: There is no zone to share, the tree has no name, or knows of nobody
+                to share it with.
+
+        """
+        if agent.zone is None:
+            msg = 'share_zone without a zone: give zone_file'
+            raise ConfigurationError(msg)
+        if not name:
+            msg = 'share_zone without a name: start the node in a namespace, or give tree_name'
+            raise ConfigurationError(msg)
+        self._roster = Roster(peers_file)
+        if self._roster.complaint:
+            node.get_logger().error(self._roster.complaint)
+        if not {*parameters.expected, *self._roster.names} - {name}:
+            where = f"peers_file '{peers_file}' remembers" if peers_file else 'no peers_file tells'
+            msg = (
+                f'share_zone knows no other tree ({where} none): name all others in '
+                'traffic.expected, else this one would walk into any that it does not hear yet'
+            )
+            raise ConfigurationError(msg)
+        self._node, self._agent, self._parameters = node, agent, parameters
+        self._zone, self._paths = agent.zone, PathPlanner(agent.zone)
+        self._name, self._frame = name, node.parameters.map_frame
+        self._lived = LivedTime(max(TELL_EVERY, 2.0 / node.parameters.rate))
+        self._simulated = bool(node.get_parameter('use_sim_time').value)
+        self._company: Company | None = None
+        self._told: object = None
+        self._told_at = -TELL_EVERY
+        self._publisher = node.publisher(MarkerArray, '/reservations', WAYS)
+        node.listen(MarkerArray, '/reservations', self._on_reservation, WAYS)
+
+    def decide(self, time: float, pose: Pose, flow: SapFlow) -> Decision:
+        """Return what to do, as far as the others let the tree; see :meth:`Company.decide`."""
+        now = self._now()
+        decision = self._joined(pose).decide(time, pose, flow, now)
+        self._tell(now)
+        return decision
+
+    def stay(self, pose: Pose, *, fresh: bool) -> None:
+        """Hold the place where the tree stands, and tell so.
+
+        Args:
+            pose: Where it is, as far as is known.
+            fresh: Whether all inputs still come; else nothing grows surer.
+
+        """
+        now = self._now()
+        self._joined(pose).traffic.rest((pose.x, pose.y), now, fresh=fresh)
+        self._tell(now)
+
+    def park(self, pose: Pose) -> None:
+        """Say at the end that the tree stays here: nobody needs to wait for its answer."""
+        now, traffic = self._now(), self._joined(pose).traffic
+        traffic.park((pose.x, pose.y), now)
+        self._publish(now)
+
+    def report(self) -> dict[str, str]:
+        """Return who else is there, and what is wrong with them, for the diagnostics."""
+        if self._company is None:
+            return {'other trees': 'not known: no pose yet', 'nobody moves': 'no'}
+        right = self._company.traffic.right
+        told = [f'{p.reservation.name}{" (silent)" if p.silent else ""}' for p in right.peers]
+        told += [f'{name} (never heard)' for name in right.awaited if name not in right.peers]
+        return {
+            'other trees': ', '.join(told) or 'none heard',
+            'nobody moves': right.obstacle(self._lived.seconds) or 'no',
+        }
+
+    @property
+    def alarm(self) -> str:
+        """Why this tree must not move whatever it holds, in words; empty if it may."""
+        return '' if self._company is None else self._company.traffic.right.obstacle(self._now())
+
+    def _now(self) -> float:
+        """Return the time this tree has lived through [s]; see :class:`LivedTime`.
+
+        The steady clock always counts, and a simulated one where it goes faster: then trees too do.
+        """
+        node = self._node
+        simulated = [node.seconds()] if self._simulated else []
+        return self._lived.update(node.steady_seconds(), *simulated)
+
+    def _joined(self, pose: Pose) -> Company:
+        if self._company is None:
+            right = RightOfWay(
+                self._name, (pose.x, pose.y), self._parameters, known=self._roster.names
+            )
+            self._company = Company(self._agent, Traffic(right, self._zone, self._paths))
+        return self._company
+
+    def _tell(self, now: float) -> None:
+        """Tell the others once a second, and at once what is newly asked for."""
+        if self._company is None:
+            return
+        if self._company.traffic.right.requested is self._told and now - self._told_at < TELL_EVERY:
+            return
+        self._publish(now)
+
+    def _publish(self, now: float) -> None:
+        assert self._company is not None
+        traffic = self._company.traffic
+        self._told, self._told_at = traffic.right.requested, now
+        message = reservation_message(traffic.reservation(now), self._frame, self._node.seconds())
+        self._publisher.publish(message)
+
+    def _on_reservation(self, message: MarkerArray) -> None:
+        """Take up what another tree says; what cannot be understood stops this one for a while.
+
+        Raises:
+            SignalError: It cannot be understood, or bears the name of this tree.
+
+        """
+        if self._company is None:
+            return
+        right, now = self._company.traffic.right, self._now()
+        try:
+            reservation = reservation_of(message, self._frame)
+        except SignalError as error:
+            right.alarm(f'a reservation was refused: {error}', now)
+            raise
+        right.receive(reservation, now)
+        if reservation.name != self._name:
+            try:  # before this tree tells it that it was heard
+                self._roster.add(reservation.name)
+            except ConfigurationError as error:
+                self._node.refuse(str(error))

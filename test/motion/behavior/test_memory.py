@@ -1,0 +1,133 @@
+"""The memory of places: what is felt where, what is visited, and how it fades."""
+
+from __future__ import annotations
+
+from math import floor, nan
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.motion.behavior.memory import NEVER, Memory, MemoryParameters
+from agv_motion.motion.navigation.zone import Zone
+
+SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]
+COLUMN = [[4, 4], [6, 4], [6, 6], [4, 6]]
+ZONE = Zone(SQUARE, [COLUMN])
+NOON = 1434364200.0
+
+
+def memory(**parameters):
+    return Memory(ZONE, MemoryParameters(**parameters))
+
+
+def test_the_grid_lies_over_the_zone_and_knows_where_the_trunk_can_stand():
+    grid = memory()
+    assert grid.part.shape == (40, 40)
+    assert (grid.x[0], grid.y[-1]) == (0.125, 9.875)
+    expected = [[ZONE.walkable(x, y) for x in grid.x] for y in grid.y]
+    assert (grid.walkable == expected).all()
+    assert grid.cell_of(5.0, 5.0) is None  # in the column
+    assert grid.cell_of(-1.0, 5.0) is None
+    assert grid.cell_of(1.0, 2.1) == (8, 4)
+
+
+@given(st.floats(-1, 11), st.floats(-1, 11), st.floats(0, 1), st.floats(0.3, 3.0))
+def test_one_cell_is_felt_and_those_under_the_platform_are_visited(x, y, flow, reach):
+    grid = memory(reach=reach)
+    grid.update(NOON, x, y, flow)
+    row, column = floor(y / 0.25), floor(x / 0.25)
+    felt = [tuple(cell) for cell in np.argwhere(grid.felt)]
+    inside = 0 <= row < 40 and 0 <= column < 40 and grid.walkable[row, column]
+    assert felt == ([(row, column)] if inside else [])
+    assert not inside or (grid.flow[row, column], grid.felt_at[row, column]) == (flow, NOON)
+    away = np.hypot(grid.x[None, :] - x, grid.y[:, None] - y)
+    clear = abs(away - reach) > 1e-9
+    assert (grid.visited == (grid.walkable & (away < reach)))[clear].all()
+
+
+def test_the_last_feeling_counts():
+    grid = memory()
+    grid.update(NOON, 1.0, 1.0, 0.2)
+    grid.update(NOON + 60.0, 1.1, 1.1, 0.7)
+    assert grid.remembered(NOON + 120.0)[4, 4] == 0.7
+    assert grid.felt_at[4, 4] == NOON + 60.0
+
+
+def test_what_was_felt_fades_to_the_mean_by_half_in_a_half_life():
+    """0.9 and 0.3 have the mean 0.6; six hours and three half-lives later 0.6 +- 0.3 / 8."""
+    grid = memory(half_life=2.0)
+    grid.update(NOON, 1.0, 1.0, 0.9)
+    grid.update(NOON, 8.0, 8.0, 0.3)
+    later = grid.remembered(NOON + 6 * 3600.0)
+    assert later[4, 4] == pytest.approx(0.6 + 0.3 / 8.0)
+    assert later[32, 32] == pytest.approx(0.6 - 0.3 / 8.0)
+    assert np.isnan(later[20, 5])
+
+
+def test_without_a_half_life_it_never_fades():
+    grid = memory()
+    grid.update(NOON, 1.0, 1.0, 0.9)
+    grid.update(NOON, 8.0, 8.0, 0.3)
+    assert grid.remembered(NOON + 1e9)[4, 4] == 0.9
+
+
+def test_a_clock_set_back_changes_neither_order_nor_age():
+    """Restored from 2026 into a simulation of 2015: what comes now is the latest all the same."""
+    grid = memory()
+    grid.update(NOON + 1e8, 1.0, 1.0, 0.9)
+    grid.update(NOON + 1e8 + 60.0, 8.0, 8.0, 0.3)
+    grid.update(NOON, 1.0, 8.0, 0.5)
+    times = grid.felt_at[4, 4], grid.felt_at[32, 32], grid.felt_at[32, 4]
+    assert times == pytest.approx((NOON - 60.0, NOON, NOON))
+
+
+def test_coverage_counts_the_cells_of_one_part():
+    grid = memory(reach=0.3)
+    assert grid.coverage() == (0.0, 0.0)
+    for x in grid.x:
+        for y in grid.y:
+            grid.update(NOON, x, y, 0.5)
+    assert grid.coverage() == (1.0, 1.0)
+
+
+def test_recall_gives_everything_back():
+    grid, again = memory(), memory()
+    grid.update(NOON, 1.0, 1.0, 0.9)
+    assert again.recall(grid.grid())
+    for one, other in zip(grid.grid(), again.grid(), strict=True):
+        assert np.array_equal(one, other, equal_nan=True) if np.ndim(one) else one == other
+    assert again.newest == NOON
+
+
+def test_a_changed_zone_keeps_what_it_shares():
+    grid = memory()
+    for x, y in ((1.0, 1.0), (8.1, 8.1), (5.1, 2.1)):
+        grid.update(NOON, x, y, 0.9)
+    # moved by two metres, half of it gone, and a bench where (5, 2) was; cells of another size
+    other = Memory(Zone([[-2, -2], [7, -2], [7, 7], [-2, 7]], [[[4, 1], [6, 1], [6, 3], [4, 3]]]),
+                   MemoryParameters(cell=0.2))  # fmt: skip
+    assert not other.recall(grid.grid())
+    assert other.flow[other.cell_of(1.1, 1.1)] == 0.9
+    assert not other.felt[:, other.x > 6.5].any()
+    assert not other.felt[~other.walkable].any()
+    assert not other.visited[~other.walkable].any()
+    assert other.visited_at.max() == NOON
+    assert other.visited_at.min() == NEVER
+
+
+@pytest.mark.parametrize(
+    ('zone', 'parameters', 'error', 'word'),
+    [
+        (ZONE, {'cell': 0.5, 'reach': 0.4}, ConfigurationError, 'take smaller cells'),
+        (ZONE, {'cell': nan}, ConfigurationError, 'finite'),
+        (ZONE, {'half_life': -1.0}, ConfigurationError, 'half_life = -1.0'),
+        (Zone([[0, 0], [2000, 0], [2000, 2000]]), {'cell': 0.1}, GeometryError, 'take larger'),
+        (Zone([[0, 0], [1.2, 0], [1.2, 1.2], [0, 1.2]]), {'cell': 0.9}, GeometryError, 'smaller'),
+    ],
+)
+def test_cells_that_do_not_fit_are_told(zone, parameters, error, word):
+    with pytest.raises(error, match=word):
+        Memory(zone, MemoryParameters(**parameters))

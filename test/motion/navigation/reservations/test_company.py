@@ -1,0 +1,96 @@
+"""A mind among others: whoever may move steps out of the way, even while its sap stands."""
+
+from __future__ import annotations
+
+from math import dist
+
+import pytest
+
+from agv_motion.motion.behavior.agent import Agent, AgentParameters
+from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.sap_flow import SapFlow
+from agv_motion.motion.behavior.schedule import ScheduleParameters
+from agv_motion.motion.command.polar import to_twist
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.reservations.company import Company
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
+from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.motion.navigation.zone import Zone
+from agv_motion.planar import Pose, integrate
+
+CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
+TRAFFIC = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
+CLEARANCE = 2.0
+"""[m] twice 0.7 + 0.2 + 0.2 / 2"""
+SPEED = 0.5
+RUN = 7
+"""of the tree under test"""
+ASLEEP = SapFlow(0.0, 0.5, 0.1)
+NIGHT = 1434344400.0
+"""2015-06-15, 05:00 UTC"""
+
+
+class Oak:
+    """A tree in the corridor; `ash` comes along it, and went first."""
+
+    def __init__(self, place, **given):
+        agent = Agent(CORRIDOR, AgentParameters(home=HomeParameters(speed=SPEED), **given))
+        right = RightOfWay('oak', place, TRAFFIC, RUN)
+        self.company = Company(agent, Traffic(right, CORRIDOR, PathPlanner(CORRIDOR)))
+        self.pose = Pose(*place, 0.0)
+        self.going, self.giving_way, self.activities = set(), set(), []
+
+    def live(self, flow, seconds, start=NIGHT):
+        """Go on for a while, one thought a second."""
+        for now in range(round(start), round(start) + seconds):
+            traffic = self.company.traffic
+            path = (6.0, 1.25), (14.0, 1.25)
+            traffic.receive(
+                Reservation(
+                    'ash', MessageId(1, now), 0.9, path[:1], (), path, 0,
+                    received={'oak': MessageId(RUN, now)}, margin=0.2,
+                ), now,
+            )  # fmt: skip
+            traffic.reservation(now)
+            decision = self.company.decide(now, self.pose, flow, now)
+            speeds = self.giving_way if 'gives way' in decision.activity else self.going
+            speeds.add(decision.wanted.v)
+            assert decision.path or not decision.wanted.v
+            if decision.activity not in self.activities[-1:]:
+                self.activities.append(decision.activity)
+            self.pose = integrate(self.pose, to_twist(decision.wanted), 1.0)
+        return self
+
+    def gave_way(self):
+        return dist((self.pose.x, self.pose.y), (14.0, 1.25)) == pytest.approx(CLEARANCE, abs=0.11)
+
+
+def test_a_tree_whose_sap_stands_steps_aside_slowly_and_says_so():
+    oak = Oak((10.0, 1.25), goals=GoalParameters(strategy='memory')).live(ASLEEP, 1200)
+    assert oak.gave_way()
+    assert (oak.going, oak.giving_way) == ({0.0}, {SPEED})
+    assert 'resting: the sap stands: gives way' in oak.activities
+    assert oak.activities[-1] == 'resting: the sap stands'
+
+
+@pytest.mark.parametrize('s1', [0.1, 0.8])
+def test_a_tree_steps_aside_as_its_sap_flows_but_no_slower(s1):
+    oak = Oak((8.3, 1.25), goal=(2.0, 1.25)).live(SapFlow(s1, 0.5, 0.9), 1300)
+    assert oak.gave_way()
+    assert oak.going <= {0.0, s1}
+    assert oak.giving_way == {max(s1, SPEED)}
+
+
+def test_one_that_is_in_nobodys_way_rests_where_it_is():
+    oak = Oak((20.0, 1.25)).live(ASLEEP, 300)
+    assert (oak.pose.x, oak.pose.y) == (20.0, 1.25)
+    assert oak.company.decide(NIGHT + 300, oak.pose, ASLEEP, NIGHT + 300).path == ()
+
+
+def test_nobody_steps_aside_before_opening():
+    oak = Oak((10.0, 1.25), schedule=ScheduleParameters(enabled=True)).live(ASLEEP, 300)
+    assert (oak.pose.x, oak.pose.y) == (10.0, 1.25)
+    assert (oak.going, oak.giving_way) == ({0.0}, set())
