@@ -609,19 +609,19 @@ def test_every_message_of_a_run_has_a_number_of_its_own_whatever_the_clock_says(
         ({'held': ()}, 'needs name, place'),
         ({'radius': nan}, 'radius nan'),
         ({'radius': 0.0}, 'must be positive'),
-        ({'asked': ((0.0, 0.0), (nan, 1.0))}, 'must be finite'),
-        ({'wish': ((0.0, 1e9),)}, 'must be finite and within'),
-        ({'wish': ((0.0, 1.0),) * 1001}, 'at most 1000'),
+        ({'requested': ((0.0, 0.0), (nan, 1.0))}, 'must be finite'),
+        ({'planned': ((0.0, 1e9),)}, 'must be finite and within'),
+        ({'planned': ((0.0, 1.0),) * 1001}, 'at most 1000'),
         ({'radius': 1e9}, 'must be positive, <= 1000'),
         ({'margin': nan}, 'margin nan'),
         ({'name': 'x' * 201}, 'at most 200'),
         ({'journey': -1}, 'must lie in'),
-        ({'word': MessageId(1, -1)}, 'must lie in'),
-        ({'heard': {'pine': MessageId(2**64, 0)}}, 'must lie in'),
+        ({'message_id': MessageId(1, -1)}, 'must lie in'),
+        ({'received': {'pine': MessageId(2**64, 0)}}, 'must lie in'),
     ],
 )
 def test_a_reservation_that_says_nothing_sound_is_refused(changes, complaint):
-    sound = {'name': 'oak', 'word': MessageId(1, 1), 'radius': 1.0, 'held': ((0.0, 0.0),)}
+    sound = {'name': 'oak', 'message_id': MessageId(1, 1), 'radius': 1.0, 'held': ((0.0, 0.0),)}
     with pytest.raises(SignalError, match=complaint):
         Reservation(**(sound | changes))
 
