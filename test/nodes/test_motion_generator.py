@@ -27,7 +27,7 @@ def senses(make_senses):
 def test_sap_flow_drives_the_tree_to_its_goal(senses):
     """Hand calculation: at (7, 1) looking at 1 rad, the goal lies 5 m away at 0.9273 rad."""
     senses.stand(7.0, 1.0, 1.0)
-    senses.update(0.6, 0.75, 0.2)
+    senses.feel(0.6, 0.75, 0.2)
     twist = senses.moves().twist
     assert hypot(twist.linear.x, twist.linear.y) == pytest.approx(0.6 / 60.0)
     assert atan2(twist.linear.y, twist.linear.x) == pytest.approx(atan2(4.0, 3.0) - 1.0)
@@ -36,7 +36,7 @@ def test_sap_flow_drives_the_tree_to_its_goal(senses):
 
 def test_at_the_goal_it_turns_on_the_spot(senses):
     senses.stand(9.5, 5.0, 0.0)
-    senses.update(1.0, 1.0, 0.5)
+    senses.feel(1.0, 1.0, 0.5)
     twist = senses.moves().twist
     assert twist.linear.x == twist.linear.y == 0.0
     assert twist.angular.z > 0.0
@@ -44,16 +44,16 @@ def test_at_the_goal_it_turns_on_the_spot(senses):
 
 def test_it_rests_while_the_sap_stands(senses):
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
-    senses.update(0.05, 0.0, 0.1)
+    senses.feel(0.05, 0.0, 0.1)
     senses.rests()
     senses.tester.wait(senses.states, lambda m: 'the sap stands' in m.data)
 
 
 def test_a_probe_not_to_be_believed_means_rest(senses):
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     senses.valid.publish(Bool(data=False))
     senses.rests()
@@ -66,10 +66,10 @@ def test_a_probe_not_to_be_believed_means_rest(senses):
 def test_silence_of_an_input_means_an_explicit_stop(tester, make_senses, silent):
     senses = make_senses(report_after=0.2, stop_after=0.5)
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     senses.tester.graph.repeat(
-        lambda: senses.update(0.9, 0.9, 0.9) if silent == 'pose' else senses.stand(7.0, 1.0, 0.0),
+        lambda: senses.feel(0.9, 0.9, 0.9) if silent == 'pose' else senses.stand(7.0, 1.0, 0.0),
         until=lambda: not senses.moving(senses.commands[-1]),
     )
     tester.wait(senses.states, lambda m: f'no {silent}' in m.data)
@@ -78,7 +78,7 @@ def test_silence_of_an_input_means_an_explicit_stop(tester, make_senses, silent)
 @pytest.mark.parametrize('flow', [(nan, 0.5, 0.5), (1.5, 0.5, 0.5), (0.5, -0.1, 0.5)])
 def test_a_sap_flow_out_of_its_range_is_refused(senses, flow):
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(*flow)
+    senses.feel(*flow)
     senses.tester.graph.spin_until(lambda: 'sap flow' in senses.node.complaint)
     assert not any(senses.moving(command) for command in senses.commands)
 
@@ -108,14 +108,14 @@ def test_a_clicked_goal_is_taken_and_told(senses):
     senses.tester.publisher(PoseStamped, 'goal_pose').publish(clicked)
     senses.tester.wait(goals, lambda m: m.pose.position.y == 8.0)
     senses.stand(7.0, 1.0, pi / 2)
-    senses.update(1.0, 0.5, 0.5)
+    senses.feel(1.0, 0.5, 0.5)
     twist = senses.moves().twist
     assert (twist.linear.x, twist.linear.y) == pytest.approx((1 / 60.0, 0.0), abs=1e-12)
 
 
 def test_pause_stops_and_goes_on(senses):
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     ask = senses.tester.ask
     assert ask(SetBool, 'motion_generator/pause', SetBool.Request(data=True)).success
@@ -127,7 +127,7 @@ def test_pause_stops_and_goes_on(senses):
 
 def test_the_last_word_is_zero(senses):
     senses.stand(7.0, 1.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     senses.node.trigger_shutdown()
     senses.tester.graph.spin_until(lambda: not senses.moving(senses.commands[-1]))
@@ -156,7 +156,7 @@ def test_it_walks_round_what_stands_in_the_way(tester, make_senses, zone):
     senses = make_senses(zone_file=zone, goal=[15.0, 5.0])
     paths = tester.listen(Path, 'path', LATCHED)
     senses.stand(5.0, 5.0, 0.0)
-    senses.update(1.0, 0.5, 0.5)
+    senses.feel(1.0, 0.5, 0.5)
     twist = senses.moves().twist
     assert abs(atan2(twist.linear.y, twist.linear.x)) > 0.2
     assert len(tester.wait(paths).poses) > 2
@@ -165,7 +165,7 @@ def test_it_walks_round_what_stands_in_the_way(tester, make_senses, zone):
 def test_outside_its_zone_it_stops_and_says_so(tester, make_senses, zone):
     senses = make_senses(zone_file=zone, goal=[15.0, 5.0])
     senses.stand(10.0, 5.0, 0.0)
-    senses.update(1.0, 1.0, 1.0)
+    senses.feel(1.0, 1.0, 1.0)
     tester.wait(senses.states, lambda m: 'lies in hole 1' in m.data)
     assert not any(senses.moving(command) for command in senses.commands)
 
@@ -178,7 +178,7 @@ def test_a_goal_outside_the_zone_is_refused_and_the_old_one_stays(tester, make_s
     tester.publisher(PoseStamped, 'goal_pose').publish(clicked)
     tester.graph.spin_until(lambda: 'lies outside the zone' in senses.node.complaint)
     senses.stand(14.5, 5.0, 0.0)
-    senses.update(1.0, 1.0, 0.5)
+    senses.feel(1.0, 1.0, 0.5)
     tester.wait(senses.states, lambda m: 'at the goal' in m.data)
 
 
@@ -195,7 +195,7 @@ def keeps_telling(senses, until):
 
     def tell():
         senses.stand(7.0, 1.0, 0.0)
-        senses.update(0.9, 0.9, 0.9)
+        senses.feel(0.9, 0.9, 0.9)
 
     senses.tester.graph.repeat(tell, until, every=0.05)
 
@@ -236,7 +236,7 @@ def test_activated_again_it_rests_until_sap_flow_and_pose_are_told_anew(senses):
     senses.commands.clear()
     senses.node.trigger_activate()
     senses.tester.graph.spin_until(lambda: len(senses.commands) > 5)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.tester.graph.spin_for(0.3)
     assert not any(map(senses.moving, senses.commands))
     keeps_telling(senses, lambda: says(senses, 'a probe cannot be believed'))

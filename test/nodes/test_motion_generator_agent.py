@@ -60,10 +60,10 @@ class Maps:
         """Let the tree feel ``flow`` at (x, y), and wait until it remembers both."""
         cell = int(y / 0.25), int(x / 0.25)
         self.senses.stand(x, y, 0.0)
-        self.senses.update(0.9, 0.5, self.felt)  # as before: it may come before the pose does
+        self.senses.feel(0.9, 0.5, self.felt)  # as before: it may come before the pose does
         self.senses.tester.wait(self.flows, lambda m: cells(m)[cell] >= 0)
         self.felt = flow
-        self.senses.update(0.9, 0.5, flow)
+        self.senses.feel(0.9, 0.5, flow)
         self.senses.tester.wait(self.flows, lambda m: cells(m)[cell] == round(100.0 * flow))
 
 
@@ -76,7 +76,7 @@ def test_it_chooses_a_goal_and_tells_which_why_and_by_which_way(seek):
     goals = senses.tester.listen(PoseStamped, 'goal', LATCHED)
     paths = senses.tester.listen(Path, 'path', LATCHED)
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.9, 0.5, 0.4)
+    senses.feel(0.9, 0.5, 0.4)
     senses.moves()
     goal = senses.tester.wait(goals).pose.position
     state = senses.tester.wait(senses.states, lambda m: 'walking' in m.data).data
@@ -117,7 +117,7 @@ def test_the_maps_show_what_it_remembers(seek):
 def test_it_goes_home_when_asked_though_little_sap_flows(seek):
     senses = seek()
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.2, 1.0, 0.2)
+    senses.feel(0.2, 1.0, 0.2)
     senses.moves()
     answer = ask(senses, 'go_home')
     assert answer.success
@@ -142,7 +142,7 @@ def test_no_home_and_no_other_goal_are_told(make_senses):
 def test_a_service_asked_while_it_is_paused_moves_nothing(seek):
     senses = seek()
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.moves()
     senses.tester.ask(SetBool, 'motion_generator/pause', SetBool.Request(data=True))
     assert 'chosen later; paused' in ask(senses, 'next_goal').message
@@ -155,7 +155,7 @@ def test_a_service_asked_while_it_is_paused_moves_nothing(seek):
 def test_on_delicate_floor_it_does_not_turn_and_says_so(seek):
     senses = seek()
     senses.stand(15.0, 2.0, 0.0)  # the centre is off it, a turret is not
-    senses.update(0.9, 1.0, 0.4)
+    senses.feel(0.9, 1.0, 0.4)
     assert senses.moves().twist.angular.z == 0.0
     senses.tester.wait(senses.states, lambda m: 'not turning: delicate floor' in m.data)
     senses.stand(14.0, 2.0, 0.0)
@@ -166,7 +166,7 @@ def test_rates_hold_from_command_to_command(seek):
     senses = seek(limits__v_rate=0.5, limits__omega_rate=0.5)
     diagnostics = senses.tester.listen(DiagnosticArray, '/diagnostics')
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(1.0, 1.0, 0.4)
+    senses.feel(1.0, 1.0, 0.4)
     senses.tester.wait(senses.commands, lambda m: m.twist.linear.x**2 + m.twist.linear.y**2 > 1e-4)
     stamps = [m.header.stamp.sec + 1e-9 * m.header.stamp.nanosec for m in senses.commands]
     speeds = [60.0 * hypot(m.twist.linear.x, m.twist.linear.y) for m in senses.commands]
@@ -180,7 +180,7 @@ def test_rates_hold_from_command_to_command(seek):
 def test_outside_it_returns_slowly_where_that_is_wanted(seek):
     senses = seek(home__outside='return')
     senses.stand(-0.5, 5.0, 0.0)
-    senses.update(1.0, 1.0, 0.4)
+    senses.feel(1.0, 1.0, 0.4)
     twist = senses.moves().twist
     assert (twist.linear.x, twist.linear.y) == pytest.approx((0.25 / 60.0, 0.0), abs=1e-9)
     assert twist.angular.z == 0.0
@@ -196,7 +196,7 @@ def test_the_hours_are_kept(seek):
         schedule__closes='23:59',
     )
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.9, 0.9, 0.9)
+    senses.feel(0.9, 0.9, 0.9)
     senses.tester.wait(senses.states, lambda m: ' until ' in m.data)
     assert not any(senses.moving(command) for command in senses.commands)
 
@@ -208,7 +208,7 @@ def test_what_it_learnt_is_there_after_a_restart(seek, tmp_path, zone):
     path = tmp_path / 'places.npz'
     senses = seek(memory_file=str(path))
     senses.stand(5.1, 2.1, 0.0)
-    senses.update(0.9, 0.5, 0.75)
+    senses.feel(0.9, 0.5, 0.75)
     senses.moves()
     senses.node.trigger_shutdown()
     memory = Memory(load_zone(zone))
@@ -238,7 +238,7 @@ def test_a_corrupt_memory_is_set_aside_and_the_tree_walks(seek, tmp_path, capfd)
     senses = seek(memory_file=str(path))
     assert 'set aside as places.npz.unusable' in capfd.readouterr().err
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.9, 0.5, 0.4)
+    senses.feel(0.9, 0.5, 0.4)
     senses.moves()
 
 
@@ -251,7 +251,7 @@ def test_a_memory_of_another_clock_is_no_obstacle(seek, tmp_path, zone):
     senses = seek(memory_file=str(path), map_period=0.1)
     visits = senses.tester.listen(OccupancyGrid, 'memory/last_visit', LATCHED)
     senses.stand(5.1, 2.1, 0.0)
-    senses.update(0.9, 0.5, 0.4)
+    senses.feel(0.9, 0.5, 0.4)
     senses.moves()
     both = senses.tester.wait(visits, lambda m: cells(m)[8, 20] == 0)
     assert cells(both)[8, 56] == 0
@@ -263,7 +263,7 @@ def test_a_disk_that_does_not_take_it_is_told_and_the_tree_walks(seek, tmp_path)
     senses = seek(memory_file=str(file / 'places.npz'))
     senses.tester.graph.spin_until(lambda: 'cannot keep' in senses.node.complaint, 5.0)
     senses.stand(2.0, 2.0, 0.0)
-    senses.update(0.9, 0.5, 0.4)
+    senses.feel(0.9, 0.5, 0.4)
     senses.moves()
     senses.node.trigger_deactivate()
     assert 'cannot keep the memory of places' in senses.node.complaint

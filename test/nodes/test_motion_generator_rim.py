@@ -39,7 +39,7 @@ def walk(make_senses, tmp_path):
 def test_a_rim_over_an_edge_or_a_bench_stops_the_tree(walk, place, radius, word):
     senses = walk(platform_radius=radius)
     senses.stand(*place, 0.0)
-    senses.update(0.9, 0.5, 0.5)
+    senses.feel(0.9, 0.5, 0.5)
     senses.tester.wait(senses.states, lambda m: word in m.data)
     assert not any(senses.moving(command) for command in senses.commands)
 
@@ -47,7 +47,7 @@ def test_a_rim_over_an_edge_or_a_bench_stops_the_tree(walk, place, radius, word)
 def test_counted_from_the_centre_as_the_original_did_it_walks(walk):
     senses = walk('clearance_from: centre\n')
     senses.stand(1.0, 5.0, 0.0)
-    senses.update(0.9, 0.5, 0.5)
+    senses.feel(0.9, 0.5, 0.5)
     senses.moves()
 
 
