@@ -1,4 +1,4 @@
-"""Days of several trees in one zone, by the agents of the nodes, in seconds: what must hold, counted.
+"""Days of several trees in one zone, by their real agents, in seconds: what must hold, counted.
 
 Kinematic and without ROS: sun and shade make sap flow, sap flow and memory make goals, traffic
 makes path, and the platform follows exactly what it is told, off by the error of its position. Only
