@@ -159,7 +159,10 @@ class McapFile:
         """
         if chunk.indexes is None:
             entries = self.entries(chunk, unpacked).get(channel)
-            return np.column_stack(entries).astype(np.uint64) if entries else message_index.NONE
+            if entries is None:
+                return message_index.NONE
+            # numpy would join numbers with and without a sign as floats, 256 ns apart
+            return np.column_stack([entries.stamps, entries.offsets.astype(np.uint64)])
         at = chunk.indexes.get(channel)
         return (
             message_index.NONE

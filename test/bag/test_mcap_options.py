@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import io
 from dataclasses import astuple
+from struct import pack
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import NonSeekingReader, make_reader
 from mcap.writer import CompressionType, IndexType, Writer
 
+from agv_motion.bag.columns import read_topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.recovery import Recovery
+from agv_motion.bag.stamps import stamps
 from agv_motion.bag.writer import BagWriter
 
 LATEST = 2**64 - 1
@@ -42,7 +45,7 @@ def written(options, messages):
     stream = io.BytesIO()
     writer = Writer(stream, **options)
     writer.start('ros2', 'test')
-    schema = writer.register_schema('std_msgs/msg/String', 'ros2msg', b'string data')
+    schema = writer.register_schema('std_msgs/msg/UInt32', 'ros2msg', b'uint32 data')
     other = writer.register_schema('Odd', 'protobuf', b'\xff\0\x80')
     channels = [
         writer.register_channel('/a', 'cdr', schema, {'offered_qos_profiles': ''}),
@@ -51,7 +54,8 @@ def written(options, messages):
         writer.register_channel('/d', 'text', 0),
     ]
     for number, (channel, stamp, publish, sequence, data) in enumerate(messages):
-        writer.add_message(channels[channel], stamp, data, publish, sequence)
+        content = b'\0\1\0\0' + pack('<I', sequence) if channel < 2 else data
+        writer.add_message(channels[channel], stamp, content, publish, sequence)
         if number == 3:
             writer.add_attachment(1, 2, 'calib', 'text/plain', b'k')
             writer.add_metadata('site', {'tree': 'oak'})
@@ -74,6 +78,7 @@ def by_mcap(data):
 
 
 def by_ours(path):
+    """Return what our reader finds, after a look whether columns and stamps say the same."""
     with BagReader(path) as bag:
         found = [
             (
@@ -87,6 +92,19 @@ def by_ours(path):
         assert not bag.problems, bag.problems
         assert bag.message_count == len(found)
         assert (bag.start, bag.end) == ((found[0][0], found[-1][0]) if found else (0, 0))
+        for topic, encoding in {m[4]: m[5] for m in found}.items():
+            mine = [m for m in found if m[4] == topic]
+            assert sorted(stamps(bag, [topic])[topic].tolist()) == [m[0] for m in mine]
+            if encoding == 'cdr':
+                columns = read_topic(bag, topic)
+                assert columns.stamps.tolist() == [m[0] for m in mine]
+                assert columns.fields['data'].tolist() == [m[2] for m in mine]
+        middle = found[len(found) // 2][0]
+        assert [m.stamp for m in bag.messages(stop=middle)] == [
+            m[0] for m in found if m[0] < middle
+        ]
+        later = [m[3] for m in found if m[0] >= middle]
+        assert [m.data for m in bag.messages(start=middle)] == later
     return found
 
 
