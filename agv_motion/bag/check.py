@@ -107,6 +107,9 @@ def _file(file: File) -> Iterator[Finding]:
     for count in counted:
         if not isinstance(count, int):
             yield Finding('error', where, str(count))
+    unlike = file.unlike_crc()
+    if unlike and str(unlike) not in map(str, file.problems):
+        yield Finding('error', where, str(unlike))
     if file.statistics is not None and file.statistics.messages != seen:
         text = f'{seen} messages, but its statistics tell of {file.statistics.messages}'
         yield Finding('error', where, text)

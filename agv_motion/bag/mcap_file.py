@@ -19,7 +19,7 @@ from agv_motion.bag.time_order import Run, in_time_order, inside
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Container, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -185,12 +185,11 @@ class McapFile:
 
         """
         if chunk.indexes is not None:
-            tables = {
-                channel: message_index.rows(self._data, channel, at, self.path)
+            return {
+                channel: self._indexed(chunk, channel, at)
                 for channel, at in chunk.indexes.items()
                 if wanted is None or channel in wanted
             }
-            return {channel: Entries(t[:, 0], t[:, 1]) for channel, t in tables.items()}
         unpacked = self.content(chunk) if unpacked is None else unpacked
         offsets = message_offsets(unpacked)
         found = self.heads(chunk, unpacked, offsets)
@@ -202,6 +201,15 @@ class McapFile:
             mine = channels == channel
             entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
         return entries
+
+    def _indexed(self, chunk: Chunk, channel: int, at: int) -> Entries:
+        """Return what the index at byte ``at`` says of a channel in a chunk."""
+        table = message_index.rows(self._data, channel, at, self.path)
+        stamps = table[:, 0]
+        if len(stamps) and not chunk.start <= int(stamps.min()) <= int(stamps.max()) <= chunk.end:
+            finding = f'a message index of times outside of its chunk at byte {chunk.offset}'
+            raise DamagedBagError(self.path, at, finding)
+        return Entries(stamps, table[:, 1])
 
     def unpacked(self, chunk: Chunk, target: memoryview | None = None) -> Buffer:
         """Return the uncompressed content of a chunk, without keeping it; for any thread.
@@ -289,6 +297,14 @@ class McapFile:
             except DamagedBagError as error:
                 yield error
 
+    def unlike_crc(self) -> DamagedBagError | None:
+        """Return what is wrong where the data do not match the CRC at their end; reads all."""
+        begin, size = len(records.MAGIC), records.PREFIX.size
+        for opcode, at, _ in record_parsing.walk(self._data, begin, len(self._data)):
+            if opcode == records.DATA_END:
+                return mcap_scan.unlike_crc(self._data, self.path, at - size)
+        return None
+
     def release(self, begin: int, end: int) -> None:
         """Take a part of the file [bytes] out of the memory of this process; it stays readable."""
         mapped, first = self._data.obj, -(-begin // mmap.PAGESIZE) * mmap.PAGESIZE
@@ -306,9 +322,9 @@ class McapFile:
     ) -> Iterator[tuple[int, int, Callable[[], Run | None]]]:
         """Yield earliest stamp, place and opener of chunks; small ones, if sound, together."""
 
-        def unpack(chunk: Chunk) -> tuple[Buffer, Iterable[Entries]]:
+        def unpack(chunk: Chunk) -> tuple[Buffer, Mapping[int, Entries]]:
             unpacked = self.unpacked(chunk)
-            return unpacked, self.entries(chunk, unpacked, wanted).values()
+            return unpacked, self.entries(chunk, unpacked, wanted)
 
         channels, span = list(self.channels), range(start, stop)
         chunks = [c for c in self.chunks if self._filled(c) and c.end >= start and c.start < stop]
@@ -326,15 +342,20 @@ class McapFile:
         """Return what opens a chunk when its time has come."""
 
         def opened() -> Run | None:
-            found = list(self.entries(chunk, wanted=wanted).values())
+            found = self.entries(chunk, wanted=wanted)
             if not found:
                 return None
-            stamps = np.concatenate([e.stamps for e in found])
-            offsets = np.concatenate([e.offsets for e in found])
+            stamps = np.concatenate([e.stamps for e in found.values()])
+            offsets = np.concatenate([e.offsets for e in found.values()])
+            told = np.repeat(list(found), [len(e.stamps) for e in found.values()])
+            lie = self.heads(chunk, self.content(chunk), offsets)
+            self._described(chunk, lie)
+            if (lie['channel'] != told).any() or (lie['stamp'] != stamps).any():
+                finding = 'in this chunk, messages that are not those of its index'
+                raise DamagedBagError(self.path, chunk.offset, finding)
             wanted_ones = inside(stamps, start, stop)
             stamps, offsets = stamps[wanted_ones], offsets[wanted_ones]
             order = np.lexsort((offsets, stamps))
-            self._described(chunk, self.heads(chunk, self.content(chunk), offsets))
             places = offsets[order].tolist()
             return Run(
                 stamps[order].tolist(),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.bag import record_parsing as parsing
 from agv_motion.bag import records
+from agv_motion.bag.checksum import crc32
 from agv_motion.bag.chunk import (
     HEAD,
     INDEX_ENTRY,
@@ -79,6 +80,25 @@ def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
     return Summary(walk.schemas, walk.channels, walk.chunks, statistics)
 
 
+def unlike_crc(data: memoryview, path: Path, end: int) -> DamagedBagError | None:
+    """Return what is wrong where the data of a file do not match their CRC.
+
+    Args:
+        data: The whole file.
+        path: The file, for errors.
+        end: [bytes] where the record stands that ends the data, and has their CRC if any.
+
+    """
+    _, length = records.PREFIX.unpack_from(data, end)
+    body = end + records.PREFIX.size
+    crc = int.from_bytes(data[body : body + 4], 'little') if length >= 4 else 0
+    found = crc32(data[:end]) if crc else 0
+    if crc == found:
+        return None
+    finding = f'all bytes before have CRC {found:08x}, expected {crc:08x}: one of them is wrong'
+    return DamagedBagError(path, end, finding)
+
+
 class _Walk:
     """A walk through the data section."""
 
@@ -128,6 +148,9 @@ class _Walk:
             self._index(channel_id, at - records.PREFIX.size, end - at)
         elif opcode == records.MESSAGE and end - at >= _SHORTEST_MESSAGE:
             self._message(at - records.PREFIX.size, end)
+        elif opcode == records.DATA_END and any(chunk.bare for chunk in self.chunks):
+            wrong = unlike_crc(self._data, self._path, at - records.PREFIX.size)
+            self.problems += [wrong] if wrong else []  # what is in chunks has a CRC of its own
 
     def _chunk(self, at: int, end: int) -> None:
         head = parsing.chunk_head(parsing.Body(self._data[at:end], self._path, at), at)

@@ -43,8 +43,9 @@ def rows(data: Buffer, channel: int, at: int, path: Path) -> NDArray[np.uint64]:
     opcode, length, found, pairs = _HEAD.unpack_from(data, at)
     if opcode != records.MESSAGE_INDEX or at + records.PREFIX.size + length > len(data):
         raise DamagedBagError(path, at, 'no message index where the summary says')
-    if found != channel or pairs % _ENTRY or pairs + size - records.PREFIX.size > length:
-        finding = f'a message index of channel {found} with {pairs} bytes'
+    room = length - (size - records.PREFIX.size)
+    if found != channel or pairs % _ENTRY or not 0 <= room - pairs < _ENTRY:
+        finding = f'a message index of channel {found} with {pairs} bytes in a record of {length}'
         raise DamagedBagError(path, at, f'{finding}, expected channel {channel}')
     return np.frombuffer(data, '<u8', pairs // 8, at + size).reshape(-1, 2)
 

@@ -12,7 +12,7 @@ from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.time_order import Run, inside
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from agv_motion.bag.mcap_file import Entries
     from agv_motion.bag.record_parsing import Buffer
 
-    Open = Callable[[Chunk], tuple[Buffer, Iterable[Entries]]]
+    Open = Callable[[Chunk], tuple[Buffer, Mapping[int, Entries]]]
     Read = Callable[[bytes, list[int]], Iterator[Message]]
 
 _LARGEST = 1 << 20
@@ -61,12 +61,13 @@ def joined(
     contents: list[Buffer] = []
     stamps: list[NDArray[Any]] = []
     offsets: list[NDArray[Any]] = []
-    counts, ends, size = [], [], 0
+    told, counts, ends, size = [], [], [], 0
     try:
         for chunk in group:
             content, found = unpack(chunk)
             contents.append(content)
-            for entries in found:
+            for channel, entries in found.items():
+                told.append(channel)
                 stamps.append(entries.stamps)
                 offsets.append(entries.offsets.astype(np.uint64) + np.uint64(size))
                 counts.append(len(entries.stamps))
@@ -81,6 +82,8 @@ def joined(
     size_of = lie['length'] + np.uint64(records.PREFIX.size)
     beyond = places + size_of > np.repeat(np.array(ends, np.uint64), counts)
     if beyond.any() or not np.isin(lie['channel'], channels).all():
+        return None
+    if (lie['channel'] != np.repeat(told, counts)).any() or (lie['stamp'] != times).any():
         return None
     wanted = inside(times, span.start, span.stop)
     times, places = times[wanted], places[wanted]

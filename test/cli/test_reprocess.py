@@ -297,6 +297,17 @@ def test_a_failure_leaves_no_half_result(recorded, tmp_path):
     assert not (tmp_path / 'out').exists()
 
 
+def test_a_bag_that_has_lost_something_is_told_each_time_with_status_1(alone, recorded, tmp_path):
+    (file,) = (recorded / 'c').glob('*.mcap')
+    torn = tmp_path / 'torn.mcap'
+    torn.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    for word in (' s ', 'there already'):
+        status, out, errors = alone('reprocess', torn, tmp_path / 'out', '-n', 'wheel_kinematics')
+        assert status == 1
+        assert 'torn.mcap, byte ' in errors
+        assert word in out
+
+
 def test_every_node_that_can_be_without_a_graph_runs(recorded, tmp_path):
     nodes = tuple(name for name in available() if name not in LIVE_ONLY)
     assert {'sequence', 'route_follower', 'localization', 'ghost_trajectory'} <= set(nodes)
