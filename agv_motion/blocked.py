@@ -107,13 +107,13 @@ class BlockedWatch:
         self._rested = 0.0
         self._anchor_at(HERE)
 
-    def update(self, dt: float, pose: Pose, twist: Twist) -> bool:
+    def update(self, pose: Pose, twist: Twist, dt: float) -> bool:
         """Return whether the robot is blocked.
 
         Args:
-            dt: Since the last call [s].
             pose: As it is measured now.
             twist: Told for the time ``dt``.
+            dt: Since the last call [s].
 
         Raises:
             SignalError: A number is not finite.
@@ -194,13 +194,13 @@ class BlockedGuard:
         self.reason, self._stood = '', 0.0
         self.watch.restart()
 
-    def update(self, dt: float, pose: Pose | None, twist: Twist) -> bool:
+    def update(self, pose: Pose | None, twist: Twist, dt: float) -> bool:
         """Return whether it has been found blocked just now; `reason` tells how it is.
 
         Args:
-            dt: Since the last call [s].
             pose: As it is measured now; None while it is not.
             twist: Told for the time ``dt``.
+            dt: Since the last call [s].
 
         """
         given = self.watch.parameters
@@ -210,7 +210,7 @@ class BlockedGuard:
                 self.release()
         elif pose is None:
             self.watch.restart()
-        elif self.watch.update(dt, pose, twist):
+        elif self.watch.update(pose, twist, dt):
             next_ = f'trying again in {given.retry_after:g} s' if given.then == RETRY else ''
             self.reason = f'blocked: {self.watch.describe()}; {next_ or self._remedy}'
             return True

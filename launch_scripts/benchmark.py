@@ -28,7 +28,7 @@ from wpimath.geometry import Rotation2d, Translation2d
 from wpimath.kinematics import ChassisSpeeds, SwerveDrive3Kinematics
 
 from agv_motion.kinematics.steering import AtRest, SteeringLimits, SteeringPlanner
-from agv_motion.kinematics.turret_columns import polar_to_cartesian, turret_columns
+from agv_motion.kinematics.turret_columns import command_columns, polar_to_cartesian
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
@@ -59,9 +59,9 @@ def turret_rows() -> list[Row]:
     rng = np.random.default_rng(1)
     v, theta, wz = rng.random(n) / 60, rng.uniform(-pi, pi, n), rng.uniform(-0.014, 0.014, n)
     columns = (*polar_to_cartesian(v, theta), wz)
-    out = turret_columns(tree, columns)
-    batch = per_call(lambda: turret_columns(tree, columns, None, LIMIT, out), calls=1)
-    fresh = per_call(lambda: turret_columns(tree, columns, None, LIMIT), calls=1)
+    out = command_columns(tree, columns)
+    batch = per_call(lambda: command_columns(tree, columns, None, LIMIT, out), calls=1)
+    fresh = per_call(lambda: command_columns(tree, columns, None, LIMIT), calls=1)
     scalar = per_call(lambda: tree.command(twist, held, LIMIT))
     wpimath = per_call(theirs)
     return [

@@ -32,7 +32,7 @@ def blocked_at(told, *, moves=None, measured=lambda pose, _: pose, seconds=60.0,
     watch, pose = BlockedWatch(BlockedParameters(**parameters), 0.15), ORIGIN
     for k in range(round(seconds / DT)):
         twist = told(k * DT)
-        if watch.update(DT, measured(pose, k * DT), twist):
+        if watch.update(measured(pose, k * DT), twist, DT):
             return (k + 1) * DT
         pose = integrate(pose, moves(twist) if moves else REST, DT)
     return None
@@ -125,14 +125,14 @@ def test_it_may_be_switched_off():
 def test_blocked_on_the_way_it_says_what_was_told_and_what_was_done():
     watch, pose = BlockedWatch(BlockedParameters(), 0.15), ORIGIN
     for _ in range(100):
-        assert not watch.update(DT, pose, AHEAD)
+        assert not watch.update(pose, AHEAD, DT)
         pose = integrate(pose, AHEAD, DT)
-    while not watch.update(DT, pose, AHEAD):
+    while not watch.update(pose, AHEAD, DT):
         pass
     assert watch.describe().startswith('told to move by 1.5')
     assert 'it moved by 0.0' in watch.describe()
     watch.restart()
-    assert not watch.update(DT, pose, AHEAD)
+    assert not watch.update(pose, AHEAD, DT)
 
 
 @settings(max_examples=40)
@@ -153,9 +153,9 @@ def test_moving_is_never_blocked_and_standing_is_never_moving(twist, share):
 def test_what_is_no_number_is_refused(bad):
     watch = BlockedWatch(BlockedParameters(), 0.15)
     with pytest.raises(SignalError):
-        watch.update(DT, Pose(bad, 0.0, 0.0), AHEAD)
+        watch.update(Pose(bad, 0.0, 0.0), AHEAD, DT)
     with pytest.raises(SignalError):
-        watch.update(bad, ORIGIN, AHEAD)
+        watch.update(ORIGIN, AHEAD, bad)
     with pytest.raises(ConfigurationError, match='distance'):
         BlockedParameters(distance=bad)
     with pytest.raises(ConfigurationError, match=r'give 0\.5 s or more, or 0'):
@@ -164,7 +164,7 @@ def test_what_is_no_number_is_refused(bad):
 
 def guarded(seconds, pose=ORIGIN, twist=AHEAD, guard=None, **parameters):
     guard = guard or BlockedGuard(BlockedParameters(**parameters), 0.15, 'ask a person')
-    news = sum(guard.update(DT, pose, twist) for _ in range(round(seconds / DT)))
+    news = sum(guard.update(pose, twist, DT) for _ in range(round(seconds / DT)))
     return guard, news
 
 

@@ -1,4 +1,10 @@
-"""ACT: maps between the twist of a rigid body and the motion of its wheels."""
+"""ACT: maps between the twist of a rigid body and the motion of its wheels.
+
+`Turrets`, `OmniWheels` and `DifferentialDrive` each map one twist to wheels (``command``) and the
+wheels to one twist (``twist``); the modules `turret_columns` and `omniwheel_columns` do both for a
+whole recording (``command_columns``, ``twist_columns``). What moves in time: `SteeringPlanner` and
+`SteeringController` for turrets, `TwistRamp` for wheels that do not steer.
+"""
 
 from agv_motion.kinematics.differential import DifferentialDrive, WheelSpeeds
 from agv_motion.kinematics.omniwheel_placement import OmniWheel, mecanum_wheels, wheels_on_circle
@@ -11,7 +17,7 @@ from agv_motion.kinematics.steering import (
     SteeringController,
     SteeringLimits,
     SteeringPlanner,
-    alignment,
+    rolling_share,
 )
 from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
 from agv_motion.kinematics.twist_ramp import TwistRamp
@@ -32,8 +38,8 @@ __all__ = [
     'TwistRamp',
     'WheelLimits',
     'WheelSpeeds',
-    'alignment',
     'centre_of_rotation',
     'mecanum_wheels',
+    'rolling_share',
     'wheels_on_circle',
 ]

@@ -2,40 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from sys import float_info
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from agv_motion.errors import SignalError
+from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.omniwheels import OmniWheels
-
-Column = NDArray[np.float64]
-
-
-class TwistColumns(NamedTuple):
-    """The twist that fits the wheels best, row by row."""
-
-    twist: Column
-    """(3, n) vx [m/s], vy [m/s], wz [rad/s]"""
-    residual: Column
-    """(n,) [m/s] root mean square over the wheels of what the twist does not explain"""
+    from agv_motion.kinematics.twist_fit import Column
 
 
-def speed_columns(wheels: OmniWheels, twist: Column) -> Column:
+def command_columns(
+    wheels: OmniWheels, twist: Column, max_wheel_speed: float = float_info.max
+) -> Column:
     """Return (n_wheels, n) rim speeds [m/s] for a twist in columns.
+
+    A row with a wheel above its limit is scaled as a whole.
 
     Args:
         wheels: The base.
         twist: (3, n) vx [m/s], vy [m/s], wz [rad/s].
+        max_wheel_speed: Limit of every wheel [m/s].
 
     Raises:
         SignalError: Another shape, or a value that is not finite (its row is named).
 
     """
-    return wheels.matrix @ _checked('twist', twist, 3)
+    speeds = wheels.matrix @ require_columns('twist', twist, 3)
+    fastest = np.abs(speeds).max(axis=0, initial=max_wheel_speed)
+    return speeds if np.all(fastest == max_wheel_speed) else speeds * (max_wheel_speed / fastest)
 
 
 def twist_columns(wheels: OmniWheels, speeds: Column) -> TwistColumns:
@@ -49,20 +46,8 @@ def twist_columns(wheels: OmniWheels, speeds: Column) -> TwistColumns:
         SignalError: Another shape, or a value that is not finite (its row is named).
 
     """
-    speeds = _checked('speeds', speeds, len(wheels))
+    speeds = require_columns('speeds', speeds, len(wheels))
     matrix = wheels.matrix
     twist = np.linalg.pinv(matrix) @ speeds
     error = matrix @ twist - speeds
     return TwistColumns(twist, np.sqrt(np.mean(error * error, axis=0)))
-
-
-def _checked(name: str, columns: Column, count: int) -> Column:
-    columns = np.asarray(columns, dtype=float)
-    if columns.ndim != 2 or len(columns) != count:
-        msg = f'{name} columns have shape {columns.shape}, expected ({count}, n)'
-        raise SignalError(msg)
-    finite = np.isfinite(columns).all(axis=0)
-    if not finite.all():
-        msg = f'{name} columns are not finite at row {int(np.argmin(finite))}: drop that row'
-        raise SignalError(msg)
-    return columns

@@ -18,8 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agv_motion.errors import GeometryError, SignalError
-from agv_motion.kinematics.omniwheel_placement import OmniWheel, Row, require_driven
-from agv_motion.kinematics.turrets import TwistFit
+from agv_motion.kinematics.omniwheel_placement import (
+    OmniWheel,
+    Row,
+    require_driven,
+    wheels_on_circle,
+)
+from agv_motion.kinematics.twist_fit import TwistFit
 from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
@@ -53,25 +58,51 @@ class _Solution(NamedTuple):
 class OmniWheels:
     """The roller wheels of one base: where they are, and both maps between twist and wheels."""
 
-    def __init__(self, wheels: Sequence[OmniWheel]) -> None:
+    def __init__(
+        self, wheels: Sequence[OmniWheel], wheel_radii: Sequence[float] | None = None
+    ) -> None:
         """Build the matrix and its pseudo-inverse once.
 
         Args:
             wheels: (n,) n >= 3 wheels in any placement.
+            wheel_radii: (n,) rolling radius of each [m]; only needed for rates in rad/s.
 
         Raises:
             GeometryError: Fewer than three wheels, a number not finite, a wheel whose rollers are
                 free along its own rolling direction, or a placement in which some motion of the
-                base turns no wheel (the message names that motion).
+                base turns no wheel (the message names that motion); or the radii are not n finite
+                numbers above 0.
 
         """
         self.wheels = tuple(OmniWheel(*map(float, wheel)) for wheel in wheels)
+        self.radii = None if wheel_radii is None else self._checked_radii(wheel_radii)
+        """(n,) [m]; None where they are not known"""
         for number, wheel in enumerate(self.wheels):
             require_driven(number, wheel)
         self._driven = tuple(wheel.driven() for wheel in self.wheels)
         self._free = tuple(wheel.free() for wheel in self.wheels)
         self._solutions: dict[tuple[int, ...], _Solution] = {}
         self._whole = self._solution(tuple(range(len(self.wheels))))
+
+    @classmethod
+    def from_polar(
+        cls,
+        angles: Sequence[float],
+        distances: Sequence[float],
+        wheel_radii: Sequence[float] | None = None,
+    ) -> OmniWheels:
+        """Return omni wheels at polar positions, see `wheels_on_circle`.
+
+        Args:
+            angles: (n,) from the x axis [rad].
+            distances: (n,) from the centre [m].
+            wheel_radii: (n,) rolling radius of each [m]; only needed for rates in rad/s.
+
+        Raises:
+            GeometryError: The lengths differ, or what the constructor refuses.
+
+        """
+        return cls(wheels_on_circle(angles, distances), wheel_radii)
 
     def __len__(self) -> int:
         """Return the number of wheels."""
@@ -106,6 +137,51 @@ class OmniWheels:
             scale = max_wheel_speed / fastest
             return OmniCommand([scale * speed for speed in speeds], scale)
         return OmniCommand(speeds, 1.0)
+
+    def rates(self, speeds: Sequence[float]) -> list[float]:
+        """Return the rates [rad/s] of wheels whose rims go at ``speeds`` [m/s], (n,) both.
+
+        Raises:
+            GeometryError: The radii are not known.
+            SignalError: A wrong number of values, or one that is not finite.
+
+        """
+        pairs = zip(self._numbers('wheel speeds', speeds), self._radii(), strict=True)
+        return [speed / radius for speed, radius in pairs]
+
+    def speeds(self, rates: Sequence[float]) -> list[float]:
+        """Return the rim speeds [m/s] of wheels that turn at ``rates`` [rad/s], (n,) both.
+
+        Raises:
+            GeometryError: The radii are not known.
+            SignalError: A wrong number of values, or one that is not finite.
+
+        """
+        pairs = zip(self._numbers('wheel rates', rates), self._radii(), strict=True)
+        return [rate * radius for rate, radius in pairs]
+
+    def _checked_radii(self, radii: Sequence[float]) -> tuple[float, ...]:
+        if len(radii) != len(self.wheels):
+            msg = f'{len(radii)} wheel_radii for {len(self.wheels)} wheels: give one each [m]'
+            raise GeometryError(msg)
+        for number, radius in enumerate(radii):
+            if not (isfinite(radius) and radius > 0.0):
+                msg = f'radius of wheel {number} = {radius} m: must be finite and above 0'
+                raise GeometryError(msg)
+        return tuple(map(float, radii))
+
+    def _radii(self) -> tuple[float, ...]:
+        if self.radii is None:
+            msg = 'the radii of the wheels are not known: give wheel_radii to OmniWheels [m]'
+            raise GeometryError(msg)
+        return self.radii
+
+    def _numbers(self, name: str, values: Sequence[float]) -> Sequence[float]:
+        if len(values) != len(self.wheels):
+            msg = f'{len(values)} {name} for {len(self.wheels)} wheels: give one each'
+            raise SignalError(msg)
+        require_finite(name, tuple(values))
+        return values
 
     def free_roller_speeds(self, twist: Twist) -> list[float]:
         """Return (n,) the speed [m/s] of each wheel along its slide direction for ``twist``."""

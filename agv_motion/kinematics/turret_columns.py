@@ -11,17 +11,16 @@ from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.turrets import STANDSTILL
+from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.turrets import Turrets
-
-Column = NDArray[np.float64]
+    from agv_motion.kinematics.twist_fit import Column
 
 BLOCK = 16384
 """Rows worked on at a time: half a dozen such columns fit the second-level cache."""
@@ -46,9 +45,9 @@ def polar_to_cartesian(v: Column, theta: Column) -> tuple[Column, Column]:
     return scale * (1.0 - t * t), scale * (2.0 * t)
 
 
-def turret_columns(
+def command_columns(
     turrets: Turrets,
-    twist: tuple[Column, Column, Column],
+    twist: Column | tuple[Column, Column, Column],
     held_angles: Sequence[float] | None = None,
     max_wheel_speed: float = float_info.max,
     out: TurretColumns | None = None,
@@ -60,7 +59,7 @@ def turret_columns(
 
     Args:
         turrets: The platform.
-        twist: Columns vx [m/s], vy [m/s], wz [rad/s], each of shape (n,).
+        twist: (3, n) or three columns (n,): vx [m/s], vy [m/s], wz [rad/s].
         held_angles: (n_turrets,) steering angles before the first row [rad]; zeros by default.
         max_wheel_speed: Limit of every wheel [m/s].
         out: Result of an earlier call of the same size, to be overwritten.
@@ -92,6 +91,27 @@ def turret_columns(
         _hold(angle, speed, held)
         held = angle[:, -1].copy()
     return out
+
+
+def twist_columns(turrets: Turrets, angles: Column, speeds: Column) -> TwistColumns:
+    """Return the twist that fits each row of measured turrets best.
+
+    Args:
+        turrets: The platform.
+        angles: (n_turrets, n) steering angles [rad].
+        speeds: (n_turrets, n) rolling speeds along them [m/s].
+
+    Raises:
+        SignalError: Another shape, or a value that is not finite (its row is named).
+
+    """
+    angles = require_columns('angles', angles, len(turrets))
+    speeds = require_columns('speeds', speeds, len(turrets))
+    if angles.shape != speeds.shape:
+        msg = f'{angles.shape[1]} rows of angles and {speeds.shape[1]} of speeds: give both'
+        raise SignalError(msg)
+    vx, vy, wz, residual = turrets.solve_columns(angles, speeds)
+    return TwistColumns(np.stack((vx, vy, wz)), residual)
 
 
 def _roll(

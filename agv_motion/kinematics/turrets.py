@@ -21,6 +21,8 @@ import numpy as np
 
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.elementwise import elementwise
+from agv_motion.kinematics.polar import polar_points
+from agv_motion.kinematics.twist_fit import TwistFit
 from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
@@ -46,15 +48,6 @@ class TurretCommand(NamedTuple):
     """[-] in (0, 1]: the factor by which the twist was reduced to hold the wheel speed limit"""
 
 
-class TwistFit(NamedTuple):
-    """The twist that explains the turrets best."""
-
-    twist: Twist
-    residual: float
-    """[m/s] root mean square over the turrets of the velocity that the twist does not explain:
-    how hard the turrets pull against each other"""
-
-
 class Turrets:
     """The turrets of one platform: where they are, and both maps between twist and wheels."""
 
@@ -77,6 +70,7 @@ class Turrets:
         if not all(isfinite(x) and isfinite(y) for x, y in self.positions):
             msg = f'turret positions must be finite, got {self.positions}: measure them in metres'
             raise GeometryError(msg)
+        self._straight = (0.0,) * n
         self._centre_x = sum(x for x, _ in self.positions) / n
         self._centre_y = sum(y for _, y in self.positions) / n
         self._spread = sum(
@@ -86,12 +80,29 @@ class Turrets:
             msg = f'all {n} turrets stand at {self.positions[0]}: set them apart'
             raise GeometryError(msg)
 
+    @classmethod
+    def from_polar(cls, angles: Sequence[float], distances: Sequence[float]) -> Turrets:
+        """Return the turrets that stand at polar positions from the centre of the base frame.
+
+        Args:
+            angles: (n,) from the x axis [rad].
+            distances: (n,) from the centre [m].
+
+        Raises:
+            GeometryError: The lengths differ, or what the constructor refuses.
+
+        """
+        return cls(polar_points(angles, distances))
+
     def __len__(self) -> int:
         """Return the number of turrets."""
         return len(self.positions)
 
     def command(
-        self, twist: Twist, held_angles: Sequence[float], max_wheel_speed: float = float_info.max
+        self,
+        twist: Twist,
+        held_angles: Sequence[float] | None = None,
+        max_wheel_speed: float = float_info.max,
     ) -> TurretCommand:
         """Return angle and speed of each turret for ``twist``, the ICR kept.
 
@@ -100,7 +111,8 @@ class Turrets:
 
         Args:
             twist: Wanted velocity of the base frame.
-            held_angles: (n,) present steering angles [rad], for wheels asked to stand still.
+            held_angles: (n,) present steering angles [rad], for wheels asked to stand still;
+                straight by default.
             max_wheel_speed: Limit of every wheel [m/s].
 
         Raises:
@@ -108,7 +120,9 @@ class Turrets:
 
         """
         vx, vy, wz = twist
-        if len(held_angles) != len(self.positions):
+        if held_angles is None:
+            held_angles = self._straight
+        elif len(held_angles) != len(self.positions):
             msg = f'{len(held_angles)} angles for {len(self.positions)} turrets: give one each'
             raise SignalError(msg)
         angles, speeds = [], []

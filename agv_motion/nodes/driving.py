@@ -204,7 +204,7 @@ class DrivingNode(ManagedNode[P]):
         guard = self.guard
         guard.watch.parameters = self.parameters.blocked
         before = guard.reason
-        if guard.update(dt, None if self.lost else self.pose, self._twist):
+        if guard.update(None if self.lost else self.pose, self._twist, dt):
             self.get_logger().error(guard.reason)
         elif before and not guard.reason:
             self.get_logger().info('blocked before: trying again')

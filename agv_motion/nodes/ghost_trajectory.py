@@ -152,7 +152,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
                 self.tell(self.obstacle)
                 return
         else:
-            self.drive(follower.step(dt, pose))
+            self.drive(follower.step(pose, dt))
             self._show_ghost()
         self.tell(self._words())
 

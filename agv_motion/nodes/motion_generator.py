@@ -213,7 +213,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         dt = min(max(now - self._looked_at, 0.0), 2.0 / given.rate)
         self._looked_at = now
         before = guard.reason
-        if guard.update(dt, None if self._lost else self._pose, self._twist):
+        if guard.update(None if self._lost else self._pose, self._twist, dt):
             self.get_logger().error(guard.reason)
         elif before and not guard.reason:
             self.get_logger().info('blocked before: trying again')

@@ -302,7 +302,7 @@ class WheelsNode(ManagedNode[P]):
         guard, now = self._guard, self.seconds()
         dt, self._looked_at = min(max(now - self._looked_at, 0.0), LONGEST_STEP), now
         guard.watch.parameters = self.parameters.blocked
-        if guard.update(dt, self._reckoning.pose, self._sent):
+        if guard.update(self._reckoning.pose, self._sent, dt):
             self.get_logger().error(guard.reason)
             self._stand()
 

@@ -41,7 +41,7 @@ class Performance(Protocol):
     def begin(self, pose: Pose) -> None:
         """Start, or try again, from ``pose``."""
 
-    def step(self, dt: float, pose: Pose) -> Twist:
+    def step(self, pose: Pose, dt: float) -> Twist:
         """Return the twist for the next cycle."""
 
     def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
@@ -95,9 +95,9 @@ class GhostPerformance:
         except AgvMotionError as error:
             self.failure = str(error)
 
-    def step(self, dt: float, pose: Pose) -> Twist:
+    def step(self, pose: Pose, dt: float) -> Twist:
         """Follow the Ghost."""
-        twist = self._follower.step(dt, pose)
+        twist = self._follower.step(pose, dt)
         self.failure = self._follower.failure
         return twist
 
@@ -145,7 +145,7 @@ class RoutePerformance:
         self._aborting = False
         self._pace = self._wanted
 
-    def step(self, dt: float, pose: Pose) -> Twist:
+    def step(self, pose: Pose, dt: float) -> Twist:
         """Follow the virtual point, slower while it eases to a halt."""
         wanted = 0.0 if self._aborting else self._wanted
         self._pace += min(max(wanted - self._pace, -dt / EASE), dt / EASE)
@@ -196,7 +196,7 @@ class WaitPerformance:
     def begin(self, _: Pose) -> None:
         """Begin; again, go on."""
 
-    def step(self, dt: float, _: Pose) -> Twist:
+    def step(self, _: Pose, dt: float) -> Twist:
         """Let time pass."""
         self._waited += 0.0 if self._held else dt
         return REST

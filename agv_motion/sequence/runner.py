@@ -177,7 +177,7 @@ class SequenceRunner:
         if self._waiting:
             self._waiting = False
             self._performance.begin(self._departure(pose))
-        twist = self._performance.step(dt, pose)
+        twist = self._performance.step(pose, dt)
         if self._state is not Running.STOPPING:
             self._state = Running.PAUSED if self._held else Running.RUNNING
         return twist

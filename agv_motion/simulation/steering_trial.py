@@ -106,8 +106,8 @@ class SteeringTrial:
 
     def error(self, wanted: Twist) -> float:
         """Return how far the commanded twist is from the wanted one, scaled to what is feasible."""
-        held = [0.0] * len(self.turrets)
-        scale = self.turrets.command(wanted, held, self.limits.max_wheel_speed).scale
+        top = self.limits.max_wheel_speed
+        scale = self.turrets.command(wanted, max_wheel_speed=top).scale
         made = self.phase.setpoints.twist(self.turrets)
         return max(abs(a - scale * b) for a, b in zip(made, wanted, strict=True))
 

@@ -96,7 +96,7 @@ class TrackingTrial:
         period = 1.0 / given.rate
         dt = 0.0
         while not follower.at_rest and len(self.samples) * period < LONGEST:
-            twist = follower.step(dt, self._measured())
+            twist = follower.step(self._measured(), dt)
             self.samples.append(Sample(len(self.samples) * period, follower.ghost.pose, robot.pose))
             speeds = self._drive.command(twist).speed
             for _ in range(given.steps):

@@ -127,12 +127,12 @@ class Follower:
         if not self.at_rest:
             self._end(Following.ABORTED)
 
-    def step(self, dt: float, pose: Pose) -> Twist:
+    def step(self, pose: Pose, dt: float) -> Twist:
         """Return the twist for the next cycle.
 
         Args:
-            dt: Time since the last step [s].
             pose: Where the robot is now.
+            dt: Time since the last step [s].
 
         Raises:
             SignalError: A number is not finite, or ``dt`` is negative; nothing has changed.

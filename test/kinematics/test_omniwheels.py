@@ -173,3 +173,36 @@ def test_a_wrong_number_is_refused():
         OmniWheels(mecanum_wheels(0.3, 0.2)).twist([0.0, 0.0])
     with pytest.raises(GeometryError, match='2 angles and 3 distances'):
         wheels_on_circle([0, 1], [1, 1, 1])
+
+
+def test_polar_positions_and_radii():
+    base = OmniWheels.from_polar(SEED_ANGLES, [0.2] * 3, [0.05, 0.1, 0.2])
+    assert base.wheels == OmniWheels(wheels_on_circle(SEED_ANGLES, [0.2] * 3)).wheels
+    speeds = base.command(Twist(1.0, 0.0, 0.0)).speed
+    assert base.rates(speeds) == pytest.approx([10.0, 5.0, -5.0])
+    assert base.speeds(base.rates(speeds)) == pytest.approx(speeds)
+
+
+@pytest.mark.parametrize(
+    ('radii', 'message'),
+    [
+        ([0.1] * 2, '2 wheel_radii for 3 wheels'),
+        ([0.1, 0.0, 0.1], r'radius of wheel 1 = 0\.0 m: must be finite and above 0'),
+        ([0.1, 0.1, -0.1], 'radius of wheel 2'),
+        ([inf, 0.1, 0.1], 'radius of wheel 0 = inf m'),
+        ([nan, 0.1, 0.1], 'radius of wheel 0 = nan m'),
+    ],
+)
+def test_an_impossible_radius_is_refused(radii, message):
+    with pytest.raises(GeometryError, match=message):
+        OmniWheels.from_polar(SEED_ANGLES, [0.2] * 3, radii)
+
+
+def test_rates_need_radii_and_one_number_a_wheel():
+    with pytest.raises(GeometryError, match='give wheel_radii'):
+        OmniWheels.from_polar(SEED_ANGLES, [0.2] * 3).rates([0.0] * 3)
+    base = OmniWheels.from_polar(SEED_ANGLES, [0.2] * 3, [0.1] * 3)
+    with pytest.raises(SignalError, match='2 wheel speeds for 3 wheels'):
+        base.rates([0.0] * 2)
+    with pytest.raises(SignalError, match='wheel rates must be finite'):
+        base.speeds([0.0, nan, 0.0])

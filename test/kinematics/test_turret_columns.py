@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics import turret_columns as module
-from agv_motion.kinematics.turret_columns import polar_to_cartesian, turret_columns
+from agv_motion.kinematics.turret_columns import command_columns, polar_to_cartesian, twist_columns
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import Twist
 
@@ -33,7 +33,7 @@ def test_columns_equal_rows(seed, block, limit):
     held = list(rng.uniform(-3, 3, 3))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, 'BLOCK', block)
-        columns = turret_columns(TREE, tuple(rows.T), held, limit)
+        columns = command_columns(TREE, tuple(rows.T), held, limit)
     commands = list(rowwise(rows, held, limit))
     np.testing.assert_allclose(columns.angle.T, [c.angle for c in commands], atol=1e-14)
     np.testing.assert_allclose(columns.speed.T, [c.speed for c in commands], atol=1e-14)
@@ -41,12 +41,12 @@ def test_columns_equal_rows(seed, block, limit):
 
 def test_memory_can_be_used_again():
     ones = np.ones(5)
-    first = turret_columns(TREE, (ones, ones, ones))
-    again = turret_columns(TREE, (ones, 0 * ones, 0 * ones), out=first)
+    first = command_columns(TREE, (ones, ones, ones))
+    again = command_columns(TREE, (ones, 0 * ones, 0 * ones), out=first)
     assert again.speed is first.speed
     np.testing.assert_array_equal(again.speed, 1.0)
     with pytest.raises(SignalError, match='out has shape'):
-        turret_columns(TREE, (ones[:3], ones[:3], ones[:3]), out=first)
+        command_columns(TREE, (ones[:3], ones[:3], ones[:3]), out=first)
 
 
 @given(st.floats(0, 1), st.floats(-pi, pi - 1e-9))
@@ -61,11 +61,30 @@ def test_a_bad_row_is_named():
     bad = column.copy()
     bad[module.BLOCK + 3] = np.nan
     with pytest.raises(SignalError, match=f'row {module.BLOCK + 3}'):
-        turret_columns(TREE, (column, bad, column))
+        command_columns(TREE, (column, bad, column))
     with pytest.raises(SignalError, match='shapes'):
-        turret_columns(TREE, (column, column[1:], column))
+        command_columns(TREE, (column, column[1:], column))
 
 
 def test_no_rows_are_no_rows():
     nothing = np.zeros(0)
-    assert turret_columns(TREE, (nothing, nothing, nothing)).angle.shape == (3, 0)
+    assert command_columns(TREE, (nothing, nothing, nothing)).angle.shape == (3, 0)
+
+
+def test_the_twist_of_columns_is_that_of_rows():
+    rng = np.random.default_rng(2)
+    angles, speeds = rng.uniform(-3, 3, (3, 20)), rng.uniform(-1, 1, (3, 20))
+    found = twist_columns(TREE, angles, speeds)
+    for i, (angle, speed) in enumerate(zip(angles.T, speeds.T, strict=True)):
+        fit = TREE.twist(list(angle), list(speed))
+        assert (tuple(found.twist[:, i]), found.residual[i]) == (fit.twist, fit.residual)
+
+
+def test_measured_columns_must_fit_the_platform():
+    zeros = np.zeros((3, 4))
+    with pytest.raises(SignalError, match=r'angles columns have shape \(2, 4\)'):
+        twist_columns(TREE, zeros[:2], zeros)
+    with pytest.raises(SignalError, match='4 rows of angles and 3 of speeds'):
+        twist_columns(TREE, zeros, zeros[:, :3])
+    with pytest.raises(SignalError, match='3 held angles for 2 turrets'):
+        command_columns(Turrets([(1.0, 0.0), (-1.0, 0.0)]), zeros, [0.0] * 3)

@@ -128,3 +128,13 @@ def test_a_wrong_number_of_angles_is_refused():
         TREE.twist([0.0] * 2, [0.0] * 3)
     with pytest.raises(SignalError, match='wheel speeds must be finite'):
         TREE.twist([0.0] * 3, [0.0, nan, 0.0])
+
+
+def test_polar_positions():
+    polar = Turrets.from_polar([-pi / 4, pi / 4, pi], [1.18] * 3)
+    assert np.array(polar.positions) == pytest.approx(np.array(TREE.positions), abs=1e-15)
+
+
+def test_wheels_that_stand_are_straight_unless_they_were_held_otherwise():
+    assert TREE.command(REST) == ([0.0] * 3, [0.0] * 3, 1.0)
+    assert TREE.command(Twist(0.1, 0.2, 0.3)) == TREE.command(Twist(0.1, 0.2, 0.3), [0.0] * 3)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.kinematics.omniwheel_columns import speed_columns
+from agv_motion.kinematics.omniwheel_columns import command_columns
 from agv_motion.kinematics.omniwheel_placement import mecanum_wheels, wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.odometry.chi_square import chi_square_quantile
@@ -23,7 +23,7 @@ def measured(base, seed, instants=50):
     """Return noisy rim speeds of a varied motion."""
     rng = np.random.default_rng(seed)
     twist = rng.uniform(-1.0, 1.0, (3, instants)) * np.array([[1.0], [1.0], [3.0]])
-    return speed_columns(base, twist) + NOISE * rng.standard_normal((len(base), instants))
+    return command_columns(base, twist) + NOISE * rng.standard_normal((len(base), instants))
 
 
 @pytest.mark.parametrize('base', [FOUR, FIVE])

@@ -44,7 +44,7 @@ class Ideal:
         for _ in range(round(seconds / DT)):
             if until(self):
                 break
-            twist = self.follower.step(DT, self.pose)
+            twist = self.follower.step(self.pose, DT)
             self.twists.append(twist)
             done = Twist(*(self.share * part for part in twist))
             self.pose = integrate(self.pose, done, DT)
@@ -145,11 +145,11 @@ def test_a_zero_move_arrives_at_once():
 
 def test_before_and_after_it_stands():
     robot = Ideal()
-    assert robot.follower.step(DT, ORIGIN) == REST
+    assert robot.follower.step(ORIGIN, DT) == REST
     assert robot.follower.state is Following.IDLE
     robot.go()
     robot.run()
-    assert robot.follower.step(DT, robot.pose) == REST
+    assert robot.follower.step(robot.pose, DT) == REST
 
 
 @EACH_LAW
@@ -300,7 +300,7 @@ def test_stopped_it_stands_at_once():
     robot.go()
     robot.run(seconds=2.0)
     robot.follower.stop()
-    assert robot.follower.step(DT, robot.pose) == REST
+    assert robot.follower.step(robot.pose, DT) == REST
     assert robot.follower.state is Following.ABORTED
 
 
@@ -335,5 +335,5 @@ def test_a_pose_that_is_none_is_refused_and_changes_nothing(bad):
     robot.run(seconds=1.0)
     before = robot.follower.ghost.time
     with pytest.raises(SignalError, match='pose'):
-        robot.follower.step(DT, Pose(0.0, bad, 0.0))
+        robot.follower.step(Pose(0.0, bad, 0.0), DT)
     assert robot.follower.ghost.time == before

@@ -1,6 +1,6 @@
 """Steering of a platform on turrets: one centre of rotation at all times, and every limit held."""
 
-from agv_motion.kinematics.steering.alignment import alignment
+from agv_motion.kinematics.steering.alignment import rolling_share
 from agv_motion.kinematics.steering.controller import SteeringController
 from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.planner import SteeringPlanner
@@ -14,5 +14,5 @@ __all__ = [
     'SteeringController',
     'SteeringLimits',
     'SteeringPlanner',
-    'alignment',
+    'rolling_share',
 ]

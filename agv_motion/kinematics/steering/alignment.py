@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-def alignment(angles: Sequence[float], measured: Sequence[float]) -> float:
+def rolling_share(angles: Sequence[float], measured: Sequence[float]) -> float:
     """Return the share of its speed with which a platform may roll while its turrets still turn.
 
     The cosine of the worst error, 0 from a quarter turn on and where one is NaN: all wheels slow

@@ -6,7 +6,7 @@ from math import degrees, pi, tau
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.kinematics.steering.alignment import alignment
+from agv_motion.kinematics.steering.alignment import rolling_share
 from agv_motion.kinematics.steering.planner import SteeringPlanner
 from agv_motion.kinematics.steering.state import AtRest, Rolling
 from agv_motion.planar import REST, Twist, wrap
@@ -161,7 +161,7 @@ class SteeringController:
         measured = self.measured
         if measured is None or not isinstance(self._phase, Rolling):
             return 1.0
-        return min(alignment(self._phase.setpoints.angles, measured), self._most_share)
+        return min(rolling_share(self._phase.setpoints.angles, measured), self._most_share)
 
     def _hold_acceleration(self, setpoints: Setpoints, change: float) -> None:
         """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step.

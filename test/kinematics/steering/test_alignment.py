@@ -6,15 +6,15 @@ from math import nan, pi
 
 import pytest
 
-from agv_motion.kinematics.steering.alignment import alignment
+from agv_motion.kinematics.steering.alignment import rolling_share
 
 
 @pytest.mark.parametrize(
     ('error', 'share'), [(0.0, 1.0), (pi / 3, 0.5), (pi / 2, 0.0), (pi, 0.0), (2 * pi, 1.0)]
 )
 def test_it_rolls_with_the_cosine_of_the_worst_error(error, share):
-    assert alignment([0.1, 1.0, 2.0], [0.1, 1.0 + error, 2.0]) == pytest.approx(share)
+    assert rolling_share([0.1, 1.0, 2.0], [0.1, 1.0 + error, 2.0]) == pytest.approx(share)
 
 
 def test_an_angle_that_is_no_number_stops_the_wheels():
-    assert alignment([0.0, 0.0], [0.0, nan]) == alignment([0.0, 0.0], [nan, 0.0]) == 0.0
+    assert rolling_share([0.0, 0.0], [0.0, nan]) == rolling_share([0.0, 0.0], [nan, 0.0]) == 0.0
