@@ -87,7 +87,8 @@ def _perform(
                 progress.update(task, completed=actions.share_done(), description=actions.told)
                 status = actions.runner.status if actions.runner is not None else status
                 ended = status is not None and status.state in ENDS
-                return stop.requested or bool(actions.refusal) or ended
+                failed = bool(recorder.failure or actions.refusal)
+                return stop.requested or failed or ended
 
             spin([recorder, *nodes], finished)
         recorder.close()

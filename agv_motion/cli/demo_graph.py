@@ -120,7 +120,8 @@ class DemoGraph:
                 if live and console.is_terminal and now >= next_picture:
                     next_picture = now + REFRESH
                     screen.update(view.draw(self._simulator.time, self._factor()), refresh=True)
-                return self._stop.requested or self._simulator.elapsed >= seconds
+                ended = self._stop.requested or bool(self._recorder.failure)
+                return ended or self._simulator.elapsed >= seconds
 
             spin([self._recorder, *self._nodes], finished)
         self._outcome = Outcome(

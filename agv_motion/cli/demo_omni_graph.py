@@ -159,7 +159,8 @@ class OmniGraph:
                     carried = True
                     console.print(f'{elapsed:.0f} s: somebody carries the robot away')
                     self.simulator.carry_to(CARRIED)
-                return self._stop.requested or elapsed >= seconds
+                ended = self._stop.requested or bool(self._recorder.failure)
+                return ended or elapsed >= seconds
 
             spin([self._recorder, self._driver, *self._nodes], finished)
         self._recorder.close()

@@ -11,6 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from agv_motion.bag.writer import BagWriter
+from agv_motion.errors import SourceError
 from agv_motion.ros.endpoints import offer, offered
 from agv_motion.ros.messages import type_name
 from agv_motion.ros.qos import LATCHED
@@ -46,6 +47,8 @@ class DemoRecorder(LifecycleNode):
 
         """
         super().__init__('demo_recorder', **kwargs)
+        self.failure = ''
+        """why the bag takes no more, so that the demo is to end; empty while it does"""
         self._writer = BagWriter(bag)
         self._now = now
         self._kinds = {topic.name: topic.kind for topic in topics}
@@ -67,8 +70,13 @@ class DemoRecorder(LifecycleNode):
             arrived.append(time.perf_counter_ns())
             latest[key] = data
             counts[key] += 1
-            handle = handles.get(key) or self._add(topic)
-            write(handle, int(now() * 1e9), data)
+            if self.failure:
+                return
+            try:
+                handle = handles.get(key) or self._add(topic)
+                write(handle, int(now() * 1e9), data)
+            except OSError as error:
+                self._fail(error)
 
         self.create_subscription(
             topic.kind, topic.name, keep, LATCHED if topic.latched else EVERY, raw=True,
@@ -89,8 +97,22 @@ class DemoRecorder(LifecycleNode):
         return None if data is None else deserialize_message(data, self._kinds[topic])
 
     def close(self) -> None:
-        """Finish the bag; a topic on which nobody spoke is in it, too."""
-        for topic in self._topics if not self._writer.closed else ():
-            if topic.name not in self._handles:
-                self._add(topic)
-        self._writer.close()
+        """Finish the bag; a topic on which nobody spoke is in it, too.
+
+        Raises:
+            SourceError: The disk did not take everything; what it took is a whole bag.
+
+        """
+        try:
+            for topic in self._topics if not (self._writer.closed or self.failure) else ():
+                if topic.name not in self._handles:
+                    self._add(topic)
+            self._writer.close()
+        except OSError as error:
+            self._fail(error)
+        if self.failure:
+            raise SourceError(self.failure)
+
+    def _fail(self, error: OSError) -> None:
+        reason = error.strerror or error
+        self.failure = f'{self._writer.path} takes no more ({reason}): free the disk, run again'

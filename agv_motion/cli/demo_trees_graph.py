@@ -122,7 +122,8 @@ class TreesGraph:
                     next_picture = now + REFRESH
                     progress.update(task, completed=elapsed)
                     screen.update(Group(view.draw(), progress), refresh=True)
-                return self._stop.requested or elapsed >= seconds
+                ended = self._stop.requested or bool(self._recorder.failure)
+                return ended or elapsed >= seconds
 
             spin([self._recorder, *self._nodes, *self._simulators], finished)
         self._recorder.close()
