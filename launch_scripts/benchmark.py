@@ -34,6 +34,7 @@ from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.planar import Twist
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.messages import TurretJoints
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import EXECUTORS, overrides, start
@@ -128,7 +129,7 @@ class Chain:
     def _package(self) -> Callable[[], None]:
         slow = {'report_after': 3000.0, 'stop_after': 3000.0}
         made = [
-            kind(context=self.context, parameter_overrides=overrides(**values))
+            LiveNode(kind, context=self.context, parameter_overrides=overrides(**values))
             for kind, values in (
                 (GranierProbe, {'rate': 0.01, 'max_age': 1e5}),
                 (MotionGenerator, {'rate': 0.1, 'rest__rest_below': 0.0, **slow}),
@@ -143,7 +144,7 @@ class Chain:
         while time.monotonic() < end:
             pose.publish(PoseWithCovarianceStamped())
             self.executor.spin_once(timeout_sec=0.05)
-        return made[0].tick  # type: ignore[no-any-return]
+        return made[0].plain.tick  # type: ignore[no-any-return]
 
     def _relays(self) -> Callable[[], None]:
         first, second, third = (

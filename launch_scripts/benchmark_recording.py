@@ -33,8 +33,8 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process import add
-from agv_motion.ros.world import World
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 
 MESSAGES = 200_000
 LIVE_RATE, LIVE_SECONDS, LIVE_TOPICS = 10_000, 5, 8
@@ -154,12 +154,12 @@ def record_tree(path: Path, start: str, seconds: int) -> None:
     }
     with BagWriter(path) as writer:
         transcript = Transcript(writer)
-        world = World(transcript.record, begin * 1_000_000_000)
+        graph = InProcessGraph(transcript.record, begin * 1_000_000_000)
         for kind, given in kinds.items():
-            add(world, kind, given, {'/pose': '/fix'})
-        world.start()
-        world.run((begin + seconds) * 1_000_000_000)
-        world.stop()
+            InProcessNode(graph, kind, given, {'/pose': '/fix'})
+        graph.start()
+        graph.run((begin + seconds) * 1_000_000_000)
+        graph.stop()
         transcript.flush()
 
 

@@ -15,7 +15,7 @@ import argparse
 import sys
 from dataclasses import dataclass
 from math import cos, inf, sin
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
@@ -32,9 +32,12 @@ from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.nodes.wheels import WheelsParameters
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process import add
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import TurretJoints, fill_path, fill_pose, stamp_of
-from agv_motion.ros.world import Publisher, World
+
+if TYPE_CHECKING:
+    from agv_motion.ros.in_process_topic import InProcessEnd
 
 SECOND = 1_000_000_000
 START = 1_434_366_000 * SECOND
@@ -97,11 +100,11 @@ class Trial:
         self.moving: list[tuple[int, bool]] = []
         """when the wheels were commanded [ns], and whether to turn"""
         self._pose, self._twist, self._at = Pose(0.0, 0.0, 0.0), REST, START
-        self._world = World(self._record, START)
+        self._graph = InProcessGraph(self._record, START)
         limits = {'report_after': self.limit, 'stop_after': self.limit, 'max_age': self.max_age}
         for i, kind in enumerate(case.nodes):
-            add(self._world, kind, limits if i == 0 else {}, {})
-        self._world.start()
+            InProcessNode(self._graph, kind, limits if i == 0 else {})
+        self._graph.start()
         self._period = {name: round(draw(0.02, 0.45 * self.limit) * SECOND) for name in case.inputs}
 
     @property
@@ -115,7 +118,7 @@ class Trial:
         lost_at, last = begin, START
         if 'odom' in self._case.inputs:
             self._say('odom', START, START)
-            self._world.feed('/route', START, codec(Path).encode(_route()))
+            self._graph.feed('/route', START, codec(Path).encode(_route()))
         due = {name: START + round(self._random.random() * p) for name, p in self._period.items()}
         repeated = START
         while True:
@@ -135,7 +138,7 @@ class Trial:
                     )
             if stamp:
                 self._say(name, now, stamp)
-        self._world.run(lost_at + round((self.bound + 1.0) * SECOND))
+        self._graph.run(lost_at + round((self.bound + 1.0) * SECOND))
         if not any(turns for at, turns in self.moving if at <= last):
             msg = 'the robot did not drive'
             raise RuntimeError(msg)
@@ -144,12 +147,12 @@ class Trial:
         return (zeros[0] - last) * 1e-9 if zeros else inf
 
     def _say(self, name: str, now: int, stamp: int) -> None:
-        self._world.run(now - 1)
+        self._graph.run(now - 1)
         self._pose = integrate(self._pose, self._twist, (now - self._at) * 1e-9)
         self._at = now
         message = self._message(name)
         message.header.stamp = stamp_of(stamp)
-        self._world.feed(f'/{name}', now, codec(type(message)).encode(message))
+        self._graph.feed(f'/{name}', now, codec(type(message)).encode(message))
 
     def _message(self, name: str) -> Any:
         if name == 'cmd_vel':
@@ -170,7 +173,7 @@ class Trial:
         fill_pose(message.pose.pose, self._pose)
         return message
 
-    def _record(self, publisher: Publisher, stamp: int, data: Any) -> None:
+    def _record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
         if publisher.topic == '/cmd_vel':
             twist = codec(TwistStamped).decode(data).twist
             self._twist = Twist(twist.linear.x, twist.linear.y, twist.angular.z)

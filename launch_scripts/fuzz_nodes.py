@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import tempfile
 from array import array
+from contextlib import suppress
 from functools import cache, partial
 from math import cos, inf, nan, sin
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rclpy.parameter import Parameter
 from rosidl_parser.definition import AbstractSequence, Array, BasicType, NamespacedType
 
+from agv_motion.errors import AgvMotionError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
@@ -27,9 +28,9 @@ from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.parameters import nested, rows
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.endpoints import message_class
-from agv_motion.ros.in_process import InProcessNode, add
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.world import World
 
 if TYPE_CHECKING:
     import random
@@ -74,12 +75,11 @@ class NotFiniteError(Exception):
 
 
 class Home:
-    """A node in a world of its own, begun anew when it has seen enough or has ended."""
+    """A node in a graph of its own, begun anew when it has seen enough or has ended."""
 
     def __init__(self, name: str, folder: Path) -> None:
         """Start the node."""
         self.name, self.folder = name, folder
-        self.services: list[tuple[Any, Any]] = []
         self.begin()
 
     def begin(self) -> None:
@@ -90,19 +90,14 @@ class Home:
             'sequence': {'file': str(self.folder / 'sequence.yaml')},
         }.get(self.name.split()[0], {})
         self.seen = 0
-        self.services.clear()
-        self.world = World(self._check, NOW)
-
-        def keep(_: Any, service: Any, __: str, act: Any) -> None:
-            self.services.append((service, act))
-
-        InProcessNode.create_service = keep  # type: ignore[method-assign]
-        self.node = add(self.world, kind, given | files, {})
-        self.world.start()
+        self.graph = InProcessGraph(self._check, NOW)
+        self.node = InProcessNode(self.graph, kind, given | files)
+        self.services = list(self.node.port.services.values())
+        self.graph.start()
         self.topics = {
-            topic: next(one for one in found if one.node is self.node)
-            for topic, found in self.world.listeners.items()
-            if any(one.node is self.node for one in found)
+            topic: next(one for one in found if one.port is self.node.port)
+            for topic, found in self.graph.listeners.items()
+            if any(one.port is self.node.port for one in found)
         }
 
     def hear(self, topic: str, data: bytes, later: int) -> None:
@@ -111,27 +106,29 @@ class Home:
         if self.seen % 1000 == 0:
             self.begin()
         try:
-            self.world.feed(topic, self.world.now, data)
-            self.world.run(self.world.now + later)
-            self.world.now += later
+            self.graph.feed(topic, self.graph.now, data)
+            self.graph.run(self.graph.now + later)
+            self.graph.now += later
         except BaseException:
             self.begin()
             raise
 
-    def ask(self, service: Any, act: Any, request: Any) -> None:
+    def ask(self, act: Any, request: Any) -> None:
         """Ask for a service."""
         try:
-            act(request, service.Response())
-            self.world.run(self.world.now + 50_000_000)
+            with suppress(AgvMotionError):
+                act(request)
+            self.graph.run(self.graph.now + 50_000_000)
         except BaseException:
             self.begin()
             raise
 
-    def change(self, changes: list[Parameter]) -> None:
+    def change(self, changes: dict[str, Any]) -> None:
         """Change parameters as a client would."""
         try:
-            self.node._declared._on_set(changes)  # noqa: SLF001 - the door of rclpy's service
-            self.world.run(self.world.now + 50_000_000)
+            with suppress(AgvMotionError, TypeError):
+                self.node.set_parameters(changes)
+            self.graph.run(self.graph.now + 50_000_000)
         except BaseException:
             self.begin()
             raise
@@ -231,10 +228,10 @@ class Maker:
 
 def names_of(node: Any) -> tuple[str, ...]:
     """Return the joints that a node knows."""
-    given = node.parameters
+    given = node.plain.parameters
     if hasattr(given, 'joint_names'):
         return tuple(given.joint_names)
-    joints = getattr(node, '_joints', None)
+    joints = getattr(node.plain, '_joints', None)
     found = getattr(joints, 'names', ())
     return tuple(found() if callable(found) else found) or ('left_wheel', 'right_wheel')
 
@@ -246,7 +243,7 @@ def message_door(home: Callable[[], Home]) -> Callable[[random.Random], Callable
         place = home()
         topic = rng.choice(sorted(place.topics))
         kind = place.topics[topic].kind
-        made = Maker(rng, names_of(place.node), place.world.now).message(kind)
+        made = Maker(rng, names_of(place.node), place.graph.now).message(kind)
         later = rng.choice((1_000_000, 10_000_000, 100_000_000))
         return partial(place.hear, topic, codec(kind).encode(made), later)
 
@@ -259,8 +256,8 @@ def service_door(home: Callable[[], Home]) -> Callable[[random.Random], Callable
     def door(rng: random.Random) -> Callable[[], None]:
         place = home()
         service, act = rng.choice(place.services)
-        made = Maker(rng, (), place.world.now).message(service.Request)
-        return partial(place.ask, service, act, made)
+        made = Maker(rng, (), place.graph.now).message(service.Request)
+        return partial(place.ask, act, made)
 
     return door
 
@@ -271,12 +268,6 @@ def dynamic(kind: Any, prefix: str) -> list[str]:
     for name, group in nested(kind):
         found += dynamic(group, f'{prefix}{name}.')
     return found
-
-
-def parameter(name: str, value: Any) -> Parameter:
-    """Return a parameter; of an empty list, ROS does not know the type."""
-    kind = Parameter.Type.DOUBLE_ARRAY if value == [] else None
-    return Parameter(name, kind, value)
 
 
 def changed(rng: random.Random, old: Any, texts: tuple[str, ...]) -> Any:
@@ -301,13 +292,13 @@ def parameter_door(
 
     def door(rng: random.Random) -> Callable[[], None]:
         place = home()
-        names = dynamic(type(place.node.parameters), '')
-        changes = []
+        names = dynamic(type(place.node.plain.parameters), '')
+        changes = {}
         for name in rng.sample(names, min(rng.choice((1, 1, 2, 4)), len(names))):
-            old: Any = place.node.parameters
+            old: Any = place.node.plain.parameters
             for part in name.split('.'):
                 old = getattr(old, part, 0.0)
-            changes.append(parameter(name, changed(rng, old, texts)))
+            changes[name] = changed(rng, old, texts)
         return partial(place.change, changes)
 
     return door

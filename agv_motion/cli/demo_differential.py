@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from agv_motion.nodes.differential_simulator import DifferentialSimulator
     from agv_motion.nodes.sequence import SequenceNode
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.live_node import LiveNode
     from agv_motion.sequence.runner import Status
 
 CONFIG = 'differential.yaml'
@@ -75,9 +75,10 @@ def _perform(
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
     try:
-        robot, actions, nodes = _nodes(sequence, time_factor, seed)
+        simulator, sequencer, nodes = _nodes(sequence, time_factor, seed)
         for node in nodes:
             start(node)
+        robot, actions = simulator.plain, sequencer.plain
         recorder = DemoRecorder(bag, _topics(), lambda: robot.time)
         with Progress(console=console, transient=True) as progress:
             task = progress.add_task('driving', total=1.0)
@@ -106,22 +107,27 @@ def _perform(
 
 def _nodes(
     sequence: str, time_factor: float, seed: int
-) -> tuple[DifferentialSimulator, SequenceNode, list[ManagedNode[Any]]]:
+) -> tuple[LiveNode[DifferentialSimulator], LiveNode[SequenceNode], list[LiveNode[Any]]]:
     """Return the robot, its sequence, and all nodes with the values of ``differential.yaml``."""
     from agv_motion.cli.demo_parameters import configured
     from agv_motion.nodes.differential_kinematics import DifferentialKinematics
     from agv_motion.nodes.differential_simulator import DifferentialSimulator
     from agv_motion.nodes.sequence import SequenceNode
+    from agv_motion.ros.live_node import LiveNode
 
     patient = {'use_sim_time': True, 'report_after': 1.0, 'stop_after': 2.0}
-    robot = DifferentialSimulator(
-        **configured(CONFIG, 'differential_simulator', {'time_factor': time_factor, 'seed': seed})
+    robot = LiveNode(
+        DifferentialSimulator,
+        **configured(CONFIG, 'differential_simulator', {'time_factor': time_factor, 'seed': seed}),
     )
-    actions = SequenceNode(
+    actions = LiveNode(
+        SequenceNode,
         **configured(CONFIG, 'sequence', patient | {'file': sequence, 'autorun': True}),
         cli_args=['--ros-args', '-r', 'pose:=fix'],
     )
-    wheels = DifferentialKinematics(**configured(CONFIG, 'differential_kinematics', patient))
+    wheels = LiveNode(
+        DifferentialKinematics, **configured(CONFIG, 'differential_kinematics', patient)
+    )
     return robot, actions, [actions, wheels, robot]
 
 

@@ -28,6 +28,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.config import find_config
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rich.console import Console
 
-    from agv_motion.ros.node import ManagedNode
 
 REFRESH = 0.25
 """[s] between two pictures of the live view"""
@@ -85,33 +85,35 @@ class DemoGraph:
         self._bag = bag
         common: dict[str, Any] = {'use_sim_time': True}
         place: dict[str, Any] = {'zone_file': zone} if zone else {}
-        probe = GranierProbe(**configured('tree.yaml', 'granier_probe', common | probes))
-        motion = MotionGenerator(
-            **configured('tree.yaml', 'motion_generator', common | place | {'goals__seed': seed})
+        probe = LiveNode(GranierProbe, **configured('tree.yaml', 'granier_probe', common | probes))
+        motion = LiveNode(
+            MotionGenerator,
+            **configured('tree.yaml', 'motion_generator', common | place | {'goals__seed': seed}),
         )
         self._zone = load_zone(find_config(motion.parameters.zone_file), motion.parameters.rim)
-        wheels = WheelKinematics(**configured('tree.yaml', 'wheel_kinematics', common))
-        localization = Localization(**configured('tree.yaml', 'localization', common))
+        wheels = LiveNode(WheelKinematics, **configured('tree.yaml', 'wheel_kinematics', common))
+        localization = LiveNode(Localization, **configured('tree.yaml', 'localization', common))
         start_at = dict(zip(('start_x', 'start_y'), self._zone.home or (0.0, 0.0), strict=True))
-        self._simulator = Simulator(
+        self._simulator = LiveNode(
+            Simulator,
             **configured(
                 'tree.yaml', 'simulator', {'time_factor': time_factor, 'seed': seed, **start_at}
-            )
+            ),
         )
-        self._nodes: list[ManagedNode[Any]] = [
+        self._nodes: list[LiveNode[Any]] = [
             probe, motion, wheels, localization, self._simulator,
         ]  # fmt: skip
         self._wheels = wheels.parameters
         for node in self._nodes:
             start(node)
-        simulator = self._simulator
+        simulator = self._simulator.plain
         self._recorder = DemoRecorder(bag, TOPICS, lambda: simulator.time)
 
     def run(self, seconds: float, console: Console, *, live: bool) -> None:
         """Let ``seconds`` of simulated time pass, or until Ctrl-C."""
         self._begun = time.perf_counter()
         view = DemoView(self._recorder, self._zone, self._simulator.parameters)
-        next_picture = 0.0
+        next_picture, simulator = 0.0, self._simulator.plain
         with Live(console=console, auto_refresh=False, transient=True) as screen:
 
             def finished() -> bool:
@@ -119,13 +121,13 @@ class DemoGraph:
                 now = time.perf_counter()
                 if live and console.is_terminal and now >= next_picture:
                     next_picture = now + REFRESH
-                    screen.update(view.draw(self._simulator.time, self._factor()), refresh=True)
+                    screen.update(view.draw(simulator.time, self._factor()), refresh=True)
                 ended = self._stop.requested or bool(self._recorder.failure)
-                return ended or self._simulator.elapsed >= seconds
+                return ended or simulator.elapsed >= seconds
 
             spin([self._recorder, *self._nodes], finished)
         self._outcome = Outcome(
-            self._simulator.elapsed, self._factor(), self._latencies(), self._recorder.counts
+            self._simulator.plain.elapsed, self._factor(), self._latencies(), self._recorder.counts
         )
         self._recorder.close()
         rclpy.try_shutdown()
@@ -159,7 +161,7 @@ class DemoGraph:
             console.print(f'\nBag: {self._bag}\nFigure: {output / "walk.png"}')
 
     def _factor(self) -> float:
-        return self._simulator.elapsed / max(time.perf_counter() - self._begun, 1e-9)
+        return self._simulator.plain.elapsed / max(time.perf_counter() - self._begun, 1e-9)
 
     def _latencies(self) -> NDArray[np.float64]:
         """Return the times from a sap flow to the turret command that follows it [s]."""

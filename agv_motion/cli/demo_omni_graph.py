@@ -23,6 +23,7 @@ from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.planar import Pose, Twist
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.messages import fill_twist, pose_of
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import spin, start
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from agv_motion.ros.node import ManagedNode
 
 TOPICS = [
     Topic('cmd_vel', TwistStamped),
@@ -125,18 +125,19 @@ class OmniGraph:
         self._stop = Stop()
         common: dict[str, Any] = {'use_sim_time': True}
         patient = common | {'report_after': 1.0, 'stop_after': 2.0}  # a busy machine runs late
-        self.simulator = OmniSimulator(
-            **configured('omni.yaml', 'omni_simulator', {'time_factor': time_factor, 'seed': seed})
+        self.simulator = LiveNode(
+            OmniSimulator,
+            **configured('omni.yaml', 'omni_simulator', {'time_factor': time_factor, 'seed': seed}),
         )
-        self._nodes: list[ManagedNode[Any]] = [
-            OmniKinematics(**configured('omni.yaml', 'omni_kinematics', patient)),
-            Localization(**configured('omni.yaml', 'localization', common)),
+        self._nodes: list[LiveNode[Any]] = [
+            LiveNode(OmniKinematics, **configured('omni.yaml', 'omni_kinematics', patient)),
+            LiveNode(Localization, **configured('omni.yaml', 'localization', common)),
             self.simulator,
         ]
         self._driver = Driver(seed)
         for node in self._nodes:
             start(node)
-        self._recorder = DemoRecorder(bag, TOPICS, lambda: self.simulator.time)
+        self._recorder = DemoRecorder(bag, TOPICS, lambda: self.simulator.plain.time)
 
     def run(self, seconds: float, carry_after: float, console: Console) -> None:
         """Let simulated time pass, or until Ctrl-C.
@@ -153,12 +154,12 @@ class OmniGraph:
 
             def finished() -> bool:
                 nonlocal carried
-                elapsed = self.simulator.elapsed
+                elapsed = self.simulator.plain.elapsed
                 progress.update(task, completed=elapsed)
                 if not carried and elapsed >= carry_after:
                     carried = True
                     console.print(f'{elapsed:.0f} s: somebody carries the robot away')
-                    self.simulator.carry_to(CARRIED)
+                    self.simulator.plain.carry_to(CARRIED)
                 ended = self._stop.requested or bool(self._recorder.failure)
                 return ended or elapsed >= seconds
 

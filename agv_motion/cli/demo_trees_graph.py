@@ -29,6 +29,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.config import find_config
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 from agv_motion.simulation.crowd import scattered
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from agv_motion.ros.node import ManagedNode
 
 NAMES = ('oak', 'ash', 'elm', 'fir', 'yew')
 
@@ -92,19 +92,19 @@ class TreesGraph:
         self.zone = load_zone(find_config(zone), given.rim)
         chance = random.Random(seed)  # noqa: S311 - a simulation, no secret
         starts = scattered(self.zone, count, self.traffic.clearance, chance)
-        self._nodes: list[ManagedNode[Any]] = []
-        self._simulators: list[Simulator] = []
+        self._nodes: list[LiveNode[Any]] = []
+        self._simulators: list[LiveNode[Simulator]] = []
         for i, (name, (x, y)) in enumerate(zip(self.names, starts, strict=True)):
             self._nodes += minds[i]
             start_at = {'start_x': x, 'start_y': y, 'start_heading': chance.uniform(-pi, pi)}
             clock = {'clock': 'follow' if i else 'lead', 'time_factor': time_factor}
             body = {'rate': RATE, 'seed': seed + i, **start_at, **clock}
-            self._simulators.append(Simulator(**_given('simulator', name, body)))
+            self._simulators.append(LiveNode(Simulator, **_given('simulator', name, body)))
         for node in (*self._nodes, *self._simulators):
             start(node)
         topics = [Topic(f'{name}/{t}', *rest) for name in self.names for t, *rest in OF_EACH]
         topics += [Topic('/reservations', MarkerArray), Topic('/diagnostics', DiagnosticArray)]
-        self._leader = self._simulators[0]
+        self._leader = self._simulators[0].plain
         self._recorder = DemoRecorder(bag, topics, lambda: self._leader.time)
 
     def run(self, seconds: float, console: Console) -> None:
@@ -133,10 +133,10 @@ class TreesGraph:
 class _Minds(NamedTuple):
     """All nodes of one tree but its simulator."""
 
-    probe: GranierProbe
-    motion: MotionGenerator
-    wheels: WheelKinematics
-    localization: Localization
+    probe: LiveNode[GranierProbe]
+    motion: LiveNode[MotionGenerator]
+    wheels: LiveNode[WheelKinematics]
+    localization: LiveNode[Localization]
 
 
 def _minds(name: str, names: Sequence[str], zone: str, seed: int) -> _Minds:
@@ -147,10 +147,10 @@ def _minds(name: str, names: Sequence[str], zone: str, seed: int) -> _Minds:
         'goals__seed': seed,
     }  # fmt: skip
     return _Minds(
-        GranierProbe(**_given('granier_probe', name, {'simulated__seed': seed})),
-        MotionGenerator(**_given('motion_generator', name, shared)),
-        WheelKinematics(**_given('wheel_kinematics', name, {'rate': RATE})),
-        Localization(**_given('localization', name, {})),
+        LiveNode(GranierProbe, **_given('granier_probe', name, {'simulated__seed': seed})),
+        LiveNode(MotionGenerator, **_given('motion_generator', name, shared)),
+        LiveNode(WheelKinematics, **_given('wheel_kinematics', name, {'rate': RATE})),
+        LiveNode(Localization, **_given('localization', name, {})),
     )
 
 

@@ -109,6 +109,7 @@ def _record(given: dict[str, Any], duration: float) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_recorder import BagRecorder
+    from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, shut_down, spin, start
     from agv_motion.ros.stop import Stop
 
@@ -116,17 +117,18 @@ def _record(given: dict[str, Any], duration: float) -> None:
     stop = Stop()
     console = terminal()
     try:
-        node = BagRecorder(parameter_overrides=overrides(**given))
+        node = LiveNode(BagRecorder, parameter_overrides=overrides(**given))
         try:
             start(node)
+            recorder = node.plain
             begun = time.monotonic()
             with console.status('Waiting for topics') as status:
 
                 def finished() -> bool:
-                    recording = node.recording
+                    recording = recorder.recording
                     elapsed = time.monotonic() - begun
                     if recording is not None:
-                        status.update(_progress(node, elapsed))
+                        status.update(_progress(recorder, elapsed))
                     over = bool(duration) and elapsed >= duration
                     return stop.requested or over or recording is None
 
@@ -135,18 +137,18 @@ def _record(given: dict[str, Any], duration: float) -> None:
             shut_down(node)  # the bag is whole even where the terminal is gone
     finally:
         rclpy.try_shutdown()
-    _tell(console, node.report)
-    if node.failure:
-        typer.echo(f'error: {node.failure}', err=True)
+    _tell(console, recorder.report)
+    if recorder.failure:
+        typer.echo(f'error: {recorder.failure}', err=True)
         raise typer.Exit(1)
 
 
-def _progress(node: BagRecorder, elapsed: float) -> str:
-    assert node.recording is not None
-    paused = ', paused' if node.paused else ''
+def _progress(recorder: BagRecorder, elapsed: float) -> str:
+    assert recorder.recording is not None
+    paused = ', paused' if recorder.paused else ''
     return (
-        f'{elapsed:.0f} s: {node.recording.messages} messages of {node.topics} topics, '
-        f'{node.recording.size / 1e6:.1f} MB{paused}; Ctrl-C ends'
+        f'{elapsed:.0f} s: {recorder.recording.messages} messages of {recorder.topics} topics, '
+        f'{recorder.recording.size / 1e6:.1f} MB{paused}; Ctrl-C ends'
     )
 
 

@@ -10,8 +10,8 @@ from agv_motion.cli.parameters import describe, parameters_of
 from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.config import find_config
-from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.parameter_arguments import is_for, sections
+from agv_motion.ros.plain_node import PlainNode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,7 +42,7 @@ def node_class(name: str) -> Any:
         each
         for each in vars(module).values()
         if isinstance(each, type)
-        and issubclass(each, ManagedNode)
+        and issubclass(each, PlainNode)
         and each.__module__ == module.__name__
     )
 

@@ -120,6 +120,7 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_player import BagPlayer
+    from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, spin, start
     from agv_motion.ros.stop import Stop
 
@@ -128,34 +129,35 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     console = terminal()
     arguments = [word for pair in remap for word in ('-r', pair)]
     try:
-        node = BagPlayer(
-            parameter_overrides=overrides(**given), cli_args=['--ros-args', *arguments]
+        node = LiveNode(
+            BagPlayer, parameter_overrides=overrides(**given), cli_args=['--ros-args', *arguments]
         )
         start(node)
+        player = node.plain
         with console.status('') as status, keyboard(enabled=keys) as pressed:
 
             def finished() -> bool:
                 for key in pressed():
                     stop.requested |= key == 'q'
-                    _obey(node, key)
-                status.update(_progress(node))
-                return stop.requested or node.playing.finished.is_set()
+                    _obey(player, key)
+                status.update(_progress(player))
+                return stop.requested or player.playing.finished.is_set()
 
             spin([node], finished)
     finally:
         rclpy.try_shutdown()
-    console.print(str(node.playing.lag))
-    for topic, reason in node.unplayed.items():
+    console.print(str(player.playing.lag))
+    for topic, reason in player.unplayed.items():
         typer.echo(f'error: {topic} was not played: {reason}', err=True)
-    if node.playing.failure:
-        typer.echo(f'error: {node.playing.failure}', err=True)
-    if node.playing.failure or node.unplayed or node.lossy:
+    if player.playing.failure:
+        typer.echo(f'error: {player.playing.failure}', err=True)
+    if player.playing.failure or player.unplayed or player.lossy:
         raise typer.Exit(1)
 
 
-def _obey(node: BagPlayer, key: str) -> None:
+def _obey(player: BagPlayer, key: str) -> None:
     """Do what a key asks for."""
-    playing = node.playing
+    playing = player.playing
     if key == ' ':
         (playing.resume if playing.paused else playing.pause)()
     elif key == 'right' and playing.paused:
@@ -168,8 +170,8 @@ def _obey(node: BagPlayer, key: str) -> None:
         playing.seek(max(playing.position() - 10_000_000_000, playing.begin))
 
 
-def _progress(node: BagPlayer) -> str:
-    playing = node.playing
+def _progress(player: BagPlayer) -> str:
+    playing = player.playing
     elapsed, whole = ((stamp - playing.begin) * 1e-9 for stamp in (playing.position(), playing.end))
     state = 'paused' if playing.paused else f'at {playing.rate:.2f} times'
     return f'{elapsed:.1f} of {whole:.1f} s, {state}; space, arrows, q'

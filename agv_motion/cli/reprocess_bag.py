@@ -19,9 +19,11 @@ from agv_motion.errors import AgvMotionError
 from agv_motion.files.unfinished import beside
 from agv_motion.ros.config import find_config
 from agv_motion.ros.endpoints import offer
-from agv_motion.ros.in_process import add, full_name
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
+from agv_motion.ros.in_process_port import full_name
+from agv_motion.ros.in_process_topic import InProcessEnd, InProcessRowPublisher
 from agv_motion.ros.messages import type_name
-from agv_motion.ros.world import Publisher, World
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -82,7 +84,7 @@ class Abandoned(BaseException):
 
 
 class Transcript:
-    """What the nodes of a world say, in a bag; each topic begins with its first message.
+    """What the nodes of a graph say, in a bag; each topic begins with its first message.
 
     Messages are written many together: `flush` when the last has come.
     """
@@ -92,9 +94,9 @@ class Transcript:
         self.messages = 0
         self._writer = writer
         self._topics: dict[str, int] = {}
-        self._waiting: list[tuple[Publisher, int, Any]] = []
+        self._waiting: list[tuple[InProcessEnd, int, Any]] = []
 
-    def record(self, publisher: Publisher, stamp: int, data: Any) -> None:
+    def record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
         """Take a message, or a row, of time ``stamp`` [ns]."""
         self._waiting.append((publisher, stamp, data))
         if len(self._waiting) >= TOGETHER:
@@ -106,27 +108,27 @@ class Transcript:
             return
         publishers, stamps, found = zip(*self._waiting, strict=True)
         topics = {publisher: self._topic(publisher) for publisher in dict.fromkeys(publishers)}
-        rows: dict[Publisher, list[int]] = {}
+        rows: dict[InProcessEnd, list[int]] = {}
         for i, (publisher, data) in enumerate(zip(publishers, found, strict=True)):
             if type(data) is not bytes:
                 rows.setdefault(publisher, []).append(i)
         messages = list(found)
         for publisher, places in rows.items():
-            assert publisher.together is not None
+            assert isinstance(publisher, InProcessRowPublisher)
             times = np.array([stamps[i] for i in places], np.int64)
-            made = publisher.together(times, [found[i] for i in places])
+            made = publisher.table.messages(times, [found[i].row for i in places])
             for i, message in zip(places, made, strict=True):
                 messages[i] = message
         self._writer.write_several([topics[one] for one in publishers], stamps, messages)
         self.messages += len(messages)
         self._waiting.clear()
 
-    def _topic(self, publisher: Publisher) -> int:
+    def _topic(self, publisher: InProcessEnd) -> int:
         if publisher.topic not in self._topics:
             self._topics[publisher.topic] = self._add(publisher)
         return self._topics[publisher.topic]
 
-    def _add(self, publisher: Publisher) -> int:
+    def _add(self, publisher: InProcessEnd) -> int:
         kind, qos = type_name(publisher.kind), [offer(publisher.qos)]
         return self._writer.add_topic(publisher.topic, kind, qos=qos)
 
@@ -182,25 +184,25 @@ def _played(
     with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
         transcript = Transcript(writer)
         clock = BagClock(bag)
-        world = World(transcript.record, clock.start)
-        world.recorded = bag.topics
+        graph = InProcessGraph(transcript.record, clock.start)
+        graph.recorded, graph.takes_rows = bag.topics, True
         for name in plan.nodes:
-            add(world, node_class(name), given[name], plan.names(), plan.namespace)
-        world.start()
-        inputs, heard = world.inputs(), 0
+            InProcessNode(graph, node_class(name), given[name], plan.names(), plan.namespace)
+        graph.start()
+        inputs, heard = graph.inputs(), 0
         wanted = sorted((inputs | clock.topics) & set(bag.topics))
-        for count, now in _feed(world, bag.messages(wanted), clock):
+        for count, now in _feed(graph, bag.messages(wanted), clock):
             heard += count
             if tell is not None:
                 tell((now - bag.start) / max(bag.end - bag.start, 1))
-        world.run(clock.end())
-        world.stop()
+        graph.run(clock.end())
+        graph.stop()
         transcript.flush()
     missing = tuple(sorted(inputs - set(bag.topics)))
     span = (clock.end() - clock.start) * 1e-9
     counts = heard, transcript.messages
     return Outcome(
-        str(bag.path), *counts, span, 0.0, missing, world.complaints, simulated=bool(clock.topics)
+        str(bag.path), *counts, span, 0.0, missing, graph.complaints, simulated=bool(clock.topics)
     )
 
 
@@ -214,16 +216,18 @@ def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]
     return found
 
 
-def _feed(world: World, messages: Iterator[Message], clock: BagClock) -> Iterator[tuple[int, int]]:
+def _feed(
+    graph: InProcessGraph, messages: Iterator[Message], clock: BagClock
+) -> Iterator[tuple[int, int]]:
     """Let messages be heard, many shown beforehand; yield how many, and the log time [ns]."""
-    feed = world.feed
+    feed = graph.feed
     while together := list(islice(messages, TOGETHER)):
         times = [clock.time_of(message) for message in together]
         topics: dict[str, list[int]] = {}
         for i, message in enumerate(together):
             topics.setdefault(message.connection.topic, []).append(i)
         for topic, places in topics.items():
-            world.look_ahead(topic, [together[i].data for i in places], [times[i] for i in places])
+            graph.look_ahead(topic, [together[i].data for i in places], [times[i] for i in places])
         for message, now in zip(together, times, strict=True):
             feed(message.connection.topic, now, message.data)
         yield len(together), together[-1].stamp

@@ -33,6 +33,7 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.sequence import SequenceNode
+    from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, spin, start
     from agv_motion.ros.stop import Stop
 
@@ -42,12 +43,12 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     )
     try:
         stop = Stop()
-        node = SequenceNode(parameter_overrides=overrides(file=file, autorun=True))
+        node = LiveNode(SequenceNode, parameter_overrides=overrides(file=file, autorun=True))
         start(node)
         console = terminal(stderr=True)
         columns = (TextColumn('{task.description}', markup=False), BarColumn(), TimeElapsedColumn())
         with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-            watch = Watch(node, stop, progress)
+            watch = Watch(node.plain, stop, progress)
             spin([node], watch.over)
     finally:
         rclpy.try_shutdown()

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
@@ -22,8 +21,8 @@ from agv_motion.parameters import Spec
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offering
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.node import ManagedNode
 from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
@@ -31,6 +30,8 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.files.marked import Marked
+    from agv_motion.ros.live_port import LivePort
+
 
 DEEPEST = 1_000_000
 """Messages that a publisher may keep for late listeners."""
@@ -63,42 +64,42 @@ class BagPlayerParameters(PlaybackParameters):
     ] = 100
 
 
-class BagPlayer(ManagedNode[BagPlayerParameters]):
+class BagPlayer(PlainNode[BagPlayerParameters]):
     """Plays while active; messages go out as they stand in the bag, without being decoded."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('bag_player', BagPlayerParameters, **kwargs)
+    name = 'bag_player'
+    takes = BagPlayerParameters
+
+    port: LivePort
+
+    def __init__(self, port: LivePort, parameters: BagPlayerParameters) -> None:
+        """Open the bag, a publisher for each topic, and the services."""
+        super().__init__(port, parameters)
         self.playback: Playback | None = None
         self.unplayed: dict[str, str] = {}
         """topics that cannot be played, and why"""
-        self.lossy = False
-        """whether the bag has lost something"""
-
-    def open(self) -> None:
-        """Open the bag, a publisher for each topic, and the services."""
-        given = self.parameters
+        given = parameters
         if not given.bag:
             msg = 'which bag? give bag, the path of a folder or file'
             raise ConfigurationError(msg)
         self._bag = BagReader(given.bag)
-        self.close_later(self._bag.close)
+        port.close_later(self._bag.close)
         for problem in self._bag.problems:
-            self.get_logger().warning(str(problem))
+            port.warning(str(problem))
         self.lossy = self._bag.lossy
+        """whether the bag has lost something"""
         self._offers = _overrides(given.qos_overrides)
         topics = Playback(self._bag, given, self._send).topics
         for topic in self._offers:
             if topic not in topics:
-                self.get_logger().warning(
+                port.warning(
                     f"qos_overrides: no topic '{topic:.200}' is played{meant(topic, topics)}"
                 )
         self._publish = self._open_topics(topics)
         if given.clock:
             self._clock_message = ClockMessage()
-            self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
-            steady = Clock(clock_type=ClockType.STEADY_TIME)
-            self.every(1.0 / given.clock, self._tell_time, steady)
+            self._clock_publisher = port.publisher(ClockMessage, '/clock', CLOCK)
+            port.every(1.0 / given.clock, self._tell_time, steady=True)
         for name, act in (
             ('pause', self._pause),
             ('resume', self._resume),
@@ -107,7 +108,7 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
             ('burst', lambda _: self._play(self.parameters.burst)),
             ('seek', self._seek),
         ):
-            self.serve(Trigger, f'~/{name}', act)
+            port.serve(Trigger, f'~/{name}', act)
 
     def begin(self) -> None:
         """Begin to play."""
@@ -119,11 +120,11 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
         """Stop, and tell how late the messages were."""
         self.playing.stop()
         if self.playing.failure:
-            self.get_logger().error(self.playing.failure)
+            self.port.error(self.playing.failure)
         limit = self.parameters.wait_for_all_acked
         if limit >= 0.0 and not self._acknowledged(limit):
-            self.get_logger().warning(f'not every listener has confirmed within {limit:g} s')
-        self.get_logger().info(str(self.playing.lag))
+            self.port.warning(f'not every listener has confirmed within {limit:g} s')
+        self.port.info(str(self.playing.lag))
 
     def accept(self, parameters: BagPlayerParameters) -> None:
         """Take over another rate."""
@@ -149,7 +150,6 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
     def _open_topics(self, topics: Sequence[str]) -> dict[str, Any]:
         """Return the function that publishes each topic, by name."""
         publish, overrides = {}, self._offers
-        self.unplayed = {}
         for topic in topics:
             connection = self._bag.topics[topic]
             if topic == '/clock' and self.parameters.clock:
@@ -158,13 +158,13 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
                 kind = _played(connection)
             except ConfigurationError as error:
                 self.unplayed[topic] = str(error)
-                self.get_logger().error(f'{topic} is not played: {error}')
+                self.port.error(f'{topic} is not played: {error}')
                 continue
             qos = offering([overrides[topic]] if topic in overrides else connection.qos)
-            publish[topic] = self.publisher(kind, topic, qos).publish
+            publish[topic] = self.port.publisher(kind, topic, qos).publish
         for other in self._bag.connections:
             if other.topic in publish and other.type != self._bag.topics[other.topic].type:
-                self.get_logger().error(
+                self.port.error(
                     f'{other.topic} is a {self._bag.topics[other.topic].type} first: its messages '
                     f'of type {other.type} are not played'
                 )
@@ -182,7 +182,9 @@ class BagPlayer(ManagedNode[BagPlayerParameters]):
 
     def _acknowledged(self, limit: float) -> bool:
         patience = Duration(seconds=limit)
-        return all(publisher.wait_for_all_acked(patience) for publisher in self.publishers)
+        return all(
+            publisher.wait_for_all_acked(patience) for publisher in self.port.node.publishers
+        )
 
     def _pause(self, _: Any = None) -> str:
         self.playing.pause()

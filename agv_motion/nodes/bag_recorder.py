@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from rclpy.clock import Clock, ClockType
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
@@ -22,16 +21,16 @@ from agv_motion.ros.arrivals import TICK, Arrivals
 from agv_motion.ros.clock_guard import CLOCK_TOPIC
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offered
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
+from agv_motion.ros.raw_subscription import ListenerNodes, RawSubscription
 from agv_motion.ros.run import run
-from agv_motion.ros.tap import Ears, Tap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
-
     from agv_motion.bag.quality_of_service import OfferedQos
+    from agv_motion.ros.live_port import LivePort
+
 
 TAKE_PERIOD = 0.005
 """[s] between two takes; wide enough to take many at a time, and far below what queues hold"""
@@ -63,66 +62,66 @@ class BagRecorderParameters:
         return Path(self.output or datetime.now().astimezone().strftime('bag_%Y_%m_%d-%H_%M_%S'))
 
 
-class BagRecorder(ManagedNode[BagRecorderParameters]):
+class BagRecorder(PlainNode[BagRecorderParameters]):
     """Records while active, from activation to deactivation one bag.
 
     Messages stay as they come, without being decoded.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('bag_recorder', BagRecorderParameters, **kwargs)
+    name = 'bag_recorder'
+    takes = BagRecorderParameters
+
+    port: LivePort
+
+    def __init__(self, port: LivePort, parameters: BagRecorderParameters) -> None:
+        """Offer the services and look for topics."""
+        super().__init__(port, parameters)
         self.recording: Recording | None = None
         self.report: list[TopicReport] = []
         """of the last recording"""
         self.failure = ''
         """why the last recording ended by itself"""
         self.paused = False
-        self._ears: Ears | None = None
-
-    def open(self) -> None:
-        """Offer the services and look for topics."""
-        given = self.parameters
+        given = parameters
         if not (given.all or given.topics or given.regex):
             msg = 'nothing to record: set all, topics or regex'
             raise ConfigurationError(msg)
         self._selection = Selection(
             everything=given.all,
-            topics=tuple(self.resolve_topic_name(topic) for topic in given.topics),
+            topics=tuple(port.full_name(topic) for topic in given.topics),
             regex=given.regex,
-            exclude_topics=tuple(self.resolve_topic_name(t) for t in given.exclude_topics),
+            exclude_topics=tuple(port.full_name(t) for t in given.exclude_topics),
             exclude_regex=given.exclude_regex,
             hidden=given.include_hidden_topics,
         )
-        self._taps: dict[tuple[str, str], tuple[Tap, int]] = {}
+        self._subscriptions: dict[tuple[str, str], tuple[RawSubscription, int]] = {}
         """by name and type of the topic, each with its handle in the bag"""
         self._unusable: set[tuple[str, str]] = set()
         self._arrivals: Arrivals | None = None
         """where time is simulated"""
-        self._simulated = bool(self.get_parameter('use_sim_time').value)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._ears = Ears(self.get_name(), self.context)
-        self.every(given.polling_interval, self._watch, steady)
-        self.every(TAKE_PERIOD, self._take, steady)
+        self._listeners = ListenerNodes(port.name, port.node.context)
+        port.close_later(self._listeners.close)
+        port.every(given.polling_interval, self._watch, steady=True)
+        port.every(TAKE_PERIOD, self._take, steady=True)
         for name, act in (
             ('pause', self._pause),
             ('resume', self._resume),
             ('toggle_paused', self._toggle),
             ('split', self._split),
         ):
-            self.serve(Trigger, f'~/{name}', act)
+            port.serve(Trigger, f'~/{name}', act)
 
     @property
     def topics(self) -> int:
         """Number of topics that are being recorded."""
-        return len({name for name, _ in self._taps if name})
+        return len({name for name, _ in self._subscriptions if name})
 
     def begin(self) -> None:
         """Create the bag."""
         self.report, self.failure = [], ''
         self.paused = self.parameters.start_paused
         self.recording = Recording(self.parameters.folder(), self.parameters.storage)
-        self.get_logger().info(f'recording into {self.recording.path}')
+        self.port.info(f'recording into {self.recording.path}')
         self._watch()
 
     def halt(self) -> None:
@@ -131,16 +130,16 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
         if self._arrivals is not None:
             self._arrivals.pass_on()
             self._arrivals = None
-        for tap, _ in self._taps.values():
-            tap.close()
-        self._taps.clear()
+        for subscription, _ in self._subscriptions.values():
+            subscription.close()
+        self._subscriptions.clear()
         if self.recording is None:
             return
         self.report = self.recording.close()
         self.failure = self.recording.failure
         missing = [topic for topic in self.report if topic.lost or topic.dropped]
         for topic in missing:
-            self.get_logger().warning(
+            self.port.warning(
                 f'{topic.name}: {topic.lost} lost on the way, {topic.dropped} dropped, '
                 f'{topic.messages} recorded'
             )
@@ -148,16 +147,8 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
             sum(getattr(topic, what) for topic in self.report) for what in ('messages', 'deleted')
         )
         gone = f', {deleted} deleted with the oldest files' if deleted else ''
-        self.get_logger().info(f'{count} messages of {len(self.report)} topics recorded{gone}')
+        self.port.info(f'{count} messages of {len(self.report)} topics recorded{gone}')
         self.recording = None
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Close the topics, and what they were heard with."""
-        result = super().on_cleanup(state)
-        if self._ears is not None:
-            self._ears.close()
-            self._ears = None
-        return result
 
     def diagnose(self) -> Diagnosis:
         """Tell how much has been recorded."""
@@ -177,14 +168,14 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
         if self.recording is None:
             return
         if self.recording.failure:
-            self.get_logger().error(self.recording.failure)
+            self.port.error(self.recording.failure)
             self.halt()
             return
-        if self._simulated and not self._now().nanoseconds:
+        if self.port.is_simulated and not self.port.nanoseconds():
             return  # no time yet to stamp with
-        if self._simulated:
+        if self.port.is_simulated:
             self._listen_to_clock(self.recording)
-        for name, types in self.get_topic_names_and_types():
+        for name, types in self.port.node.get_topic_names_and_types():
             if self._selection.takes(name):
                 for kind in types:
                     self._meet(name, kind, self.recording)
@@ -192,44 +183,52 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
     def _listen_to_clock(self, recording: Recording) -> None:
         """Hear `/clock` among the messages that it stamps."""
         if self._arrivals is None:
-            self._arrivals = Arrivals(recording.put, self._now().nanoseconds)
-            add = partial(self._arrivals.add, TICK)
-            assert self._ears is not None
-            self._taps['', ''] = Tap(self._ears.node(0), CLOCK_TOPIC, ClockMessage, add), TICK
-        self._taps['', ''][0].meet(self.get_publishers_info_by_topic(CLOCK_TOPIC))
+            self._arrivals = Arrivals(recording.put, self.port.nanoseconds())
+            add, node = partial(self._arrivals.add, TICK), self._listeners.node(0)
+            self._subscriptions['', ''] = (
+                RawSubscription(node, CLOCK_TOPIC, ClockMessage, add),
+                TICK,
+            )
+        self._subscriptions['', ''][0].meet(
+            self.port.node.get_publishers_info_by_topic(CLOCK_TOPIC)
+        )
 
     def _take(self) -> None:
         begun = time.time_ns()
-        for tap, _ in self._taps.values():
-            tap.take()
+        for subscription, _ in self._subscriptions.values():
+            subscription.take()
         if self._arrivals is not None:
             self._arrivals.pass_on(begun)
 
     def _meet(self, name: str, kind: str, recording: Recording) -> None:
         """Record a topic that has publishers of a type, and adapt to new ones."""
         publishers = [
-            one for one in self.get_publishers_info_by_topic(name) if one.topic_type == kind
+            one
+            for one in self.port.node.get_publishers_info_by_topic(name)
+            if one.topic_type == kind
         ]
         if not publishers or (name, kind) in self._unusable:
             return
-        if (name, kind) not in self._taps:
+        if (name, kind) not in self._subscriptions:
             try:
-                self._taps[name, kind] = self._tap(name, kind, offered(publishers), recording)
+                self._subscriptions[name, kind] = self._subscribe(
+                    name, kind, offered(publishers), recording
+                )
             except ConfigurationError as error:
                 self._unusable.add((name, kind))
-                self.get_logger().error(f'{name} is not recorded: {error}')
+                self.port.error(f'{name} is not recorded: {error}')
                 return
-        tap, handle = self._taps[name, kind]
-        if tap.meet(publishers):
-            recording.set_publishers(handle, tap.publishers)
+        subscription, handle = self._subscriptions[name, kind]
+        if subscription.meet(publishers):
+            recording.set_publishers(handle, subscription.publishers)
 
-    def _tap(
+    def _subscribe(
         self, name: str, kind: str, offers: Sequence[OfferedQos], recording: Recording
-    ) -> tuple[Tap, int]:
+    ) -> tuple[RawSubscription, int]:
         """Return what hears a topic, and its handle in the bag."""
-        others = [other for topic, other in self._taps if topic == name]
+        others = [other for topic, other in self._subscriptions if topic == name]
         if others:
-            self.get_logger().warning(
+            self.port.warning(
                 f'{name} is published as {kind} too, beside {", ".join(others)}: all are recorded; '
                 'what reads the bag may expect one type: give each a topic of its own'
             )
@@ -246,9 +245,10 @@ class BagRecorder(ManagedNode[BagRecorderParameters]):
             if not self.paused and arrivals is not None:
                 arrivals.add(handle, data, info)
 
-        assert self._ears is not None
-        node = self._ears.node(len(others))
-        return Tap(node, name, message, take_simulated if self._simulated else take), handle
+        node = self._listeners.node(len(others))
+        return RawSubscription(
+            node, name, message, take_simulated if self.port.is_simulated else take
+        ), handle
 
     def _pause(self, _: Any = None) -> str:
         self.paused = True

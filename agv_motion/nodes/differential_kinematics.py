@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.continuity import Step
     from agv_motion.planar import Twist
+    from agv_motion.ros.port import Port
 
 
 @dataclass(frozen=True)
@@ -34,13 +35,13 @@ class DifferentialKinematicsParameters(WheelsParameters, DifferentialBaseParamet
 class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
     """`cmd_vel` -> `wheels/command`, `cmd_vel/limited`; `wheels/state` -> `odom`."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('differential_kinematics', DifferentialKinematicsParameters, **kwargs)
+    name = 'differential_kinematics'
+    takes = DifferentialKinematicsParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: DifferentialKinematicsParameters) -> None:
         """Build the kinematics and the odometry, and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self._wheels = given.drive()
         base = DifferentialBase(self._wheels.track)
         self._odometry = WheelOdometry(base, given.wheel_radii, given.odometry)

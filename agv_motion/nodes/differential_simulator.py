@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
@@ -18,6 +18,9 @@ from agv_motion.ros.run import run
 from agv_motion.ros.wheel_joints import WheelJoints
 from agv_motion.simulation.differential import DifferentialRobot, DifferentialRobotParameters
 from agv_motion.simulation.fixes import FixParameters, FixSensor
+
+if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
 
 SUBSTEPS = 4
 """Steps of the motors in one of the node."""
@@ -52,17 +55,16 @@ class DifferentialSimulatorParameters(SimulatedParameters, DifferentialBaseParam
 class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
     """`wheels/command` -> `wheels/state`, `fix`, `ground_truth`, `/clock`."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('differential_simulator', DifferentialSimulatorParameters, **kwargs)
+    name = 'differential_simulator'
+    takes = DifferentialSimulatorParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: DifferentialSimulatorParameters) -> None:
         """Put the robot at its start, and open the topics."""
-        self._joints = WheelJoints(self.parameters.joint_names)
-        super().open()
-        self._state = self.publisher(JointState, 'wheels/state', SENSOR, sole=True)
-        self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
-        self.listen(JointState, 'wheels/command', self._on_command, COMMAND)
+        super().__init__(port, parameters)
+        self._joints = WheelJoints(parameters.joint_names)
+        self._state = port.publisher(JointState, 'wheels/state', SENSOR, sole=True)
+        self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
+        port.listen(JointState, 'wheels/command', self._on_command, COMMAND)
 
     def reset(self) -> DifferentialRobot:
         """Return a robot at its start, its wheels still."""

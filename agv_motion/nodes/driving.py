@@ -15,13 +15,15 @@ from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import pose_of, seconds_of
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
-from agv_motion.ros.twist_publisher import TwistPublisher
+from agv_motion.ros.twist_rows import twist_publisher
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
     from agv_motion.twist_limits import TwistLimits
+
 
 FAREWELL = 1.0
 """[s] How long zeros are sent after the end of a drive; then `cmd_vel` is free for others."""
@@ -63,7 +65,7 @@ class DrivingParameters:
 P = TypeVar('P', bound=DrivingParameters)
 
 
-class DrivingNode(ManagedNode[P]):
+class DrivingNode(PlainNode[P]):
     """A node that overrides `cycle`, and sends one command in each: `drive`, `stand` or `leave`.
 
     Every command keeps the limits that it overrides `limits` with. A robot that does not move
@@ -76,9 +78,10 @@ class DrivingNode(ManagedNode[P]):
     release = ''
     """What a person does to let a blocked robot go on"""
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: P) -> None:
         """Open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self.pose: Pose | None = None
         self.lost = f'no {given.position} yet'
         """Why the pose cannot be used; empty if it can"""
@@ -87,20 +90,20 @@ class DrivingNode(ManagedNode[P]):
         self.told = ''
         """The state told last"""
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._pose_watch = InputWatch(self, given.position, limits)
+        self._pose_watch = InputWatch(port, given.position, limits)
         self._last_cycle: float | None = None
         self._farewell = 0.0
         arm = 0.5 * self.limits().track
         self.guard = BlockedGuard(given.blocked, arm, f'clear its way, then {self.release}')
         """Watches that the robot moves when told to"""
-        self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
-        self._state = self.publisher(String, self.state_topic, LATCHED, sole=True)
+        self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
+        self._state = port.publisher(String, self.state_topic, LATCHED, sole=True)
         if given.position == 'odom':
-            self.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
+            port.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
         else:
-            self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
-        self.every(1.0 / given.rate, self._on_cycle)
-        self.watch_inputs(given.stop_after, self._watch)
+            port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
+        port.every(1.0 / given.rate, self._on_cycle)
+        port.watch_inputs(given.stop_after, self._watch)
 
     def begin(self) -> None:
         """Know nothing of before: where the robot is must be told anew."""
@@ -153,7 +156,7 @@ class DrivingNode(ManagedNode[P]):
         """Return the pose, carried on to now by what was commanded since; None while it is lost."""
         if self.pose is None or self.lost:
             return None
-        age = self.seconds() - self._pose_time
+        age = self.port.seconds() - self._pose_time
         return integrate(self.pose, self._twist, age) if 0.0 < age < OLDEST_POSE else self.pose
 
     def require_pose(self) -> Pose:
@@ -192,7 +195,7 @@ class DrivingNode(ManagedNode[P]):
             self.lost = ''
 
     def _on_cycle(self) -> None:
-        now = self.seconds()
+        now = self.port.seconds()
         dt = 0.0 if self._last_cycle is None else max(now - self._last_cycle, 0.0)
         dt = min(dt, LONGEST_STEP / self.parameters.rate)
         self._last_cycle = now
@@ -205,14 +208,14 @@ class DrivingNode(ManagedNode[P]):
         guard.watch.parameters = self.parameters.blocked
         before = guard.reason
         if guard.update(None if self.lost else self.pose, self._twist, dt):
-            self.get_logger().error(guard.reason)
+            self.port.error(guard.reason)
         elif before and not guard.reason:
-            self.get_logger().info('blocked before: trying again')
+            self.port.info('blocked before: trying again')
 
     def _watch(self) -> None:
         """Stop where the pose is lost; again and again where no cycle will, as the clock stands."""
         before, self.lost = self.lost, self._why_lost()
-        if self.lost and self._farewell > 0.0 and (self.clock.fault or not before):
+        if self.lost and self._farewell > 0.0 and (self.port.clock.fault or not before):
             self._send(REST)
 
     def _why_lost(self) -> str:
@@ -220,9 +223,9 @@ class DrivingNode(ManagedNode[P]):
         watch, given = self._pose_watch, self.parameters
         if watch.tell() is not Silence.LOST:
             return ''
-        silent = watch.age(self.steady_seconds()) is not None and not self.clock.fault
+        silent = watch.age(self.port.steady_seconds()) is not None and not self.port.clock.fault
         return f'no {given.position} for {given.stop_after:g} s' if silent else watch.why()
 
     def _send(self, twist: Twist) -> None:
         self._twist = twist
-        self._command.publish(twist)
+        self._command(twist)

@@ -26,9 +26,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from agv_motion.planar import Pose
+    from agv_motion.ros.port import Port
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
     from agv_motion.twist_limits import TwistLimits
+
 
 DRAWN = 0.05
 """[s] between two poses of the path that is shown."""
@@ -85,24 +87,23 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
     state_topic = 'ghost/state'
     release = 'call ~/lock with data: false, or send a goal'
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('ghost_trajectory', GhostTrajectoryParameters, **kwargs)
+    name = 'ghost_trajectory'
+    takes = GhostTrajectoryParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: GhostTrajectoryParameters) -> None:
         """Open the topics."""
-        super().open()
-        self._follower = Follower(self.parameters.follow)
+        super().__init__(port, parameters)
+        self._follower = Follower(parameters.follow)
         self._ghost_pose = PoseStamped()
-        self._ghost_pose.header.frame_id = self.parameters.frame
-        self._pose_publisher = self.publisher(PoseStamped, 'ghost/pose', COMMAND)
-        self._path = self.publisher(Path, 'ghost/path', LATCHED)
-        self._report = self.publisher(String, 'ghost/report', LATCHED)
-        self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
-        self.listen(Path, 'path', self._on_path, COMMAND)
-        self.listen(Vector3Stamped, 'arc', self._on_arc, COMMAND)
-        self.serve(SetBool, '~/lock', self._on_lock)
-        self.serve(Trigger, '~/abort', self._on_abort)
+        self._ghost_pose.header.frame_id = parameters.frame
+        self._pose_publisher = port.publisher(PoseStamped, 'ghost/pose', COMMAND)
+        self._path = port.publisher(Path, 'ghost/path', LATCHED)
+        self._report = port.publisher(String, 'ghost/report', LATCHED)
+        port.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
+        port.listen(Path, 'path', self._on_path, COMMAND)
+        port.listen(Vector3Stamped, 'arc', self._on_arc, COMMAND)
+        port.serve(SetBool, '~/lock', self._on_lock)
+        port.serve(Trigger, '~/abort', self._on_abort)
 
     def begin(self) -> None:
         """Say that a goal may come."""
@@ -166,7 +167,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         return WORDS[follower.state]
 
     def _show_ghost(self) -> None:
-        self.stamp(self._ghost_pose)
+        self.port.stamp(self._ghost_pose)
         fill_pose(self._ghost_pose.pose, self._follower.leader.pose)
         self._pose_publisher.publish(self._ghost_pose)
 
@@ -208,13 +209,13 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         trajectory = follower.depart(pose, plan)
         lines = follower.ghost.report().lines()
         self._report.publish(String(data='\n'.join(lines)))
-        self.get_logger().info('; '.join(lines))
+        self.port.info('; '.join(lines))
         self._show_path(trajectory)
         self.tell(self._words())
 
     def _show_path(self, trajectory: Trajectory) -> None:
         message = Path()
-        self.stamp(message)
+        self.port.stamp(message)
         message.header.frame_id = self.parameters.frame
         fill_path(message, trajectory.polyline(DRAWN, MOST_DRAWN))
         self._path.publish(message)

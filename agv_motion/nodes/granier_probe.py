@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import Vector3Stamped
-from rclpy.clock import Clock, ClockType
 from sensor_msgs.msg import Illuminance, Temperature
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
@@ -20,7 +19,7 @@ from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import seconds_of
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.simulation.shade import LUX_PER_WATT, irradiance
@@ -28,6 +27,8 @@ from agv_motion.simulation.sun import sun
 
 if TYPE_CHECKING:
     from agv_motion.probe.sources.source import Sample, Source
+    from agv_motion.ros.port import Port
+
 
 SAVE_PERIOD = 30.0
 """[s] A power cut loses at most this much of what was learnt."""
@@ -91,21 +92,23 @@ class GranierProbeParameters:
         return SimulatedSource(self.simulated, self.warm_up_days)
 
 
-class GranierProbe(ManagedNode[GranierProbeParameters]):
+class GranierProbe(PlainNode[GranierProbeParameters]):
     """Source -> `granier/probe_i/temperature_difference`, `granier/sap_flow`, `granier/valid`.
 
     `granier/sap_flow` is told only while all three probes are fresh and believable; when one is
     not, `granier/valid` turns false and says that the tree must rest.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('granier_probe', GranierProbeParameters, **kwargs)
+    name = 'granier_probe'
+    takes = GranierProbeParameters
 
-    def open(self) -> None:
-        """Open the source, learn from its history, open the topics."""
-        given = self.parameters
-        self._source = given.open_source()
+    def __init__(
+        self, port: Port, parameters: GranierProbeParameters, source: Source | None = None
+    ) -> None:
+        """Open the source, unless another is given, and the topics."""
+        super().__init__(port, parameters)
+        given = parameters
+        self._source = source or given.open_source()
         self._probes = [Probe(given.probe) for _ in range(given.probes())]
         self._chosen = [int(name.removeprefix('probe_')) - 1 for name in given.assign]
         self._readings: list[ProbeReading | None] = [None] * len(self._probes)
@@ -116,20 +119,20 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         self._message = Vector3Stamped()
         self._message.header.frame_id = given.base_frame
         self._raw = [
-            self.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
+            port.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
             for i in range(len(self._probes))
         ]
-        self._sap_flow = self.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
-        self._valid = self.publisher(Bool, 'granier/valid', LATCHED)
-        self.serve(Trigger, '~/recalibrate', self._on_recalibrate)
+        self._sap_flow = port.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
+        self._valid = port.publisher(Bool, 'granier/valid', LATCHED)
+        port.serve(Trigger, '~/recalibrate', self._on_recalibrate)
         if isinstance(self._source, SimulatedSource):
-            self.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
-        self.every(1.0 / given.rate, self.tick)
+            port.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
+        port.every(1.0 / given.rate, self.tick)
         if given.state_file:
-            self.every(SAVE_PERIOD, self._save, Clock(clock_type=ClockType.STEADY_TIME))
+            port.every(SAVE_PERIOD, self._save, steady=True)
             complaint = state_file.restore(given.state_file, self._probes)
             if complaint:
-                self.get_logger().warning(complaint)
+                port.warning(complaint)
             self._save()  # so that a disk that takes nothing is told before it matters
         self._learnt = False
 
@@ -156,21 +159,21 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
 
     def tick(self) -> None:
         """Read the source, and tell the sap flow or why there is none."""
-        seconds = self.seconds()
+        seconds = self.port.seconds()
         if not self._learnt:
             self._learn(seconds)
         for sample in self._source.read(seconds):
             self._take(sample, seconds)
         complaint = self._source.complaint()
         if complaint:
-            self.refuse(complaint)
+            self.port.refuse(complaint)
         why = self._doubt
         if abs(seconds - self._read_at) > self._max_age and not why:
             why = f'no reading for {seconds - self._read_at:.0f} s (limit {self._max_age:.0f} s)'
         if why != self._why_invalid:
             self._tell_validity(why)
         if not why:
-            self.stamp(self._message)  # believed now, whenever it was read
+            self.port.stamp(self._message)  # believed now, whenever it was read
             self._sap_flow.publish(self._message)
 
     def _learn(self, now: float) -> None:
@@ -183,7 +186,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
     def _take(self, sample: Sample, now: float) -> None:
         """Let the probes see one sample, and publish what was read."""
         self._read_at = now
-        self.stamp(self._message)
+        self.port.stamp(self._message)
         for i, value in enumerate(sample.values):
             self._readings[i] = self._probes[i].update(sample.time, value)
             if value == value:  # noqa: PLR0124 - not NaN
@@ -202,7 +205,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
     def _tell_validity(self, why: str) -> None:
         self._why_invalid = why
         self._valid.publish(Bool(data=not why))
-        self.get_logger().info(f'resting: {why}' if why else 'all probes believable')
+        self.port.info(f'resting: {why}' if why else 'all probes believable')
 
     def _on_recalibrate(self, _: Any) -> str:
         values = [probe.recalibrate() for probe in self._probes]
@@ -220,7 +223,7 @@ class GranierProbe(ManagedNode[GranierProbeParameters]):
         try:
             state_file.save(self.parameters.state_file, self._probes)
         except OSError as error:
-            self.refuse(f'cannot keep what was learnt: {error}')
+            self.port.refuse(f'cannot keep what was learnt: {error}')
 
 
 def _doubt(index: int, reading: ProbeReading | None) -> str:

@@ -26,7 +26,7 @@ from agv_motion.ros.covariances import covariance_of, fill_covariance
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import SECOND, Freshness, InputWatch, require_near
 from agv_motion.ros.messages import fill_pose, pose_of, require_frame, seconds_of, twist_of
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.ros.transforms import Transforms
@@ -35,6 +35,8 @@ from agv_motion.watchdog import Silence
 if TYPE_CHECKING:
     from agv_motion.odometry.history import Waypoint
     from agv_motion.planar import Pose
+    from agv_motion.ros.port import Port
+
 
 ON_TIME = 0.99
 """[-] Share of the period after which the next pose is due: stamps are rounded."""
@@ -53,20 +55,20 @@ LEVELS = {
 }
 
 
-class Localization(ManagedNode[LocalizationParameters]):
+class Localization(PlainNode[LocalizationParameters]):
     """`odom`, `fix` and `imu` -> `pose`, `odom/filtered` and /tf.
 
     The pose is told with each odometry message as long as it is known well enough; else the topic
     is silent, so that whoever steers by it stops, and the diagnostics say why.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('localization', LocalizationParameters, **kwargs)
+    name = 'localization'
+    takes = LocalizationParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: LocalizationParameters) -> None:
         """Know nothing, and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self._fusion = PoseFusion(given.fusion)
         assumed = given.odom_covariance == 'assumed'
         noise = AssumedNoise(given.odom_noise) if assumed else None
@@ -77,17 +79,17 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._last_pose: Pose | None = None
         self._state = State.WAITING
         limits = Freshness(given.odom_timeout, given.odom_timeout, given.max_age)
-        self._odom_watch = InputWatch(self, 'odom', limits)
-        self._imu_watch = InputWatch(self, 'imu', limits)
-        self._pose = self.publisher(PoseWithCovarianceStamped, 'pose', SENSOR, sole=True)
-        self._filtered = self.publisher(Odometry, 'odom/filtered', SENSOR)
-        self._transforms = None if given.tf == 'none' else Transforms(self)
-        self.listen(Odometry, 'odom', self._on_odometry, SENSOR, sole=True)
-        self.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
-        self.listen(Imu, 'imu', self._on_imu, SENSOR)
-        self.listen(PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, COMMAND)
-        self.serve(SetMap, '~/set_pose', lambda request: self._set_pose(request.initial_pose))
-        self.serve(Trigger, '~/restart', self._on_restart)
+        self._odom_watch = InputWatch(port, 'odom', limits)
+        self._imu_watch = InputWatch(port, 'imu', limits)
+        self._pose = port.publisher(PoseWithCovarianceStamped, 'pose', SENSOR, sole=True)
+        self._filtered = port.publisher(Odometry, 'odom/filtered', SENSOR)
+        self._transforms = None if given.tf == 'none' else Transforms(port)
+        port.listen(Odometry, 'odom', self._on_odometry, SENSOR, sole=True)
+        port.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
+        port.listen(Imu, 'imu', self._on_imu, SENSOR)
+        port.listen(PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, COMMAND)
+        port.serve(SetMap, '~/set_pose', lambda request: self._set_pose(request.initial_pose))
+        port.serve(Trigger, '~/restart', self._on_restart)
 
     def diagnose(self) -> Diagnosis:
         """Tell the health of the estimate and the fate of the fixes."""
@@ -128,7 +130,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._at_rest = all(abs(component) < AT_REST for component in twist)
         self._fusion.follow(passage)
         if passage.step in {Step.LEAP, Step.RESET}:
-            self.get_logger().warning(f'odom: {passage.step.value}; less sure of the pose')
+            self.port.warning(f'odom: {passage.step.value}; less sure of the pose')
         waypoint = passage.waypoint
         if self._filtered.get_subscription_count():
             self._publish_filtered(message, waypoint)
@@ -141,7 +143,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         if passage.step is Step.DOUBTED:
             stamp, (x, y, theta), _ = passage.waypoint
             given = self.parameters.fusion
-            self.refuse(
+            self.port.refuse(
                 f'odom of {stamp:.3f} s at ({x:g} m, {y:g} m, {theta:g} rad) {Step.DOUBTED.value}; '
                 f'limits: {given.max_speed:g} m/s, {given.max_turn_rate:g} rad/s, and a covariance '
                 "that grows with the way (else set odom_covariance to 'assumed')"
@@ -164,7 +166,7 @@ class Localization(ManagedNode[LocalizationParameters]):
     def _on_fix(self, message: PoseWithCovarianceStamped) -> None:
         """Take a fix; one whose yaw has no variance, or one of any heading, has no heading."""
         require_frame(message.header.frame_id, self.parameters.map_frame)
-        if self.clock.fault:  # nobody knows how old it is
+        if self.port.clock.fault:  # nobody knows how old it is
             return
         self._require_recent(message.header.stamp)
         covariance = covariance_of(message.pose.covariance)
@@ -175,10 +177,10 @@ class Localization(ManagedNode[LocalizationParameters]):
         verdict = self._fusion.add_fix(fix)
         text = f'fix ({fix.x:.2f} m, {fix.y:.2f} m) of {fix.stamp:.3f} s {verdict.value}'
         if verdict is Verdict.KIDNAPPED:
-            self.get_logger().warning(text, throttle_duration_sec=1.0)
+            self.port.warning(text, throttle_duration_sec=1.0)
         elif verdict in {Verdict.EARLY, Verdict.LATE}:
             newest, horizon = self._fusion.newest_stamp, self.parameters.fusion.horizon
-            self.refuse(f'{text}; odom is at {newest:.3f} s, fusion.horizon = {horizon:g} s')
+            self.port.refuse(f'{text}; odom is at {newest:.3f} s, fusion.horizon = {horizon:g} s')
 
     def _require_recent(self, stamp: Any) -> None:
         """Raise where a fix was taken too far from now, or when is not told.
@@ -189,7 +191,9 @@ class Localization(ManagedNode[LocalizationParameters]):
         if taken == 0:
             msg = 'fix with a stamp of 0: tell when it was measured, as the robot moves meanwhile'
             raise SignalError(msg)
-        require_near(self, taken, max(given.max_age, given.fusion.horizon), self.nanoseconds())
+        require_near(
+            self.port, taken, max(given.max_age, given.fusion.horizon), self.port.nanoseconds()
+        )
 
     def _on_imu(self, message: Imu) -> None:
         given = self.parameters
@@ -205,7 +209,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         self._imu_watch.note()
 
     def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
-        self.get_logger().info(self._set_pose(message))
+        self.port.info(self._set_pose(message))
 
     def _set_pose(self, message: PoseWithCovarianceStamped) -> str:
         """Believe that the robot is where somebody says."""
@@ -240,7 +244,7 @@ class Localization(ManagedNode[LocalizationParameters]):
         """Publish pose and transforms while the robot is known to be somewhere."""
         given, estimate, health = self.parameters, self._fusion.estimate(), self._fusion.health()
         if health.state is not self._state:
-            self.get_logger().info(health.state.value)
+            self.port.info(health.state.value)
             self._state = health.state
         transforms = []
         if given.tf == 'both':

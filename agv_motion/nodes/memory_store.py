@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from nav_msgs.msg import OccupancyGrid
-from rclpy.clock import Clock, ClockType
 
 from agv_motion.motion.behavior.memory_file import restore, save
 from agv_motion.ros.qos import LATCHED
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.memory import Map, Mask, Memory
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
+    from agv_motion.ros.port import Port
 
 SAVE_PERIOD = 15.0
 """[s] A power cut loses this much, and what the disk was still writing: less than 30 s."""
@@ -36,39 +36,35 @@ class MemoryStore:
     The disk may take its time: the node only copies the maps.
     """
 
-    def __init__(
-        self, node: ManagedNode[Any], memory: Memory, file: str, frame: str, span: float
-    ) -> None:
-        """Restore the memory and open its topics on ``node``.
+    def __init__(self, port: Port, memory: Memory, given: MotionGeneratorParameters) -> None:
+        """Restore the memory and open its topics.
 
         Args:
-            node: The node that is being configured.
+            port: Of the node that is being configured.
             memory: To show and to keep.
-            file: Where to keep it; empty: nowhere.
-            frame: Of the maps.
-            span: Time since a visit that is shown as 100 [h].
+            given: Where to keep it, and how to show it.
 
         """
-        self._node, self._memory, self._file, self._span = node, memory, file, span
-        self._frame = frame
+        self._port, self._memory = port, memory
+        self._file, self._span = given.memory_file, given.last_visit_span
+        self._frame = given.map_frame
         self._message = self._empty_map()
-        self._flow = node.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
-        self._visit = node.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._flow = port.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
+        self._visit = port.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         self._shown = False
-        node.every(node.parameters.map_period, self.publish, steady)
-        node.every(FIRST_PERIOD, self._publish_first, steady)
+        port.every(given.map_period, self.publish, steady=True)
+        port.every(FIRST_PERIOD, self._publish_first, steady=True)
         self._writer: futures.ThreadPoolExecutor | None = None
         self._saved: float | None = None
         self._writing: futures.Future[None] | None = None
         self._trouble = ''
-        if file:
-            complaint = restore(file, memory)
+        if self._file:
+            complaint = restore(self._file, memory)
             if complaint:
-                node.get_logger().warning(complaint)
+                port.warning(complaint)
             self._writer = futures.ThreadPoolExecutor(1, 'memory')
-            node.every(SAVE_PERIOD, self.save, steady)
-            node.every(CHECK_PERIOD, self._check, steady)
+            port.every(SAVE_PERIOD, self.save, steady=True)
+            port.every(CHECK_PERIOD, self._check, steady=True)
 
     def begin(self) -> None:
         """Show both maps; and save at once, so that a full disk is told before it matters."""
@@ -78,7 +74,7 @@ class MemoryStore:
 
     def publish(self) -> None:
         """Show both maps: 0 to 100, unknown -1."""
-        memory, now = self._memory, self._node.seconds()
+        memory, now = self._memory, self._port.seconds()
         if now <= 0.0:
             return  # no /clock yet: a map of 1970 would be latched
         self._shown = True
@@ -96,7 +92,7 @@ class MemoryStore:
         if self._memory.newest == self._saved or self._writer is None:
             return
         if self._writing is not None:
-            self._node.refuse(f'the disk is slow: {self._file} is still being written')
+            self._port.refuse(f'the disk is slow: {self._file} is still being written')
             return
         self._saved = self._memory.newest
         self._writing = self._writer.submit(save, self._file, self._memory.grid())
@@ -117,7 +113,7 @@ class MemoryStore:
             self._trouble = ''
         except (OSError, futures.TimeoutError) as error:
             self._trouble, self._saved = f'cannot keep the memory of places: {error!r}', None
-            self._node.refuse(self._trouble)
+            self._port.refuse(self._trouble)
         self._writing = None
 
     def report(self) -> dict[str, str]:
@@ -138,7 +134,7 @@ class MemoryStore:
 
     def _publish(self, publisher: Any, values: Map, known: Mask) -> None:
         message = self._message
-        self._node.stamp(message)
+        self._port.stamp(message)
         cells = np.full(values.shape, -1, np.int8)
         cells[known] = np.clip(np.rint(values[known]), 0, 100).astype(np.int8)
         message.data = array('b', cells.tobytes())

@@ -18,20 +18,22 @@ from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.memory_store import MemoryStore
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.nodes.reservation_exchange import ReservationExchange
-from agv_motion.planar import REST, Pose, Twist
+from agv_motion.planar import REST, Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
-from agv_motion.ros.twist_publisher import TwistPublisher
+from agv_motion.ros.twist_rows import twist_publisher
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.decision import Decision
     from agv_motion.motion.behavior.goals import Goal
+    from agv_motion.ros.port import Port
+
 
 THINK_PERIOD = 1.0
 """[s] after which the tree thinks again though nothing is new: of the hour, and of other paths."""
@@ -40,19 +42,19 @@ RELEASE = 'clear its way, then call ~/pause with data: false'
 """What a person does to let a blocked tree go on."""
 
 
-class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
+class MotionGenerator(PlainNode[MotionGeneratorParameters]):
     """`granier/sap_flow`, `granier/valid` and `pose` -> `cmd_vel`, `goal`, `path` and `state`.
 
     Without a fresh and valid sap flow, or without a pose, the command is an explicit zero.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('motion_generator', MotionGeneratorParameters, **kwargs)
+    name = 'motion_generator'
+    takes = MotionGeneratorParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: MotionGeneratorParameters) -> None:
         """Build the agent, give it back its memory, and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self._rim = given.rim
         zone = load_zone(find_config(given.zone_file), self._rim) if given.zone_file else None
         self._agent = Agent(zone, given.agent())
@@ -68,42 +70,38 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._told_goal: Goal | None = None
         self._published_path: tuple[tuple[float, float], ...] = ()
         self._limited_by: tuple[str, ...] = ()
-        self._commanded_at = self._looked_at = self.seconds()
+        self._commanded_at = self._looked_at = port.seconds()
         self._twist = REST
         self._guard = BlockedGuard(given.blocked, self._rim, RELEASE)
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._watches = {name: InputWatch(self, name, limits) for name in ('sap flow', 'pose')}
-        self._command = TwistPublisher(self, given.base_frame, stamped=given.stamped)
-        self._path = self.publisher(Path, 'path', LATCHED, sole=True)
-        self._goal_publisher = self.publisher(PoseStamped, 'goal', LATCHED)
-        self._state = self.publisher(String, 'state', LATCHED, sole=True)
+        self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
+        self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
+        self._path = port.publisher(Path, 'path', LATCHED, sole=True)
+        self._goal_publisher = port.publisher(PoseStamped, 'goal', LATCHED)
+        self._state = port.publisher(String, 'state', LATCHED, sole=True)
         self._keeper = (
-            None
-            if self._agent.memory is None
-            else MemoryStore(
-                self, self._agent.memory, given.memory_file, given.map_frame, given.last_visit_span
-            )
+            None if self._agent.memory is None else MemoryStore(port, self._agent.memory, given)
         )
-        self.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
-        self.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
-        self.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
-        self.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
-        self.serve(SetBool, '~/pause', self._on_pause)
-        self.serve(Trigger, '~/next_goal', self._on_next_goal)
-        self.serve(Trigger, '~/go_home', self._on_go_home)
-        self.every(1.0 / given.rate, self._tick)
-        self.watch_inputs(given.stop_after, self._watch)
+        port.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
+        port.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
+        port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
+        port.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
+        port.serve(SetBool, '~/pause', self._on_pause)
+        port.serve(Trigger, '~/next_goal', self._on_next_goal)
+        port.serve(Trigger, '~/go_home', self._on_go_home)
+        port.every(1.0 / given.rate, self._tick)
+        port.watch_inputs(given.stop_after, self._watch)
 
     def _join(self, given: MotionGeneratorParameters) -> ReservationExchange:
-        name = given.tree_name or self.get_namespace().strip('/')
-        return ReservationExchange(self, self._agent, given.sharing(), name, given.peers_file)
+        name = given.tree_name or self.port.namespace.strip('/')
+        return ReservationExchange(self.port, self._agent, given, name)
 
     def begin(self) -> None:
         """Know nothing of before; tell where the tree means to go, and what it remembers."""
         self._sap_flow = self._pose = self._thought = None
-        self._commanded_at = self._looked_at = self.seconds()
+        self._commanded_at = self._looked_at = self.port.seconds()
         self._guard.release()
         self._lost = 'sap flow'
         self._judge()
@@ -208,21 +206,21 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _look_for_block(self) -> None:
         """Find out whether the tree has moved as it was told."""
-        given, guard, now = self.parameters, self._guard, self.seconds()
+        given, guard, now = self.parameters, self._guard, self.port.seconds()
         guard.watch.parameters = given.blocked
         dt = min(max(now - self._looked_at, 0.0), 2.0 / given.rate)
         self._looked_at = now
         before = guard.reason
         if guard.update(None if self._lost else self._pose, self._twist, dt):
-            self.get_logger().error(guard.reason)
+            self.port.error(guard.reason)
         elif before and not guard.reason:
-            self.get_logger().info('blocked before: trying again')
+            self.port.info('blocked before: trying again')
 
     def _watch(self) -> None:
         """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
         silent = [n for n, watch in self._watches.items() if watch.tell() is Silence.LOST]
         before, self._lost = self._lost, silent[0] if silent else ''
-        if self._lost and (self.clock.fault or not before):
+        if self._lost and (self.port.clock.fault or not before):
             self._tick()
 
     def _heard(self, watch: InputWatch) -> None:
@@ -243,7 +241,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         if not self._valid:
             return 'resting: a probe cannot be believed'
         if self._lost or self._sap_flow is None or self._pose is None:
-            return f'resting: {self.clock.fault or "no " + (self._lost or "input")}'
+            return f'resting: {self.port.clock.fault or "no " + (self._lost or "input")}'
         return self._guard.reason
 
     def _move(self) -> None:
@@ -253,7 +251,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
             if self._company is not None and self._pose is not None:
                 self._company.stay(self._pose, fresh=not self._lost)
             return
-        now = self.seconds()
+        now = self.port.seconds()
         decision = self._decide(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
@@ -273,28 +271,25 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
 
     def _publish(self, limited: Limited, state: str) -> None:
         # when it is said, not when thinking of it began: by their stamps the rates hold
-        self._limited_by, self._commanded_at = limited.by, self.seconds()
+        self._limited_by, self._commanded_at = limited.by, self.port.seconds()
         self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
-        self._tell_twist(self._twist)
+        self._command(self._twist)
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
         if state != self._told:
             self._told = state
             self._state.publish(String(data=state))
 
-    def _tell_twist(self, twist: Twist) -> None:
-        self._command.publish(twist)
-
     def _tell_goal(self, goal: Goal | None) -> None:
         """Publish and log a new goal with its reason, and why others were not taken."""
         self._told_goal = goal
         for refusal in self._agent.refusals:
-            self.get_logger().info(f'no goal: {refusal}')
+            self.port.info(f'no goal: {refusal}')
         if goal is None:
             return
-        self.get_logger().info(f'goal: {goal.reason}')
+        self.port.info(f'goal: {goal.reason}')
         message = PoseStamped()
-        self.stamp(message)
+        self.port.stamp(message)
         message.header.frame_id = self.parameters.map_frame
         fill_pose(message.pose, Pose(*goal.place, 0.0))
         self._goal_publisher.publish(message)
@@ -303,7 +298,7 @@ class MotionGenerator(ManagedNode[MotionGeneratorParameters]):
         self._published_path = path
         message = Path()
         message.header.frame_id = self.parameters.map_frame
-        self.stamp(message)
+        self.port.stamp(message)
         fill_path(message, [Pose(x, y, 0.0) for x, y in path])
         self._path.publish(message)
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from agv_motion.odometry.continuity import Step
     from agv_motion.odometry.wheel_fault import WheelDiagnosis
     from agv_motion.planar import Twist
+    from agv_motion.ros.port import Port
 
 
 @dataclass(frozen=True)
@@ -46,26 +47,26 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
     Odometry does without a wheel that is missing or, of four or more, faulty, and says so.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('omni_kinematics', OmniKinematicsParameters, **kwargs)
+    name = 'omni_kinematics'
+    takes = OmniKinematicsParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: OmniKinematicsParameters) -> None:
         """Build the kinematics and the odometry, and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self._wheels = given.wheels()
         self._odometry = OmniOdometry(self._wheels, given.wheel_radii, given.odometry)
         self._monitor = WheelMonitor(self._wheels, given.wheel_radii, given.odometry)
         self._diagnosis: WheelDiagnosis = SOUND
-        self._free = self.publisher(JointState, 'wheels/free_speed', SENSOR)
-        self._slip = self.publisher(Float64, 'wheels/residual', SENSOR)
+        self._free = port.publisher(JointState, 'wheels/free_speed', SENSOR)
+        self._slip = port.publisher(Float64, 'wheels/residual', SENSOR)
         self.open_wheels(
             given.joint_names,
             given.wheel_radii,
             self._odometry.reckoning,
             self._wheels.matrix.tolist(),
         )
-        self.every(1.0, self._look_for_faults)
+        port.every(1.0, self._look_for_faults)
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of slip and of wheels that odometry does without."""
@@ -125,7 +126,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         if faulty != self._odometry.faulty:
             self._odometry.faulty = faulty
             (name,) = self._names(faulty) or ('every wheel',)
-            self.get_logger().error(
+            self.port.error(
                 f'{name} measures what the others do not: odometry goes on without it'
                 if faulty
                 else 'all wheels agree again: odometry uses each of them'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Imu, JointState
@@ -22,6 +22,9 @@ from agv_motion.ros.wheel_joints import WheelJoints
 from agv_motion.simulation.gyro import Gyro, GyroParameters
 from agv_motion.simulation.omni import OmniRobot, OmniRobotParameters
 from agv_motion.simulation.uwb import Uwb, UwbParameters
+
+if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
 
 
 @dataclass(frozen=True)
@@ -78,18 +81,17 @@ class OmniSimulatorParameters(SimulatedParameters, OmniBaseParameters):
 class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
     """`wheels/command` -> `wheels/state`, `fix`, `imu`, `ground_truth`, `/clock`."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('omni_simulator', OmniSimulatorParameters, **kwargs)
+    name = 'omni_simulator'
+    takes = OmniSimulatorParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: OmniSimulatorParameters) -> None:
         """Put the robot at its start and open the topics."""
-        self._joints = WheelJoints(self.parameters.joint_names)
-        super().open()
-        self._state = self.publisher(JointState, 'wheels/state', SENSOR, sole=True)
-        self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
-        self._imu = self.publisher(Imu, 'imu', SENSOR)
-        self.listen(JointState, 'wheels/command', self._on_command, COMMAND)
+        super().__init__(port, parameters)
+        self._joints = WheelJoints(parameters.joint_names)
+        self._state = port.publisher(JointState, 'wheels/state', SENSOR, sole=True)
+        self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
+        self._imu = port.publisher(Imu, 'imu', SENSOR)
+        port.listen(JointState, 'wheels/command', self._on_command, COMMAND)
 
     def accept(self, parameters: OmniSimulatorParameters) -> None:
         """Break or mend an encoder."""

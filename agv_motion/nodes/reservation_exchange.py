@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rclpy.qos import QoSProfile
 from visualization_msgs.msg import MarkerArray
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from agv_motion.motion.behavior.agent import Agent
     from agv_motion.motion.behavior.decision import Decision
     from agv_motion.motion.behavior.sap_flow import SapFlow
-    from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+    from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
     from agv_motion.planar import Pose
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.port import Port
 
 WAYS = QoSProfile(depth=50)
 """All trees speak on one topic; none of their words may be dropped for another's."""
@@ -35,21 +35,15 @@ class ReservationExchange:
     """Joins a node to the other trees on `/reservations`, once the tree knows where it is."""
 
     def __init__(
-        self,
-        node: ManagedNode[Any],
-        agent: Agent,
-        parameters: TrafficParameters,
-        name: str,
-        peers_file: str,
+        self, port: Port, agent: Agent, given: MotionGeneratorParameters, name: str
     ) -> None:
         """Open the topic.
 
         Args:
-            node: Which needs the company.
+            port: Of the node.
             agent: What decides, in a zone.
-            parameters: How trees share the zone.
+            given: How trees share the zone, and where their names are kept over a restart.
             name: Of this tree, different from every other's.
-            peers_file: Where the names of the others are kept over a restart; empty: nowhere.
 
         Raises:
             ConfigurationError: There is no zone to share, the tree has no name, or knows of nobody
@@ -62,9 +56,10 @@ class ReservationExchange:
         if not name:
             msg = 'share_zone without a name: start the node in a namespace, or give tree_name'
             raise ConfigurationError(msg)
+        parameters, peers_file = given.sharing(), given.peers_file
         self._roster = Roster(peers_file)
         if self._roster.complaint:
-            node.get_logger().error(self._roster.complaint)
+            port.error(self._roster.complaint)
         if not {*parameters.expected, *self._roster.names} - {name}:
             where = f"peers_file '{peers_file}' remembers" if peers_file else 'no peers_file tells'
             msg = (
@@ -72,16 +67,16 @@ class ReservationExchange:
                 'traffic.expected, else this one would walk into any that it does not hear yet'
             )
             raise ConfigurationError(msg)
-        self._node, self._agent, self._parameters = node, agent, parameters
+        self._port, self._agent, self._parameters = port, agent, parameters
         self._zone, self._paths = agent.zone, PathPlanner(agent.zone)
-        self._name, self._frame = name, node.parameters.map_frame
-        self._lived = LivedTime(max(TELL_EVERY, 2.0 / node.parameters.rate))
-        self._simulated = bool(node.get_parameter('use_sim_time').value)
+        self._name, self._frame = name, given.map_frame
+        self._lived = LivedTime(max(TELL_EVERY, 2.0 / given.rate))
+        self._simulated = port.is_simulated
         self._company: Company | None = None
         self._told: object = None
         self._told_at = -TELL_EVERY
-        self._publisher = node.publisher(MarkerArray, '/reservations', WAYS)
-        node.listen(MarkerArray, '/reservations', self._on_reservation, WAYS)
+        self._publisher = port.publisher(MarkerArray, '/reservations', WAYS)
+        port.listen(MarkerArray, '/reservations', self._on_reservation, WAYS)
 
     def decide(self, time: float, pose: Pose, flow: SapFlow) -> Decision:
         """Return what to do, as far as the others let the tree; see :meth:`Company.decide`."""
@@ -130,9 +125,9 @@ class ReservationExchange:
 
         The steady clock always counts, and a simulated one where it goes faster: then trees too do.
         """
-        node = self._node
-        simulated = [node.seconds()] if self._simulated else []
-        return self._lived.update(node.steady_seconds(), *simulated)
+        port = self._port
+        simulated = [port.seconds()] if self._simulated else []
+        return self._lived.update(port.steady_seconds(), *simulated)
 
     def _joined(self, pose: Pose) -> Company:
         if self._company is None:
@@ -154,7 +149,7 @@ class ReservationExchange:
         assert self._company is not None
         traffic = self._company.traffic
         self._told, self._told_at = traffic.right.requested, now
-        message = reservation_message(traffic.reservation(now), self._frame, self._node.seconds())
+        message = reservation_message(traffic.reservation(now), self._frame, self._port.seconds())
         self._publisher.publish(message)
 
     def _on_reservation(self, message: MarkerArray) -> None:
@@ -177,4 +172,4 @@ class ReservationExchange:
             try:  # before this tree tells it that it was heard
                 self._roster.add(reservation.name)
             except ConfigurationError as error:
-                self._node.refuse(str(error))
+                self._port.refuse(str(error))

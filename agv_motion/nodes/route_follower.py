@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import isinf
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PointStamped
@@ -25,6 +25,9 @@ from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Point, Route
 from agv_motion.route.route_file import load_route
 from agv_motion.twist_limits import TwistLimits
+
+if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
 
 IDLE = 'waiting for a route'
 
@@ -54,30 +57,29 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
     state_topic = 'route/state'
     release = 'call ~/pause with data: false, or send a route'
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('route_follower', RouteFollowerParameters, **kwargs)
+    name = 'route_follower'
+    takes = RouteFollowerParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: RouteFollowerParameters) -> None:
         """Open the topics; load the route if there is a file."""
-        super().open()
+        super().__init__(port, parameters)
         self._follower: RouteFollower | None = None
         self._route: Route | None = None
         self._ended = IDLE
         self._paused = False
-        self._point = self.publisher(PointStamped, 'route/virtual_point', SENSOR)
-        self._limits = self.publisher(DiagnosticStatus, 'route/limits', SENSOR)
-        self._path = self.publisher(Path, 'route/path', LATCHED)
-        self.listen(Path, 'route', self._on_route, COMMAND)
-        self.serve(SetBool, '~/pause', self._on_pause)
-        self.serve(Trigger, '~/abort', self._on_abort)
-        self.serve(Trigger, '~/restart', self._on_restart)
-        warning = self.parameters.follow.orbit()
+        self._point = port.publisher(PointStamped, 'route/virtual_point', SENSOR)
+        self._limits = port.publisher(DiagnosticStatus, 'route/limits', SENSOR)
+        self._path = port.publisher(Path, 'route/path', LATCHED)
+        port.listen(Path, 'route', self._on_route, COMMAND)
+        port.serve(SetBool, '~/pause', self._on_pause)
+        port.serve(Trigger, '~/abort', self._on_abort)
+        port.serve(Trigger, '~/restart', self._on_restart)
+        warning = parameters.follow.orbit()
         if warning:
-            self.get_logger().warning(warning)
-        if self.parameters.route_file:
-            self._route = _loaded(self.parameters)
-            self._follower = RouteFollower(self._route, self.parameters.follow)
+            port.warning(warning)
+        if parameters.route_file:
+            self._route = _loaded(parameters)
+            self._follower = RouteFollower(self._route, parameters.follow)
 
     def begin(self) -> None:
         """Show the route, if there is one already."""
@@ -135,7 +137,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def _publish(self, point: Point, limits: Limits) -> None:
         message = PointStamped()
-        self.stamp(message)
+        self.port.stamp(message)
         message.header.frame_id = self.parameters.frame
         message.point.x, message.point.y = point
         self._point.publish(message)
@@ -147,7 +149,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
             }
             self._limits.publish(
                 DiagnosticStatus(
-                    name=f'{self.get_name()}: what holds the speed down',
+                    name=f'{self.port.name}: what holds the speed down',
                     message=limits.limiter.value,
                     values=[KeyValue(key=key, value=value) for key, value in pairs.items()],
                 )
@@ -156,7 +158,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
     def _end(self, how: str) -> None:
         self._follower = None
         self._ended = how
-        self.get_logger().info(how)
+        self.port.info(how)
         self.tell(how)
 
     def _follow(self, route: Route, parameters: FollowParameters) -> None:
@@ -170,12 +172,12 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def _show(self, route: Route) -> None:
         message = Path()
-        self.stamp(message)
+        self.port.stamp(message)
         message.header.frame_id = self.parameters.frame
         fill_path(message, [Pose(x, y, 0.0) for x, y in route.waypoints])
         self._path.publish(message)
         laps = 'without end' if isinf(route.length) else f'{route.length:.1f} m'
-        self.get_logger().info(f'route of {len(route.waypoints)} waypoints, {laps}')
+        self.port.info(f'route of {len(route.waypoints)} waypoints, {laps}')
 
     def _on_route(self, message: Path) -> None:
         self.require_frame(message.header.frame_id)
@@ -200,7 +202,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def _on_restart(self, _: Any) -> str:
         if self._route is None:
-            msg = f'there has been no route: publish one on {self.resolve_topic_name("route")}'
+            msg = f'there has been no route: publish one on {self.port.full_name("route")}'
             raise SignalError(msg)
         self._follow(self._route, self.parameters.follow)
         return 'from the start of the route'

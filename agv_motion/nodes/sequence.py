@@ -26,8 +26,10 @@ from agv_motion.sequence.sequence_file import load_sequence
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
     from agv_motion.sequence.prediction import Predicted
     from agv_motion.twist_limits import TwistLimits
+
 
 TOLD_EVERY = 0.2
 """[s] between two words on progress."""
@@ -55,29 +57,28 @@ class SequenceNode(DrivingNode[SequenceParameters]):
     state_topic = 'sequence/state'
     release = 'start it again'
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('sequence', SequenceParameters, **kwargs)
+    name = 'sequence'
+    takes = SequenceParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: SequenceParameters) -> None:
         """Open the topics; look at the file, if there is one."""
-        super().open()
+        super().__init__(port, parameters)
         self.runner: SequenceRunner | None = None
         """What is running, or has run"""
         self.predicted: list[Predicted] = []
         """What it was to take"""
         self.refusal = ''
         """Why it did not start by itself"""
-        self._armed = self.parameters.autorun
+        self._armed = parameters.autorun
         self._untold = 0.0
-        self._status = self.publisher(DiagnosticStatus, 'sequence/status', LATCHED)
-        self._progress = self.publisher(Float64, 'sequence/progress', SENSOR)
-        self._path = self.publisher(Path, 'sequence/path', LATCHED)
-        self.serve(Trigger, '~/start', self._on_start)
-        self.serve(SetBool, '~/pause', self._on_pause)
-        self.serve(Trigger, '~/abort', self._on_abort)
-        if self.parameters.file:
-            load_sequence(find_config(self.parameters.file))
+        self._status = port.publisher(DiagnosticStatus, 'sequence/status', LATCHED)
+        self._progress = port.publisher(Float64, 'sequence/progress', SENSOR)
+        self._path = port.publisher(Path, 'sequence/path', LATCHED)
+        port.serve(Trigger, '~/start', self._on_start)
+        port.serve(SetBool, '~/pause', self._on_pause)
+        port.serve(Trigger, '~/abort', self._on_abort)
+        if parameters.file:
+            load_sequence(find_config(parameters.file))
         elif self._armed:
             msg = 'autorun without a file: give the parameter file'
             raise ConfigurationError(msg)
@@ -124,21 +125,21 @@ class SequenceNode(DrivingNode[SequenceParameters]):
             self.guard.release()
         self.drive(runner.update(None if self.obstacle else self.pose_now(), dt))
         if runner.status.reason != reason:
-            self.get_logger().error(runner.status.reason)
+            self.port.error(runner.status.reason)
         self.tell(self._words(runner))
         self._untold += dt
         if runner.ended or runner.status.number != number or self._untold >= TOLD_EVERY:
             self._report(runner)
         if runner.ended:
             self.stand()
-            self.get_logger().info(self.told)
+            self.port.info(self.told)
 
     def _start_by_itself(self) -> None:
         try:
-            self.get_logger().info(self._on_start(None))
+            self.port.info(self._on_start(None))
         except AgvMotionError as error:
-            self.refusal = self.message_of(error)
-            self.get_logger().error(f'cannot start: {self.refusal}')
+            self.refusal = self.port.message_of(error)
+            self.port.error(f'cannot start: {self.refusal}')
             self.tell(f'cannot start: {self.refusal}')
 
     def share_done(self) -> float:
@@ -186,7 +187,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         self._status.publish(
             DiagnosticStatus(
                 level=ERROR if status.state is Running.FAILED else OK,
-                name=self.get_name(),
+                name=self.port.name,
                 message=self.told,
                 values=[KeyValue(key=key, value=value) for key, value in pairs.items()],
             )
@@ -206,14 +207,14 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         self.runner = SequenceRunner(sequence, given.tracking, given.follow)
         self.predicted = predicted
         for warning in filter(None, (each.warning for each in predicted)):
-            self.get_logger().warning(warning)
+            self.port.warning(warning)
         self._show(predicted)
         total = sum(each.duration for each in predicted)
         return f'{sequence.name}: {len(sequence.steps)} actions, about {total:.0f} s'
 
     def _show(self, predicted: list[Predicted]) -> None:
         message = Path()
-        self.stamp(message)
+        self.port.stamp(message)
         message.header.frame_id = self.parameters.frame
         fill_path(message, [pose for each in predicted for pose in each.poses])
         self._path.publish(message)

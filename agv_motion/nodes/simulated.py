@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Protocol, TypeVar
 
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
-from rclpy.clock import Clock, ClockType
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import SetBool, Trigger
@@ -18,11 +17,14 @@ from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import SENSOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from agv_motion.ros.port import Port
+
 
 FASTEST = 1e4
 """[rad/s, rad] Rate of a motor, and angle of a turret, beyond which a command is none."""
@@ -112,7 +114,7 @@ def require_possible(rates: Sequence[float], angles: Sequence[float] = ()) -> No
             raise SignalError(msg)
 
 
-class SimulatedNode(ManagedNode[P]):
+class SimulatedNode(PlainNode[P]):
     """Lets time pass in steps; a node overrides `reset`, `step`, `let_go` and `show`."""
 
     # What a node overrides
@@ -135,24 +137,24 @@ class SimulatedNode(ManagedNode[P]):
 
     # What a node uses
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: P) -> None:
         """Put the robot at its start, and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         self._paused, self._clocks = False, 1
         self._commanded_at: tuple[float, float] | None = None
         self._put_at_start()
-        self._truth = self.publisher(Odometry, 'ground_truth', SENSOR, sole=True)
-        self.serve(SetBool, '~/pause', self._on_pause)
-        self.serve(Trigger, '~/reset', self._on_reset)
-        self.serve(SetMap, '~/carry', self._on_carry)
+        self._truth = port.publisher(Odometry, 'ground_truth', SENSOR, sole=True)
+        port.serve(SetBool, '~/pause', self._on_pause)
+        port.serve(Trigger, '~/reset', self._on_reset)
+        port.serve(SetMap, '~/carry', self._on_carry)
         if given.clock == 'follow':
-            self.listen(ClockMessage, '/clock', self._follow, CLOCK)
+            port.listen(ClockMessage, '/clock', self._follow, CLOCK)
             return
-        self._clock_publisher = self.publisher(ClockMessage, '/clock', CLOCK)
+        self._clock_publisher = port.publisher(ClockMessage, '/clock', CLOCK)
         period = 1.0 / (given.rate * given.time_factor)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.every(period, self._lead, steady)
-        self.every(1.0, self._watch_clocks, steady)
+        port.every(period, self._lead, steady=True)
+        port.every(1.0, self._watch_clocks, steady=True)
 
     def begin(self) -> None:
         """Stand until a command comes: the last one may be hours old."""
@@ -166,7 +168,8 @@ class SimulatedNode(ManagedNode[P]):
             level, word = ERROR, f'{self._clocks} nodes tell the time on /clock'
         time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
         commanded = 'no' if self._commanded_at is None else 'yes'
-        return Diagnosis(level, word, {'simulated time': time, 'commanded': commanded})
+        values = {'simulated time': time, 'commanded': commanded}
+        return Diagnosis(level, word, values, self._nanoseconds(self.steps))
 
     @property
     def elapsed(self) -> float:
@@ -178,16 +181,9 @@ class SimulatedNode(ManagedNode[P]):
         """Simulated time, since 1970 [s]."""
         return self._nanoseconds(self.steps) * 1e-9
 
-    def stamp(self, message: Any) -> float:
-        """Set the stamp of a message's header to the time that this node makes; return it [s]."""
-        if not self.active:
-            return super().stamp(message)
-        message.header.stamp = stamp_of(self._nanoseconds(self.steps))
-        return self.time
-
     def note_command(self) -> None:
         """Feed the watchdog of the motors."""
-        self._commanded_at = self.steady_seconds(), self.elapsed
+        self._commanded_at = self.port.steady_seconds(), self.elapsed
 
     def carry_to(self, pose: Pose) -> None:
         """Lift the robot and set it down elsewhere, its wheels still."""
@@ -216,9 +212,9 @@ class SimulatedNode(ManagedNode[P]):
 
     def _watch_clocks(self) -> None:
         """Tell when another node makes time pass as well: it would leap to and fro."""
-        self._clocks = self.count_publishers('/clock')
+        self._clocks = self.port.count_publishers('/clock')
         if self._clocks > 1:
-            self.get_logger().error(
+            self.port.error(
                 f'{self._clocks} nodes tell the time on /clock, which leaps to and fro: let all '
                 'simulators but one follow (clock: follow), or choose another ROS_DOMAIN_ID',
                 throttle_duration_sec=10.0,
@@ -244,11 +240,11 @@ class SimulatedNode(ManagedNode[P]):
         if self._commanded_at is None:
             return
         steady, elapsed = self._commanded_at
-        silent = min(self.steady_seconds() - steady, self.elapsed - elapsed)
+        silent = min(self.port.steady_seconds() - steady, self.elapsed - elapsed)
         if silent >= self.parameters.command_timeout:
             self._commanded_at = None
             self.let_go()
-            self.get_logger().warning(f'no command for {silent:.2f} s: the motors stop')
+            self.port.warning(f'no command for {silent:.2f} s: the motors stop')
 
     def _step(self) -> None:
         """Let the robot go on by one step, and publish what there is to see."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Illuminance, JointState
@@ -19,6 +19,9 @@ from agv_motion.simulation.fixes import FixParameters, FixSensor
 from agv_motion.simulation.shade import LUX_PER_WATT, Obstacle, irradiance
 from agv_motion.simulation.sun import sun
 from agv_motion.simulation.turret_platform import MotorParameters, TurretPlatform
+
+if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
 
 
 @dataclass(frozen=True)
@@ -66,20 +69,18 @@ class SimulatorParameters(SimulatedParameters, PlatformParameters):
 class Simulator(SimulatedNode[SimulatorParameters]):
     """`turrets/command` -> `turrets/state`, `fix`, `ground_truth`, `sunlight` and `/clock`."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('simulator', SimulatorParameters, **kwargs)
+    name = 'simulator'
+    takes = SimulatorParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: SimulatorParameters) -> None:
         """Put the platform at its start and open the topics."""
-        given = self.parameters
-        self._obstacles = given.obstacles()
-        self._joints = TurretJoints(len(given.turret_x))
-        super().open()
-        self._state = self.publisher(JointState, 'turrets/state', SENSOR, sole=True)
-        self._fix = self.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
-        self._sunlight = self.publisher(Illuminance, 'sunlight', SENSOR)
-        self.listen(JointState, 'turrets/command', self._on_command, COMMAND)
+        super().__init__(port, parameters)
+        self._obstacles = parameters.obstacles()
+        self._joints = TurretJoints(len(parameters.turret_x))
+        self._state = port.publisher(JointState, 'turrets/state', SENSOR, sole=True)
+        self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
+        self._sunlight = port.publisher(Illuminance, 'sunlight', SENSOR)
+        port.listen(JointState, 'turrets/command', self._on_command, COMMAND)
 
     def reset(self) -> TurretPlatform:
         """Return a platform at its start, its turrets straight."""

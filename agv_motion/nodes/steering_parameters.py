@@ -71,3 +71,7 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
                 f'{len(self.turret_x)} turrets, or none'
             )
             raise ConfigurationError(msg)
+
+    def zeros(self) -> tuple[float, ...]:
+        """Return what each steering angle reads too little [rad]."""
+        return self.steering_zero or (0.0,) * len(self.turret_x)

@@ -4,42 +4,41 @@ from __future__ import annotations
 
 from array import array
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import Twist as TwistMessage
-from geometry_msgs.msg import TwistStamped
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray, String
+from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering import Limiter, SteeringController
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
-from agv_motion.odometry.turret_odometry import TurretOdometry
+from agv_motion.nodes.turret_states import TurretStates
 from agv_motion.planar import REST, Twist
-from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import (
     TurretJoints,
-    fill_pose,
-    fill_twist,
     require_frame,
-    seconds_of,
+    stamp_of,
     twist_of,
 )
-from agv_motion.ros.node import ManagedNode
-from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
+from agv_motion.ros.plain_node import PlainNode
+from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
+from agv_motion.ros.turret_rows import TurretRows
+from agv_motion.ros.twist_rows import TwistRows
 from agv_motion.watchdog import Silence
+
+if TYPE_CHECKING:
+    from agv_motion.ros.port import Port
 
 SOONEST = 0.4
 """[-] A step shorter than this share of the last one waits: limits of acceleration want even steps.
 """
 
 
-class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
+class WheelKinematics(PlainNode[WheelKinematicsParameters]):
     """`cmd_vel` -> `turrets/command`, `cmd_vel/limited`; `turrets/state` -> `odom`, ...
 
     The steering planner brings the wheels to the wanted twist with one centre of rotation at every
@@ -50,50 +49,44 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
     explicit zero speed with the steering angles held.
     """
 
-    def __init__(self, **kwargs: Any) -> None:
-        """Declare the parameters."""
-        super().__init__('wheel_kinematics', WheelKinematicsParameters, **kwargs)
+    name = 'wheel_kinematics'
+    takes = WheelKinematicsParameters
 
-    def open(self) -> None:
+    def __init__(self, port: Port, parameters: WheelKinematicsParameters) -> None:
         """Build the kinematics and open the topics."""
-        given = self.parameters
+        super().__init__(port, parameters)
+        given = parameters
         turrets = given.turrets()
-        self._zero = given.steering_zero or (0.0,) * len(turrets)
+        self._zero = given.zeros()
         self._period = 1.0 / given.rate
         self._driving = SteeringController(turrets, given, self._period, given.unwind_after)
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._command_watch = InputWatch(self, 'cmd_vel', limits)
-        self._state_watch = InputWatch(self, 'turrets/state', limits, 'look at the encoders')
+        self._command_watch = InputWatch(port, 'cmd_vel', limits)
+        self._state_watch = InputWatch(port, 'turrets/state', limits, 'look at the encoders')
         self._blind = False
         self._joints = TurretJoints(len(turrets))
         self._stopped_by = ''
         self._residual = 0.0
-        self._reckoning = TurretOdometry(
-            turrets, given.wheel_noise, given.max_measured_speed, given.max_gap
-        )
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
-        self._message = self._joints.message()
-        self._message.header.frame_id = given.base_frame
-        self._odometry_message = Odometry(child_frame_id=given.base_frame)
-        self._odometry_message.header.frame_id = given.odom_frame
-        self._command = self.publisher(JointState, 'turrets/command', COMMAND, sole=True)
-        self._limited_message = TwistStamped(header=self._message.header)
-        self._limited = self.publisher(TwistStamped, 'cmd_vel/limited', COMMAND)
-        self._steering = self.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
-        self._wheels = self.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
-        self._limits = self.publisher(String, 'turrets/limiter', LATCHED)
-        self._fight = self.publisher(Float64, 'turrets/residual', SENSOR)
-        self._odometry = self.publisher(Odometry, 'odom', SENSOR, sole=True)
+        self._instant = 0
+        """for which the last command was planned [ns]"""
+        rows = TurretRows(self._joints, len(turrets), given.base_frame)
+        self._command = port.row_publisher(rows, 'turrets/command', COMMAND, sole=True)
+        twists = TwistRows(given.base_frame)
+        self._limited = port.row_publisher(twists, 'cmd_vel/limited', COMMAND)
+        self._steering = port.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
+        self._wheels = port.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
+        self._limits = port.publisher(String, 'turrets/limiter', LATCHED)
         if given.stamped:
-            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
+            port.listen_to_rows(twists, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
-            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
-        self.listen(JointState, 'turrets/state', self._on_state, SENSOR)
-        self.serve(SetBool, '~/stop', self._on_stop)
-        self.serve(Trigger, '~/unwind', self._on_unwind)
-        self.every(self._period, self._go_on)
-        self.watch_inputs(given.stop_after, self._watch)
+            port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        TurretStates(port, given, self._joints, self, self._state_watch)
+        port.serve(SetBool, '~/stop', self._on_stop)
+        port.serve(Trigger, '~/unwind', self._on_unwind)
+        port.every(self._period, self._go_on)
+        port.watch_inputs(given.stop_after, self._watch)
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
@@ -130,23 +123,20 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             return f'stopped: {self._stopped_by}'
         return 'stopped: turrets/state is lost' if self._blind else self._driving.unbelievable
 
-    def _on_stamped_twist(self, message: TwistStamped) -> None:
-        self._take_twist(twist_of(message.twist), message.header.frame_id, message.header.stamp)
-
-    def _on_twist(self, message: TwistMessage) -> None:
-        self._drive(twist_of(message))
-
-    def _take_twist(self, twist: Twist, frame: str, stamp: Any) -> None:
+    def _on_stamped_twist(self, twist: Twist, frame: str, stamp: int) -> None:
         """Drive as a twist says that is news; obey a stop however old it is."""
         if twist == REST:
             self._driving.set_target(twist)
         require_frame(frame, self.parameters.base_frame)
-        if self._command_watch.is_news(stamp):
+        if self._command_watch.is_new(stamp):
             self._drive(twist)
+
+    def _on_twist(self, message: TwistMessage) -> None:
+        self._drive(twist_of(message))
 
     def _drive(self, twist: Twist) -> None:
         """Answer a twist with a command at once, while the clock can be believed."""
-        if self.clock.fault:
+        if self.port.clock.fault:
             return
         self._driving.set_target(twist)
         setpoints = self._driving.setpoints
@@ -169,8 +159,8 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
 
     def _step(self, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
-        now = self.stamp(self._message)  # a command is stamped with the instant it is planned for
-        if not self._driving.step(now, soonest):
+        self._instant = self.port.nanoseconds()  # for which it is planned is what a command tells
+        if not self._driving.step(self._instant * 1e-9, soonest):
             return False
         setpoints = self._driving.setpoints
         if setpoints is not None and setpoints.limiter is not self._limiter:
@@ -187,15 +177,11 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         factor = share / self.parameters.wheel_radius
         rates = [factor * speed for speed in setpoints.speeds]
         angles = [angle - zero for angle, zero in zip(setpoints.angles, self._zero, strict=True)]
-        self._tell_turrets(angles, rates)
+        self._command.publish((angles, rates), self._instant)
         self._tell_limited()
         if self._arrays_wanted:
             self._steering.publish(Float64MultiArray(data=array('d', angles)))
             self._wheels.publish(Float64MultiArray(data=array('d', rates)))
-
-    def _tell_turrets(self, angles: list[float], rates: list[float]) -> None:
-        self._joints.fill(self._message, angles, rates)
-        self._command.publish(self._message)
 
     def _tell_limited(self) -> None:
         """Tell where someone listens what twist is commanded in truth, after all limits."""
@@ -206,8 +192,7 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             share = driving.share()
             vx, vy, wz = driving.setpoints.twist(driving.planner.turrets)
             twist = Twist(share * vx, share * vy, share * wz)
-        fill_twist(self._limited_message.twist, twist)
-        self._limited.publish(self._limited_message)
+        self._limited.publish(twist, self._instant)
 
     def _watch(self) -> None:
         """Stop when `cmd_vel` falls silent; say so before."""
@@ -215,21 +200,20 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
         self._arrays_wanted = listeners > 0
         self._blind = self._state_watch.tell() is Silence.LOST and self._state_watch.spoken
         lost = self._command_watch.tell() is Silence.LOST
-        if self._blind or self.clock.fault or (lost and not self._driving.unwinding):
+        if self._blind or self.port.clock.fault or (lost and not self._driving.unwinding):
             self._stand_still()
 
     def _stand_still(self) -> None:
         """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
         self._driving.stop()
+        self._instant = self.port.nanoseconds()
         if self._driving.setpoints is None:
             message = self._joints.standstill()
             message.header.frame_id = self.parameters.base_frame
-            self.stamp(message)
-            self._command.publish(message)
-            self._message.header.stamp = message.header.stamp
+            message.header.stamp = stamp_of(self._instant)
+            self._command.publish_message(message)
             self._tell_limited()
         else:
-            self.stamp(self._message)
             self._send()
 
     def _on_stop(self, request: Any) -> str:
@@ -246,45 +230,20 @@ class WheelKinematics(ManagedNode[WheelKinematicsParameters]):
             raise ConfigurationError(msg)
         return self._driving.unwind()
 
-    def _on_state(self, message: JointState) -> None:
-        """Fit the twist that the turrets really make, and carry the odometry on.
-
-        A state that does not follow the last, see `continuity`, is no news of anything.
-        """
-        state, radius = self._joints.read_state(message), self.parameters.wheel_radius
-        news = self._state_watch.is_news(message.header.stamp)
-        angles = [angle + zero for angle, zero in zip(state.angles, self._zero, strict=True)]
-        speeds = [rate * radius for rate in state.rates]
-        rolled = [angle * radius for angle in state.turned]
-        stamp, odometry = message.header.stamp, self._odometry_message
-        reckoned = self._reckoning.update(seconds_of(stamp), angles, speeds, rolled)
-        if state.wrong:
-            self.refuse(f'turrets/state: {state.wrong}; going by the angles of the wheels')
-        if not reckoned.step.used:
-            return
-        if news:
-            self._note_angles(angles)
-        self._fight.publish(Float64(data=reckoned.residual))
-        self._judge_residual(reckoned.residual)
-        odometry.header.stamp = stamp
-        fill_pose(odometry.pose.pose, reckoned.pose)
-        fill_covariance(odometry.pose.covariance, reckoned.covariance)
-        fill_twist(odometry.twist.twist, reckoned.twist)
-        self._odometry.publish(odometry)
-
-    def _note_angles(self, angles: list[float]) -> None:
+    def note_angles(self, angles: list[float]) -> None:
+        """Take up the angles of the turrets."""
         first = self._driving.measured is None
         self._driving.set_measured(angles)
         self._state_watch.note()
         if first and self._driving.overturned():
-            self.get_logger().warning(self._driving.overturned())
+            self.port.warning(self._driving.overturned())
 
-    def _judge_residual(self, residual: float) -> None:
+    def note_residual(self, residual: float) -> None:
         """Stop when the turrets fight too hard."""
         self._residual = residual
         if residual > self.parameters.residual_stop and not self._stopped_by:
             self._stopped_by = f'turrets fight by {residual:.4f} m/s'
-            self.get_logger().error(
+            self.port.error(
                 f'{self._stopped_by}, limit {self.parameters.residual_stop} m/s: stopped; '
                 'look at the turrets, then call ~/stop with data: false'
             )

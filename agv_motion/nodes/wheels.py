@@ -15,7 +15,6 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from geometry_msgs.msg import Twist as TwistMessage
-from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
 from sensor_msgs.msg import JointState
@@ -40,10 +39,12 @@ from agv_motion.ros.messages import (
     pose_of,
     require_frame,
     seconds_of,
+    stamp_of,
     twist_of,
 )
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, SENSOR
+from agv_motion.ros.twist_rows import TwistRows
 from agv_motion.ros.wheel_joints import WheelJoints
 from agv_motion.watchdog import Silence
 
@@ -87,7 +88,7 @@ class WheelsParameters(WheelLimits):
 P = TypeVar('P', bound=WheelsParameters)
 
 
-class WheelsNode(ManagedNode[P]):
+class WheelsNode(PlainNode[P]):
     """`cmd_vel` -> `wheels/command`; `wheels/state` -> `odom`.
 
     A node opens with `open_wheels`, and overrides `rates` and `carry`. `cmd_vel/limited` tells what
@@ -132,11 +133,9 @@ class WheelsNode(ManagedNode[P]):
             rows: (n, 3) rim speeds [m/s] of unit vx, vy and wz.
 
         """
-        given = self.parameters
+        given, port = self.parameters, self.port
         self._ramp = TwistRamp(rows, given)
         self._ramped_at, self._settled = -inf, True
-        self._limited_message = TwistStamped()
-        self._limited_message.header.frame_id = given.base_frame
         self.joints = WheelJoints(joint_names)
         self.stopped = self.blind = False
         self.last_step = Step.FIRST
@@ -145,26 +144,27 @@ class WheelsNode(ManagedNode[P]):
         fastest = odometry.max_wheel_speed / min(wheel_radii)
         self._angles = WheelAngles(len(joint_names), odometry.max_gap, fastest)
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self.command_watch = InputWatch(self, 'cmd_vel', limits)
-        self._state_watch = InputWatch(self, 'wheels/state', limits, 'look at the encoders')
+        self.command_watch = InputWatch(port, 'cmd_vel', limits)
+        self._state_watch = InputWatch(port, 'wheels/state', limits, 'look at the encoders')
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
         self._extras_wanted = False
         self._guard = BlockedGuard(given.blocked, ARM, RELEASE)
-        self._sent, self._looked_at = REST, self.seconds()
-        self._command = self.publisher(JointState, 'wheels/command', COMMAND, sole=True)
-        self._rates = self.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
-        self._limited = self.publisher(TwistStamped, 'cmd_vel/limited', COMMAND)
-        self._odom = self.publisher(Odometry, 'odom', SENSOR, sole=True)
+        self._sent, self._looked_at = REST, port.seconds()
+        self._command = port.publisher(JointState, 'wheels/command', COMMAND, sole=True)
+        self._rates = port.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
+        twists = TwistRows(given.base_frame)
+        self._limited = port.row_publisher(twists, 'cmd_vel/limited', COMMAND)
+        self._odom = port.publisher(Odometry, 'odom', SENSOR, sole=True)
         if given.stamped:
-            self.listen(TwistStamped, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
+            port.listen_to_rows(twists, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
-            self.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
-        self.listen(JointState, 'wheels/state', self._on_state, SENSOR)
-        self.serve(SetBool, '~/stop', self._on_stop)
-        self.serve(SetMap, '~/set_odometry', self._on_set_odometry)
-        self.every(1.0 / given.rate, self._go_on)
-        self.watch_inputs(given.stop_after, self._watch)
+            port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        port.listen(JointState, 'wheels/state', self._on_state, SENSOR)
+        port.serve(SetBool, '~/stop', self._on_stop)
+        port.serve(SetMap, '~/set_odometry', self._on_set_odometry)
+        port.every(1.0 / given.rate, self._go_on)
+        port.watch_inputs(given.stop_after, self._watch)
 
     def begin(self) -> None:
         """Stand until a twist comes."""
@@ -187,13 +187,12 @@ class WheelsNode(ManagedNode[P]):
 
     # cmd_vel -> wheels/command
 
-    def _on_stamped_twist(self, message: TwistStamped) -> None:
-        twist, header = twist_of(message.twist), message.header
+    def _on_stamped_twist(self, twist: Twist, frame: str, stamp: int) -> None:
         if twist == REST and not self.standing:  # a stop is obeyed however old it is
             self.standing = True
             self._follow(REST)
-        require_frame(header.frame_id, self.parameters.base_frame)
-        if self.command_watch.is_news(header.stamp):
+        require_frame(frame, self.parameters.base_frame)
+        if self.command_watch.is_new(stamp):
             self._drive(twist)
 
     def _on_twist(self, message: TwistMessage) -> None:
@@ -201,7 +200,7 @@ class WheelsNode(ManagedNode[P]):
 
     def _drive(self, twist: Twist) -> None:
         """Command the wheels, while the clock can be believed."""
-        if self.clock.fault:
+        if self.port.clock.fault:
             return
         if twist == REST:
             self._guard.release()
@@ -228,29 +227,29 @@ class WheelsNode(ManagedNode[P]):
 
         After a rest one period has passed, however long it was.
         """
-        now = self.stamp(self._limited_message)  # of what is commanded for this instant
+        instant = self.port.nanoseconds()  # of what is commanded for it
+        now = instant * 1e-9
         period, ramp = 1.0 / self.parameters.rate, self._ramp
         longest = period if self._settled else 2.0 * period
         ramp.update(min(max(now - self._ramped_at, 0.0), longest))
         self._settled, self._ramped_at = ramp.settled, now
-        self._send(ramp.twist)
+        self._send(ramp.twist, instant)
 
     def _stand(self) -> None:
         """Stop all wheels at once, for safety."""
-        self.stamp(self._limited_message)
         self._ramp.stop()
         self._settled = True
-        self._send(REST)
+        self._send(REST, self.port.nanoseconds())
 
-    def _send(self, twist: Twist) -> None:
-        """Command the wheels; the other two only where someone listens."""
-        rates, limited, self._sent = self.rates(twist), self._limited_message, twist
+    def _send(self, twist: Twist, instant: int) -> None:
+        """Command the wheels for an instant [ns]; tell the other two only where someone listens."""
+        rates, self._sent = self.rates(twist), twist
         message = self.joints.message(rates)
-        message.header = limited.header
+        message.header.stamp = stamp_of(instant)
+        message.header.frame_id = self.parameters.base_frame
         self._command.publish(message)
         if self._limited.get_subscription_count():
-            fill_twist(limited.twist, twist)
-            self._limited.publish(limited)
+            self._limited.publish(twist, instant)
         if self._extras_wanted:
             self._rates.publish(Float64MultiArray(data=array('d', rates)))
 
@@ -282,14 +281,14 @@ class WheelsNode(ManagedNode[P]):
         except SignalError as error:
             raise SignalError(f'{state.wrong}; {error}' if state.wrong else str(error)) from error
         if state.wrong:
-            self.refuse(f'wheels/state: {state.wrong}; going by the rest')
+            self.port.refuse(f'wheels/state: {state.wrong}; going by the rest')
         if not self.last_step.used:
             self._tell_ignored(stamp)
             return
         if news:
             self._state_watch.note()
         if self.last_step in {Step.RESET, Step.LEAP}:
-            self.get_logger().warning(
+            self.port.warning(
                 f'{self.last_step.value}; odometry goes on from where it was, less sure',
                 throttle_duration_sec=1.0,
             )
@@ -299,18 +298,18 @@ class WheelsNode(ManagedNode[P]):
 
     def _look_for_block(self) -> None:
         """Stop wheels that do not turn though told to, by their encoders."""
-        guard, now = self._guard, self.seconds()
+        guard, now = self._guard, self.port.seconds()
         dt, self._looked_at = min(max(now - self._looked_at, 0.0), LONGEST_STEP), now
         guard.watch.parameters = self.parameters.blocked
         if guard.update(self._reckoning.pose, self._sent, dt):
-            self.get_logger().error(guard.reason)
+            self.port.error(guard.reason)
             self._stand()
 
     def _tell_ignored(self, stamp: float) -> None:
         """Tell of readings that cannot be; one that comes late or twice is no news."""
         if self.last_step is Step.DOUBTED:
             limit = self.parameters.odometry.max_wheel_speed
-            self.refuse(
+            self.port.refuse(
                 f'wheels/state of {stamp:.3f} s {Step.DOUBTED.value}; wheels run {limit:g} m/s at '
                 'most (odometry.max_wheel_speed): look at the encoders and their clock'
             )

@@ -15,7 +15,8 @@ from agv_motion.clock_watch import STANDS_AFTER, ClockWatch
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.ros.timed_node import TimedNode
+    from agv_motion.ros.live_node import LiveNode
+    from agv_motion.ros.live_port import LivePort
     from agv_motion.watchdog import Watchdog
 
 LOOK_PERIOD = 0.1
@@ -33,14 +34,14 @@ PATIENCE = 2.0
 class ClockGuard:
     """Looks at the clock of one node by the steady clock, and acts upon what it finds."""
 
-    def __init__(self, node: TimedNode) -> None:
+    def __init__(self, port: LivePort) -> None:
         """Look not yet."""
         self.watch = ClockWatch()
-        self._node = node
+        self._port = port
         self._inputs: list[Watchdog] = []
         self._acts: list[Callable[[], None]] = []
-        self._ran_at, self._longest_nap = node.steady_seconds(), inf
-        self._told, self._told_at = False, node.steady_seconds() + PATIENCE - SELDOM
+        self._ran_at, self._longest_nap = port.steady_seconds(), inf
+        self._told, self._told_at = False, port.steady_seconds() + PATIENCE - SELDOM
 
     def add(self, watchdog: Watchdog) -> None:
         """Take an input for lost until it comes again, whenever the clock has a fault.
@@ -70,37 +71,37 @@ class ClockGuard:
 
     def wake(self) -> None:
         """Judge the inputs first where nothing has run for as long as one of them may be silent."""
-        now = self._node.steady_seconds()
+        now = self._port.steady_seconds()
         slept, self._ran_at = now - self._ran_at > self._longest_nap, now
         if slept:
             self._act()
 
     def look(self) -> None:
         """Take all inputs for lost while the clock has a fault, and tell of it."""
-        node, watch = self._node, self.watch
+        port, watch = self._port, self.watch
         self.wake()
-        watch.look(node.seconds(), node.steady_seconds())
+        watch.look(port.seconds(), port.steady_seconds())
         if watch.fault:
             self.forget_inputs()
             self._act()
-        self._tell(node.steady_seconds())
+        self._tell(port.steady_seconds())
 
     def _act(self) -> None:
-        for act in self._acts if self._node.active else ():
+        for act in self._acts if self._port.active else ():
             act()
 
     def _tell(self, steady: float) -> None:
         """Log that a fault has begun or ended."""
-        fault, node = self.watch.fault, self._node
+        fault, port = self.watch.fault, self._port
         if fault and not self._told and steady - self._told_at >= SELDOM:
             self._told = True
-            node.get_logger().error(f'{fault}: standing still until it runs well')
+            port.error(f'{fault}: standing still until it runs well')
         elif self._told and not fault:
             self._told, self._told_at = False, steady
-            node.get_logger().info('the clock runs well: going on')
+            port.info('the clock runs well: going on')
 
 
-def if_possible(node: TimedNode, callback: Callable[[Any], None]) -> Callable[[Any], None]:
+def if_possible(node: LiveNode[Any], callback: Callable[[Any], None]) -> Callable[[Any], None]:
     """Return ``callback`` of /clock for times that can be; a negative one raises in rclpy's own."""
 
     def guarded(message: Any) -> None:
@@ -108,7 +109,7 @@ def if_possible(node: TimedNode, callback: Callable[[Any], None]) -> Callable[[A
             callback(message)
             return
         fault = f'{CLOCK_TOPIC} told {message.clock.sec} s, and no time is negative'
-        node.clock.distrust(fault, node.steady_seconds())
-        node.refuse(f'{fault}: look at who publishes it')
+        node.port.clock.distrust(fault, node.port.steady_seconds())
+        node.port.refuse(f'{fault}: look at who publishes it')
 
     return guarded

@@ -15,7 +15,9 @@ class Diagnosis(NamedTuple):
     level: bytes
     message: str
     values: dict[str, str]
+    stamp: int | None = None
+    """when it was so [ns]; None: now, by the node's clock"""
 
     def worsened(self, level: bytes, message: str) -> Diagnosis:
         """Return this with what is wrong, where nothing was."""
-        return Diagnosis(level, message, self.values) if self.level == OK else self
+        return self._replace(level=level, message=message) if self.level == OK else self

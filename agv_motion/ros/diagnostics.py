@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import QoSProfile
 
 from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.ends import NO_EVENTS
+from agv_motion.ros.messages import stamp_of
 
 if TYPE_CHECKING:
-    from agv_motion.ros.complaints import Complaints
-    from agv_motion.ros.graph_guard import GraphGuard
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.live_node import LiveNode
 
 
 class Diagnostics:
     """Publishes how one node is, configured or not."""
 
-    def __init__(self, node: ManagedNode[Any], graph: GraphGuard, complaints: Complaints) -> None:
+    def __init__(self, node: LiveNode[Any]) -> None:
         """Open the topic."""
-        self._node, self._graph, self._complaints = node, graph, complaints
+        self._node, self._graph, self._complaints = node, node.port.graph, node.port.complaints
         self._publisher = node.create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10), event_callbacks=NO_EVENTS
         )
@@ -35,7 +34,10 @@ class Diagnostics:
             level=found.level, name=name, message=found.message, hardware_id=name, values=values
         )
         report = DiagnosticArray(status=[status])
-        node.stamp(report)
+        if found.stamp is None:
+            node.port.stamp(report)
+        else:
+            report.header.stamp = stamp_of(found.stamp)
         self._publisher.publish(report)
 
     def _condition(self) -> Diagnosis:
@@ -43,7 +45,7 @@ class Diagnostics:
         node = self._node
         if node.active:
             try:
-                return node.diagnose()
+                return cast('Diagnosis', node.plain.diagnose())
             except Exception as error:  # noqa: BLE001 - a defect
                 node.stop_for('the diagnostics', error)
         if self._graph.rivals:
@@ -54,7 +56,7 @@ class Diagnostics:
 
     def _judged(self, found: Diagnosis) -> Diagnosis:
         """Return what was ``found`` beside what graph, clock and refusals tell."""
-        complaints, fault = self._complaints, self._node.clock.fault
+        complaints, fault = self._complaints, self._node.port.clock.fault
         values = found.values | self._graph.values()
         if complaints.count:
             values |= {'refused inputs': str(complaints.count), 'last': complaints.last}
@@ -62,7 +64,7 @@ class Diagnostics:
         for mismatch in self._graph.faults()[:1]:
             found = found.worsened(WARN, mismatch)
         if fault:
-            found = Diagnosis(ERROR, f'{fault}: standing still', values)
+            found = found._replace(level=ERROR, message=f'{fault}: standing still')
         if complaints.is_recent():
             found = found.worsened(WARN, f'refused: {complaints.last}')
         return found

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
 
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.live_node import LiveNode
+    from agv_motion.ros.live_port import LivePort
 
 NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 """Destroying a publisher with event callbacks crashes the EventsExecutor."""
@@ -28,9 +29,9 @@ NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 class Ends:
     """What one node has opened."""
 
-    def __init__(self, node: ManagedNode[Any]) -> None:
+    def __init__(self, node: LiveNode[Any], port: LivePort) -> None:
         """Have opened nothing yet."""
-        self._node = node
+        self._node, self._port = node, port
         self._closers: list[Callable[[], Any]] = []
         self._unheard: dict[str, Callable[[], None]] = {}
         """Latched messages that came while inactive, by topic"""
@@ -53,7 +54,7 @@ class Ends:
 
     def hear(self) -> None:
         """Hear what latched messages came while inactive, as long as the node is active."""
-        while self._node.active and self._unheard:
+        while self._port.active and self._unheard:
             self._unheard.popitem()[1]()
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
@@ -67,19 +68,19 @@ class Ends:
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
     ) -> None:
         """Call ``callback`` with each message; what is latched is kept while inactive."""
-        node, unheard = self._node, self._unheard
+        node, port, unheard = self._node, self._port, self._unheard
         latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
         def guarded(message: Any) -> None:
-            if not node.active:
+            if not port.active:
                 if latched:
                     unheard[topic] = lambda: guarded(message)
                 return
             try:
-                node.wake()
+                port.clock_guard.wake()
                 callback(message)
             except AgvMotionError as error:
-                node.refuse(f'{topic}: {node.message_of(error)}')
+                port.refuse(f'{topic}: {port.message_of(error)}')
             except Exception as error:  # noqa: BLE001 - a defect
                 node.stop_for(topic, error)
 
@@ -91,15 +92,15 @@ class Ends:
 
     def every(self, seconds: float, callback: Callable[[], None], clock: Clock | None) -> None:
         """Call ``callback`` periodically."""
-        node = self._node
+        node, port = self._node, self._port
 
         def guarded() -> None:
-            if node.active:
+            if port.active:
                 try:
-                    node.wake()
+                    port.clock_guard.wake()
                     callback()
                 except AgvMotionError as error:
-                    node.refuse(node.message_of(error))
+                    port.refuse(port.message_of(error))
                 except Exception as error:  # noqa: BLE001 - a defect
                     node.stop_for('a timer', error)
 
@@ -108,27 +109,27 @@ class Ends:
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
         """Offer a service; it refuses while the node is inactive."""
-        node = self._node
+        node, port = self._node, self._port
 
         def guarded(request: Any, response: Any) -> Any:
             try:
                 self._require_active()
-                node.wake()
+                port.clock_guard.wake()
                 message, response.success = act(request), True
             except AgvMotionError as error:
-                message = f'refused: {node.message_of(error)}'
+                message = f'refused: {port.message_of(error)}'
             except Exception as error:  # noqa: BLE001 - a defect
                 node.stop_for(name, error)
                 message = f'refused: {node.defect}'
             if hasattr(response, 'message'):
                 response.message = message.removeprefix('refused: ')
-            node.inform(f'{name}: {shortened(message)}')
+            port.complaints.inform(f'{name}: {shortened(message)}')
             return response
 
         service = node.create_service(kind, name, guarded)
         self.add(lambda: node.destroy_service(service))
 
     def _require_active(self) -> None:
-        if not self._node.active:
-            msg = f'{self._node.get_name()} is not active: activate it first'
+        if not self._port.active:
+            msg = f'{self._port.name} is not active: activate it first'
             raise ConfigurationError(msg)

@@ -11,17 +11,15 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.ros.graph_watch import GraphWatch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy.qos import QoSProfile
 
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.live_node import LiveNode
 
 
 class GraphGuard:
     """Watches the topics of one node, and acts upon what it finds."""
 
-    def __init__(self, node: ManagedNode[Any]) -> None:
+    def __init__(self, node: LiveNode[Any]) -> None:
         """Watch nothing yet."""
         self.rivals = ''
         """Who publishes together what one node may alone; empty if it does."""
@@ -74,17 +72,5 @@ class GraphGuard:
         }
         now_true = frozenset((*self.faults(), *crowds))
         for text in sorted(now_true - self._told):
-            self._node.warn(text)
+            self._node.port.complaints.warn(text)
         self._told = now_true
-
-
-class NoGraph:
-    """Stands for the guard where there is no graph: a node is alone in a reprocessing."""
-
-    rivals = ''
-
-    def add(self, *_: Any, **__: Any) -> None:
-        """Watch nothing."""
-
-    clear: Callable[..., None] = add
-    check: Callable[..., None] = add

@@ -20,7 +20,7 @@ from agv_motion.watchdog import Silence, Watchdog
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.port import Port
 
 
 CALM = 5.0
@@ -45,7 +45,7 @@ class InputWatch(Watchdog):
 
     def __init__(
         self,
-        node: ManagedNode[Any],
+        port: Port,
         name: str,
         limits: Freshness,
         remedy: str = '',
@@ -53,7 +53,7 @@ class InputWatch(Watchdog):
         """Start with an input that has never come.
 
         Args:
-            node: Whose input it is, whose clocks count, and in whose log to tell.
+            port: Of the node whose input it is.
             name: Of the input.
             limits: How fresh it has to be.
             remedy: What a person can do when it is lost.
@@ -65,7 +65,7 @@ class InputWatch(Watchdog):
         super().__init__(limits.report_after, limits.stop_after)
         self.spoken = False
         """Whether it has ever come"""
-        self._node, self._name, self._max_age = node, name, limits.max_age
+        self._port, self._name, self._max_age = port, name, limits.max_age
         self._remedy = f'; {remedy}' if remedy else ''
         self.newest = 0
         """Stamp of the last news [ns]"""
@@ -74,7 +74,7 @@ class InputWatch(Watchdog):
         self._told = Silence.FRESH
         self._silent_for = 0.0
         self._back_at = -inf
-        node.watch_over(self)
+        port.watch_over(self)
 
     def is_news(self, stamp: Any) -> bool:
         """Return whether a message with this stamp is news; once it was of use, `note` it.
@@ -89,18 +89,23 @@ class InputWatch(Watchdog):
             SignalError: It lies too far from now.
 
         """
-        node = self._node
-        clock = node.clock
+        taken = stamp.sec * SECOND + stamp.nanosec
+        news = self.is_new(taken)
+        if news and taken == 0:
+            stamp.sec, stamp.nanosec = divmod(self.newest, SECOND)
+        return news
+
+    def is_new(self, taken: int) -> bool:
+        """Return the same of a stamp in nanoseconds; one of zero is taken for now."""
+        port, clock = self._port, self._port.clock
         if clock.fault:
             return False
-        now = node.nanoseconds()
-        taken = stamp.sec * SECOND + stamp.nanosec
+        now = port.nanoseconds()
         if taken == 0:
-            stamp.sec, stamp.nanosec = divmod(now, SECOND)
             taken = now
         else:
             if abs(now - taken) > self._max_age * clock.speed * SECOND:
-                require_near(node, taken, self._max_age, now)
+                require_near(port, taken, self._max_age, now)
             if taken <= self.newest and not self._begins_anew(taken):
                 self._repeats += 1
                 return False
@@ -116,23 +121,23 @@ class InputWatch(Watchdog):
 
         """
         rise = np.diff(taken, prepend=self.newest) > 0
-        near = np.abs(now - taken) <= self._max_age * self._node.clock.speed * SECOND
+        near = np.abs(now - taken) <= self._max_age * self._port.clock.speed * SECOND
         return bool(np.all(rise & near & (taken > 0)))
 
     def note(self) -> None:
         """Feed the watchdog: news has come, and was of use."""
-        self.feed(self._node.steady_seconds())
+        self.feed(self._port.steady_seconds())
         self.spoken, self._repeats, self._overtaken = True, 0, 0
 
     def silence(self) -> Silence:
         """Return how silent the input is now; lost while the clock cannot be believed."""
-        node = self._node
-        return Silence.LOST if node.clock.fault else self.judge(node.steady_seconds())
+        port = self._port
+        return Silence.LOST if port.clock.fault else self.judge(port.steady_seconds())
 
     def tell(self) -> Silence:
         """Return how silent the input is now; log it where that has changed."""
-        silence, age = self.silence(), self.age(self._node.steady_seconds())
-        if age is None or self._node.clock.fault:
+        silence, age = self.silence(), self.age(self._port.steady_seconds())
+        if age is None or self._port.clock.fault:
             return silence
         if silence is not self._told and not self._is_restless():
             self._log(silence, age)
@@ -142,9 +147,9 @@ class InputWatch(Watchdog):
 
     def why(self) -> str:
         """Return why the input is lost, in words."""
-        age = self.age(self._node.steady_seconds())
-        if self._node.clock.fault:
-            return self._node.clock.fault
+        age = self.age(self._port.steady_seconds())
+        if self._port.clock.fault:
+            return self._port.clock.fault
         return f'no {self._name} yet' if age is None else self._without(age)
 
     def _begins_anew(self, taken: int) -> bool:
@@ -155,12 +160,12 @@ class InputWatch(Watchdog):
             return False
         back = (self.newest - taken) * 1e-9
         text = f'{self._name}: its stamps went back by {back:.3g} s: taken for a new beginning'
-        self._node.get_logger().warning(text)
+        self._port.warning(text)
         return True
 
     def _is_restless(self) -> bool:
         """Return whether the input has come back only just now."""
-        calm = self._node.steady_seconds() - self._back_at >= CALM
+        calm = self._port.steady_seconds() - self._back_at >= CALM
         return self._told is Silence.FRESH and not calm
 
     def _without(self, age: float) -> str:
@@ -168,24 +173,24 @@ class InputWatch(Watchdog):
         return f'no {"new " if repeats else ""}{self._name} for {age:.1f} s{repeats}'
 
     def _log(self, silence: Silence, age: float) -> None:
-        logger = self._node.get_logger()
+        port = self._port
         if silence is Silence.FRESH:
             text = f'{self._name} is back after {self._silent_for:.1f} s'
-            logger.info(text)
-            self._back_at = self._node.steady_seconds()
+            port.info(text)
+            self._back_at = self._port.steady_seconds()
         elif silence is Silence.LATE:
             text = f'{self._without(age)}: going on'
-            logger.warning(text)
+            port.warning(text)
         else:
             text = f'{self._without(age)}: stopping{self._remedy}'
-            logger.error(text)
+            port.error(text)
 
 
-def require_near(node: ManagedNode[Any], taken: int, max_age: float, now: int) -> None:
+def require_near(port: Port, taken: int, max_age: float, now: int) -> None:
     """Raise unless a stamp lies within ``max_age`` of now; in proportion where time runs fast.
 
     Args:
-        node: Whose clock counts.
+        port: Whose clock counts.
         taken: The stamp [ns].
         max_age: Limit either way [s], in real time.
         now: Of the node's clock [ns].
@@ -195,7 +200,7 @@ def require_near(node: ManagedNode[Any], taken: int, max_age: float, now: int) -
 
     """
     age = (now - taken) * 1e-9
-    limit = max_age * node.clock.speed
+    limit = max_age * port.clock.speed
     if abs(age) > limit:
         where = f'{age:.3g} s ago' if age > 0.0 else f'{-age:.3g} s ahead'
         msg = (

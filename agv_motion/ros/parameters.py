@@ -20,7 +20,7 @@ from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from _typeshed import DataclassInstance
     from rclpy.node import Node
@@ -72,7 +72,7 @@ class DeclaredParameters(Generic[T]):
             if not self._is_known(name) and name not in OF_THE_PLATFORM
         )
         """what was given and is no parameter of the node, with what may have been meant"""
-        self.given = frozenset(_texts(self.values))
+        self.given = frozenset(texts(self.values))
         """texts that whoever started the node gave, names of files among them"""
         node.add_on_set_parameters_callback(self._on_set)
 
@@ -90,9 +90,7 @@ class DeclaredParameters(Generic[T]):
 
     def _on_set(self, changes: list[Parameter]) -> SetParametersResult:
         try:
-            candidate = self.values
-            for change in changes:
-                candidate = _with(candidate, change.name.split('.'), _plain(change.value))
+            candidate = changed(self.values, {each.name: each.value for each in changes})
             if candidate != self.values:
                 self._accept(candidate)
         except AgvMotionError as error:
@@ -101,6 +99,46 @@ class DeclaredParameters(Generic[T]):
             return SetParametersResult(successful=False, reason=str(error))
         self.values = candidate
         return SetParametersResult(successful=True)
+
+
+def filled(kind: type[T], given: Mapping[str, Any], node: str) -> T:
+    """Return parameters with the values ``given`` by dotted name, and defaults for the rest.
+
+    Raises:
+        ConfigurationError: One is no parameter of the ``node``, of another type, or out of range.
+
+    """
+    known = dict(_types(kind, ''))
+    own = {name: value for name, value in given.items() if name in known}
+    for name, value in own.items():
+        wrong = wrong_type(name, value, known[name])
+        if wrong:
+            raise ConfigurationError(wrong)
+    unknown = set(given) - set(known) - OF_THE_PLATFORM - set(OF_EVERY_NODE)
+    if unknown:
+        msg = f'{node} has no parameter {", ".join(sorted(unknown))}'
+        raise ConfigurationError(msg)
+    values: T = _filled(kind, own, '')
+    return values
+
+
+def _filled(kind: type[Any], given: Mapping[str, Any], prefix: str) -> Any:
+    own = {name: prefix + name for name, _, _ in rows(kind)}
+    values = {name: _plain(given[full]) for name, full in own.items() if full in given}
+    groups = {name: _filled(group, given, f'{prefix}{name}.') for name, group in nested(kind)}
+    return kind(**values, **groups)
+
+
+def changed(values: T, changes: Mapping[str, Any]) -> T:
+    """Return parameters with other values, by dotted name; names of others pass by.
+
+    Raises:
+        AgvMotionError: A value is out of range, or does not go with the others.
+
+    """
+    for name, value in changes.items():
+        values = _with(values, name.split('.'), _plain(value))
+    return values
 
 
 def _types(kind: type[Any], prefix: str) -> Iterator[tuple[str, Any]]:
@@ -147,13 +185,14 @@ def _descriptor(spec: Spec, origin: Any, *, empty: bool) -> ParameterDescriptor:
     return descriptor
 
 
-def _texts(values: DataclassInstance) -> Iterator[str]:
+def texts(values: DataclassInstance) -> Iterator[str]:
+    """Yield every text among parameters, names of files among them."""
     for name, _, _ in rows(type(values)):
         value = getattr(values, name)
         if isinstance(value, str):
             yield value
     for name, _ in nested(type(values)):
-        yield from _texts(getattr(values, name))
+        yield from texts(getattr(values, name))
 
 
 def _plain(value: Any) -> Any:

@@ -15,10 +15,10 @@ from agv_motion.errors import shortened
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.live_node import LiveNode
 
 
-def answer_all(node: ManagedNode[Any]) -> None:
+def answer_all(node: LiveNode[Any]) -> None:
     """Let every service that ``node`` has by now answer all requests."""
     for service in node.services:
         act = service.callback
@@ -27,20 +27,20 @@ def answer_all(node: ManagedNode[Any]) -> None:
         service.callback = _answered(node, service.srv_name, act)
 
 
-def _answered(node: ManagedNode[Any], name: str, act: Callable[[Any, Any], Any]) -> Any:
+def _answered(node: LiveNode[Any], name: str, act: Callable[[Any, Any], Any]) -> Any:
     """Return ``act``, which answers with an empty response where it raises."""
 
     def answer(request: Any, response: Any) -> Any:
         try:
             return act(request, response)
         except Exception as error:  # noqa: BLE001 - rclpy's own, of many kinds
-            node.refuse(f'a request to {name}: {type(error).__name__}: {error}')
+            node.port.refuse(f'a request to {name}: {type(error).__name__}: {error}')
             return type(response)()
 
     return answer
 
 
-def _fitting(node: ManagedNode[Any], act: Callable[[Any, Any], Any]) -> Any:
+def _fitting(node: LiveNode[Any], act: Callable[[Any, Any], Any]) -> Any:
     """Return ``act`` for the transitions that start from the present state; refuse the others."""
 
     def change(request: Any, response: Any) -> Any:
@@ -50,7 +50,7 @@ def _fitting(node: ManagedNode[Any], act: Callable[[Any, Any], Any]) -> Any:
         if (asked.label or asked.id) in {*fitting, *fitting.values()}:
             return act(request, response)
         wanted = asked.label or NAMES.get(asked.id, f'transition {asked.id}')
-        node.refuse(
+        node.port.refuse(
             f"lifecycle: '{shortened(wanted)}' does not start from the state "
             f"'{machine.current_state[1]}'; from there start "
             f'{", ".join(sorted(set(fitting.values()))) or "none: start the node anew"}'

@@ -22,6 +22,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.parameter_arguments import check_arguments, passed_over
 from agv_motion.ros.stop import Stop, end_no_more
 
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from rclpy.executors import Executor
     from rclpy.lifecycle import LifecycleNode
 
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.plain_node import PlainNode
 
 EXECUTORS: dict[str, Callable[..., Executor]] = {
     'events': EventsExecutor,
@@ -62,7 +63,7 @@ class StartError(AgvMotionError):
     """A transition on the way to `active` did not succeed; the node has logged why."""
 
 
-def start(node: ManagedNode[Any], until: Callable[[], bool] = lambda: False) -> None:
+def start(node: LiveNode[Any], until: Callable[[], bool] = lambda: False) -> None:
     """Configure and activate ``node``, unless ``until()`` turns true meanwhile.
 
     Raises:
@@ -85,7 +86,7 @@ def spin(
 ) -> None:
     """Spin ``nodes`` until ``until()``, then let each leave its outputs safe, first to last.
 
-    What a request to rclpy's own services raises (of nodes, `ManagedNode` sees to it) is told, and
+    What a request to rclpy's own services raises (of nodes, `LiveNode` sees to it) is told, and
     the nodes live on.
     """
     executor_object = EXECUTORS[executor](context=context)
@@ -133,7 +134,7 @@ def _tell(node: LifecycleNode, what: str, error: Exception) -> None:
     node.get_logger().error(f'{what}: {trace[-LONGEST_TRACE:]}', throttle_duration_sec=1.0)
 
 
-def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
+def run(kind: type[PlainNode[Any]]) -> None:
     """Run one node until it is told to stop: the whole ``main`` of every node of this package.
 
     The exit status is 0 after SIGINT, SIGTERM or SIGHUP, and 1 when the node could not start.
@@ -142,7 +143,7 @@ def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
     try:
         check_arguments(sys.argv)
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
-        _run(make_node(), lambda: stop.requested)
+        _run(LiveNode(kind), lambda: stop.requested)
     except UNUSABLE as error:
         print(f'error: {_line(error)}', file=sys.stderr)  # noqa: T201 - there may be no node to log
         sys.exit(1)
@@ -151,16 +152,16 @@ def run(make_node: Callable[[], ManagedNode[Any]]) -> None:
         end_no_more()
 
 
-def _run(node: ManagedNode[Any], until: Callable[[], bool]) -> None:
+def _run(node: LiveNode[Any], until: Callable[[], bool]) -> None:
     autostart, executor = declare(node)
     for text in passed_over(sys.argv, node.get_fully_qualified_name()):
-        node.refuse(text)
+        node.port.refuse(text)
     if autostart:
         start(node, until)
     spin([node], until, executor)
 
 
-def declare(node: ManagedNode[Any]) -> tuple[bool, str]:
+def declare(node: LiveNode[Any]) -> tuple[bool, str]:
     """Declare how a node is run, which counts at its start alone; return `autostart`, `executor`.
 
     Raises:

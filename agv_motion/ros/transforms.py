@@ -11,7 +11,7 @@ from agv_motion.ros.messages import fill_rotation
 
 if TYPE_CHECKING:
     from agv_motion.planar import Pose
-    from agv_motion.ros.node import ManagedNode
+    from agv_motion.ros.port import Port
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -24,13 +24,13 @@ TF = QoSProfile(depth=100)
 class Transforms:
     """Publishes transforms on /tf for as long as the node is configured."""
 
-    def __init__(self, node: ManagedNode[Any]) -> None:
+    def __init__(self, port: Port) -> None:
         """Open /tf, or say once why there is none."""
         self.available = TFMessage is not None
         if self.available:
-            self._publisher = node.publisher(TFMessage, '/tf', TF)
+            self._publisher = port.publisher(TFMessage, '/tf', TF)
         else:
-            node.get_logger().info('tf2_msgs is not installed: nothing goes to /tf')
+            port.info('tf2_msgs is not installed: nothing goes to /tf')
 
     def publish(self, stamp: Any, *transforms: tuple[str, str, Pose]) -> None:
         """Publish transforms, each (frame, child frame, pose of the child in the frame)."""

@@ -9,6 +9,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import overrides, start
 
 
@@ -52,7 +53,8 @@ def test_what_cannot_be_is_told_in_one_line(alone, arguments, reason):
 @pytest.fixture
 def robot(graph, real_time_robot):
     """Return a robot, driven by a node that does a metre in two seconds."""
-    node = GhostTrajectory(
+    node = LiveNode(
+        GhostTrajectory,
         context=graph.context,
         parameter_overrides=overrides(cruising_speed=0.8, speed_ramps=2.0, rate=50.0),
     )

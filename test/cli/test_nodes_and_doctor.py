@@ -17,11 +17,12 @@ from sensor_msgs.msg import JointState
 from agv_motion.cli.doctor import how_to_get
 from agv_motion.cli.terminal import terminal
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import start
 
 
 def test_nodes_with_their_states(agv, graph):
-    start(graph.add(WheelKinematics(context=graph.context)))
+    start(graph.add(LiveNode(WheelKinematics, context=graph.context)))
     graph.add(rclpy.create_node('plain', context=graph.context))
     told = agv('nodes', '--spin-time', '5')[1].splitlines()
     assert told == sorted(told)  # one that was killed before may still be announced

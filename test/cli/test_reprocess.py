@@ -24,7 +24,6 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.cli.nodes import available
 from agv_motion.cli.recorded import LIVE_ONLY, node_class, parameters
-from agv_motion.cli.recorded_nodes import RECORDED
 from agv_motion.cli.reprocess_bag import Plan, Transcript, reprocess
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -35,9 +34,10 @@ from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process import add
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
+from agv_motion.ros.in_process_topic import InProcessListener, InProcessRowPublisher
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.world import World
 
 SECOND = 1_000_000_000
 NOON = 1434366000 * SECOND
@@ -53,7 +53,7 @@ def record(path, seconds, seed=1):
     """Write what the whole tree says in ``seconds`` before a June noon."""
     with BagWriter(path) as writer:
         transcript = Transcript(writer)
-        world = World(transcript.record, NOON)
+        graph = InProcessGraph(transcript.record, NOON)
         for kind, name in (
             (GranierProbe, 'granier_probe'),
             (MotionGenerator, 'motion_generator'),
@@ -63,10 +63,10 @@ def record(path, seconds, seed=1):
             given = parameters('tree.yaml', name)
             if name == 'simulator':
                 given |= {'seed': seed, 'start_time': '2015-06-15T11:00:00'}
-            add(world, kind, given, {'/pose': '/fix'})
-        world.start()
-        world.run(NOON + seconds * SECOND)
-        world.stop()
+            InProcessNode(graph, kind, given, {'/pose': '/fix'})
+        graph.start()
+        graph.run(NOON + seconds * SECOND)
+        graph.stop()
         transcript.flush()
     return path
 
@@ -99,12 +99,17 @@ def test_what_was_decided_is_decided_again(recorded, tmp_path):
         )
 
 
-@pytest.mark.parametrize('plain', [[WheelKinematics], [MotionGenerator, WheelKinematics]])
-def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch, plain):
+def one_by_one(monkeypatch, *, rows=True):
+    """Let nothing be known before it comes, and where asked let no row go as it is."""
+    monkeypatch.setattr(InProcessListener, 'look_ahead', lambda *_: None)
+    if rows:
+        monkeypatch.setattr(InProcessRowPublisher, 'goes_as_it_is', lambda _: False)
+
+
+@pytest.mark.parametrize('rows', [False, True])
+def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch, rows):
     reprocess(recorded / 'a', tmp_path / 'together' / 'out', PLAN)
-    for kind in plain:
-        name = 'motion_generator' if kind is MotionGenerator else 'wheel_kinematics'
-        monkeypatch.setitem(RECORDED, name, kind)
+    one_by_one(monkeypatch, rows=rows)
     reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
     assert content(tmp_path / 'together') == content(tmp_path / 'apart')
 
@@ -126,7 +131,7 @@ def test_states_that_cannot_be_taken_together_are_taken_one_by_one(recorded, tmp
                 data = joints.encode(state)
             writer.write(topics[message.connection.topic], message.stamp, data)
     together = reprocess(tmp_path / 'odd', tmp_path / 'together' / 'out', PLAN)
-    monkeypatch.setitem(RECORDED, 'wheel_kinematics', WheelKinematics)
+    one_by_one(monkeypatch)
     apart = reprocess(tmp_path / 'odd', tmp_path / 'apart' / 'out', PLAN)
     assert content(tmp_path / 'together') == content(tmp_path / 'apart')
     assert together.complaints == apart.complaints
@@ -423,10 +428,10 @@ def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(
     twists = codec(TwistStamped)
     with BagWriter(tmp_path / 'live') as writer:
         transcript = Transcript(writer)
-        world = World(transcript.record, NOON)
+        graph = InProcessGraph(transcript.record, NOON)
         for name, kind in OMNI:
-            add(world, kind, parameters('omni.yaml', name), {})
-        world.start()
+            InProcessNode(graph, kind, parameters('omni.yaml', name))
+        graph.start()
         topic = writer.add_topic('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
         for i in range(1, 200):
             twist = TwistStamped()
@@ -434,9 +439,9 @@ def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(
             twist.header.frame_id = 'base_link'
             twist.twist.linear.x, twist.twist.angular.z = 0.3, 0.5
             data = twists.encode(twist)
-            world.feed('/cmd_vel', NOON + i * SECOND // 10, data)
+            graph.feed('/cmd_vel', NOON + i * SECOND // 10, data)
             writer.write(topic, NOON + i * SECOND // 10, data)
-        world.stop()
+        graph.stop()
         transcript.flush()
     plan = Plan('omni.yaml', ('omni_kinematics', 'localization'), (), 'zstd')
     assert not reprocess(tmp_path / 'live', tmp_path / 'again', plan).failure

@@ -15,6 +15,7 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Bool, String
 
 from agv_motion.nodes.motion_generator import MotionGenerator
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import start
 
@@ -33,7 +34,9 @@ class Tester:
         values = [Parameter(k.replace('__', '.'), value=v) for k, v in parameters.items()]
         arguments = ['--ros-args', *(word for pair in remap for word in ('-r', pair))]
         node = self.graph.add(
-            kind(context=self.graph.context, parameter_overrides=values, cli_args=arguments)
+            LiveNode(
+                kind, context=self.graph.context, parameter_overrides=values, cli_args=arguments
+            )
         )
         if activate:
             start(node)

@@ -63,12 +63,12 @@ def test_all_numbers_in_order_and_what_is_latched_for_who_comes_late(tester, pla
         Int32, '/number', QoSProfile(depth=1000, reliability=qos['sensor'].reliability)
     )
     node = play(rate=10.0)
-    tester.graph.spin_until(node.playing.finished.is_set)
+    tester.graph.spin_until(node.plain.playing.finished.is_set)
     tester.wait(inbox, lambda m: m.data == 99)
     assert [m.data for m in inbox] == list(range(100))
     late = tester.listen(Int32, '/once', qos['latched'])
     tester.wait(late, lambda m: m.data == -1)
-    assert node.diagnose().message == 'finished'
+    assert node.plain.diagnose().message == 'finished'
 
 
 def test_topics_are_offered_as_they_were_recorded_or_as_overridden(tester, play, tmp_path):
@@ -94,7 +94,7 @@ def test_seek_by_service_after_the_end_sends_again(tester, play, qos):
     )
     node = play(rate=20.0)
     tester.wait(inbox, lambda m: m.data == 99)
-    tester.graph.spin_until(node.playing.finished.is_set)
+    tester.graph.spin_until(node.plain.playing.finished.is_set)
 
     def ask(name):
         return tester.ask(Trigger, f'bag_player/{name}', Trigger.Request())
@@ -157,7 +157,7 @@ def test_messages_of_another_type_on_a_topic_are_told_and_not_sent_as_what_they_
 def test_the_clock_tells_the_time_of_the_bag(tester, play):
     times = tester.listen(Clock, '/clock', CLOCK)
     node = play(listeners=0, clock=100.0, rate=4.0)
-    tester.graph.spin_until(node.playing.finished.is_set)
+    tester.graph.spin_until(node.plain.playing.finished.is_set)
     seconds = [seconds_of(message.clock) for message in times]
     assert seconds == sorted(seconds)
     assert seconds[0] < 1000.5
@@ -188,7 +188,7 @@ def test_pause_next_burst_seek_and_rate_by_services_and_parameters(tester, play,
     assert not ask('play_next').success
     tester.wait(inbox, lambda m: m.data == 99)
     assert [m.data for m in inbox[12:]] == list(range(75, 100))
-    assert node.playing.rate == 20.0
+    assert node.plain.playing.rate == 20.0
     (result,) = node.set_parameters([Parameter('rate', value=0.0)])
     assert not result.successful
 

@@ -54,7 +54,7 @@ def send(publisher, *numbers):
 
 def recorded(tester, node, count):
     """Spin until the recorder has taken ``count`` messages."""
-    tester.graph.spin_until(lambda: node.recording.messages >= count)
+    tester.graph.spin_until(lambda: node.plain.recording.messages >= count)
 
 
 def heard(tester, *publishers):
@@ -73,7 +73,10 @@ def test_all_messages_of_all_topics_those_that_come_later_too(tester, record, tm
     recorded(tester, node, 150)
     node.trigger_deactivate()
     assert read(tmp_path / 'bag') == {'/n1': list(range(100)), '/n2': list(range(50))}
-    assert {t.name: (t.messages, t.lost) for t in node.report} == {'/n1': (100, 0), '/n2': (50, 0)}
+    assert {t.name: (t.messages, t.lost) for t in node.plain.report} == {
+        '/n1': (100, 0),
+        '/n2': (50, 0),
+    }
 
 
 def test_latched_messages_from_before_are_recorded(tester, record, tmp_path, qos):
@@ -119,7 +122,7 @@ def test_a_pause_is_left_out_and_not_called_a_loss(tester, record, tmp_path):
     recorded(tester, node, 2)
     node.trigger_deactivate()
     assert read(tmp_path / 'bag') == {'/n': [1, 3]}
-    assert node.report[0].lost == 0
+    assert node.plain.report[0].lost == 0
 
 
 def test_split_goes_on_in_a_new_file(tester, record, tmp_path):
@@ -150,9 +153,9 @@ def test_what_is_excluded_stays_out(tester, record, tmp_path):
 
 def test_a_disk_at_its_floor_ends_the_recording_with_an_error(tester, record, tmp_path):
     node = record(storage__keep_free=1e9, storage__flush_period=0.05)
-    tester.graph.spin_until(lambda: node.recording is None)
-    assert 'keep_free' in node.failure
-    assert 'keep_free' in node.diagnose().message
+    tester.graph.spin_until(lambda: node.plain.recording is None)
+    assert 'keep_free' in node.plain.failure
+    assert 'keep_free' in node.plain.diagnose().message
     assert read(tmp_path / 'bag') == {}
 
 
@@ -196,7 +199,7 @@ def test_a_topic_that_changes_its_type_is_recorded_on(tester, record, tmp_path):
     tester.wait(logs, lambda m: '/n is published as std_msgs/msg/String too' in m.msg)
     node.trigger_deactivate()
     assert texts(tmp_path / 'bag') == [('/n', 'Int32')] * 2 + [('/n', 'String')] * 3
-    assert [(t.messages, t.lost) for t in node.report] == [(2, 0), (3, 0)]
+    assert [(t.messages, t.lost) for t in node.plain.report] == [(2, 0), (3, 0)]
 
 
 def test_under_simulated_time_messages_stand_as_they_arrived(tester, record, tmp_path):
@@ -237,7 +240,7 @@ def test_events_of_services_are_recorded_though_their_topics_are_hidden(tester, 
     event.info.sequence_number = 7
     publisher.publish(event)
     send(hidden, 1)
-    tester.graph.spin_until(lambda: node.recording.messages >= 1)
+    tester.graph.spin_until(lambda: node.plain.recording.messages >= 1)
     node.trigger_deactivate()
     with BagReader(tmp_path / 'bag') as bag:
         assert '/_n' not in bag.topics

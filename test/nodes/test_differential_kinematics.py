@@ -53,7 +53,7 @@ class Robot:
 
     def drive(self, **components):
         """Return the command that answers a twist: the first that is stamped no sooner."""
-        watch = self.node.command_watch
+        watch = self.node.plain.command_watch
         before = watch.newest
         self.send(**components)
         self.tester.graph.spin_until(lambda: watch.newest > before)
@@ -189,7 +189,7 @@ def test_silence_stop_and_the_end_are_explicit_zeros(tester):
     )
     assert ask(data=True).success
     assert not any(robot.drive(vx=0.3).velocity)
-    assert 'by request' in robot.node.diagnose().message
+    assert 'by request' in robot.node.plain.diagnose().message
     assert ask(data=False).success
     assert any(robot.drive(vx=0.3).velocity)
     robot.commands.clear()
@@ -203,7 +203,7 @@ def test_silence_is_told_once_and_so_is_its_end(tester):
     told = tester.logs()
     robot.drive(vx=0.3)
     tester.wait(told, lambda m: 'no cmd_vel' in m.msg and 'stopping' in m.msg)
-    assert robot.node.diagnose().level == WARN
+    assert robot.node.plain.diagnose().level == WARN
     tester.graph.spin_for(0.5)
     tester.graph.repeat(
         lambda: robot.send(vx=0.3),
@@ -223,7 +223,7 @@ def test_a_robot_that_was_told_to_stand_misses_nobody(tester):
     robot.drive(vx=0.0)
     tester.graph.spin_for(1.0)
     assert not [m.msg for m in told if 'no cmd_vel' in m.msg]
-    assert robot.node.diagnose()[:2] == (OK, 'standing')
+    assert robot.node.plain.diagnose()[:2] == (OK, 'standing')
 
 
 def test_encoders_that_fall_silent_stop_the_robot(tester):
@@ -232,7 +232,7 @@ def test_encoders_that_fall_silent_stop_the_robot(tester):
     tester.wait(robot.odometry)
     tester.graph.repeat(
         lambda: robot.cmd_vel.publish(robot.twist(vx=0.3)),
-        until=lambda: 'wheels/state is lost' in robot.node.diagnose().message,
+        until=lambda: 'wheels/state is lost' in robot.node.plain.diagnose().message,
     )
     assert list(robot.drive(vx=0.3).velocity) == [0.0, 0.0]
 
@@ -276,27 +276,27 @@ def test_wheels_that_do_not_turn_though_told_to_are_blocked_until_a_zero_is_sent
         return bool(robot.commands) and any(robot.commands[-1].velocity)
 
     tester.graph.repeat(push, moving, every=0.05)
-    tester.graph.repeat(push, lambda: bool(robot.node.why_stopped()), every=0.05)
-    assert robot.node.why_stopped().startswith('blocked: told to move by 0.')
-    assert robot.node.diagnose().level == ERROR
+    tester.graph.repeat(push, lambda: bool(robot.node.plain.why_stopped()), every=0.05)
+    assert robot.node.plain.why_stopped().startswith('blocked: told to move by 0.')
+    assert robot.node.plain.diagnose().level == ERROR
     robot.commands.clear()
     tester.graph.repeat(push, lambda: len(robot.commands) > 5, every=0.05)
     assert not any(any(command.velocity) for command in robot.commands)
-    tester.graph.repeat(lambda: push(0.0), lambda: not robot.node.why_stopped(), every=0.05)
+    tester.graph.repeat(lambda: push(0.0), lambda: not robot.node.plain.why_stopped(), every=0.05)
     tester.graph.repeat(push, moving, every=0.05)
 
 
 def test_wheels_that_turn_are_not_blocked(tester):
     robot = Robot(tester, blocked__after=0.5, blocked__distance=0.001)
-    stamps, end = iter(range(1, 10**6)), robot.node.steady_seconds() + 1.5
+    stamps, end = iter(range(1, 10**6)), robot.node.port.steady_seconds() + 1.5
 
     def roll():
         robot.cmd_vel.publish(robot.twist(vx=0.05))
         step = next(stamps)
         robot.tell([0.05 * step, 0.0625 * step], 0.05 * step)
 
-    tester.graph.repeat(roll, lambda: robot.node.steady_seconds() > end, every=0.05)
-    assert robot.node.why_stopped() == ''
+    tester.graph.repeat(roll, lambda: robot.node.port.steady_seconds() > end, every=0.05)
+    assert robot.node.plain.why_stopped() == ''
 
 
 def test_activated_again_it_stands_until_a_twist_comes(tester):
@@ -308,5 +308,5 @@ def test_activated_again_it_stands_until_a_twist_comes(tester):
     robot.node.trigger_activate()
     tester.graph.spin_until(lambda: len(robot.commands) > 3)
     assert not any(any(command.velocity) for command in robot.commands)
-    assert robot.node.diagnose() == (OK, 'standing', robot.node.diagnose().values)
+    assert robot.node.plain.diagnose()[:2] == (OK, 'standing')
     assert any(robot.drive(vx=0.5).velocity)

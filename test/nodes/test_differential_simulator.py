@@ -20,6 +20,7 @@ from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
 from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.messages import fill_pose, pose_of
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import overrides, start
@@ -88,15 +89,15 @@ class Hare:
         self.simulator = self.start(DifferentialSimulator, time_factor=2.0)
         self.start(DifferentialKinematics, use_sim_time=True)
         self.ghost = self.start(GhostTrajectory, use_sim_time=True)
-        tester.graph.spin_until(lambda: self.ghost.pose is not None)
+        tester.graph.spin_until(lambda: self.ghost.plain.pose is not None)
 
     def start(self, kind, **changes):
         arguments = [
             '--ros-args', '--params-file', str(find_config('differential.yaml')),
             '-r', 'pose:=fix',
         ]  # fmt: skip
-        node = kind(
-            context=self.tester.graph.context, cli_args=arguments,
+        node = LiveNode(
+            kind, context=self.tester.graph.context, cli_args=arguments,
             parameter_overrides=overrides(**changes),
         )  # fmt: skip
         self.tester.graph.add(node)

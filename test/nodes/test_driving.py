@@ -50,7 +50,7 @@ class Driver:
             self.goal = tester.publisher(PoseStamped, 'goal_pose')
         elif kind is RouteFollowerNode:
             self.goal = tester.publisher(Path, 'route')
-        tester.graph.spin_until(lambda: not self.node.lost)
+        tester.graph.spin_until(lambda: not self.node.plain.lost)
 
     def go(self):
         """Tell it to go 50 m ahead."""
@@ -96,7 +96,7 @@ def test_held_it_is_blocked_stands_and_goes_on_when_a_person_says_so(driver):
     far.robot.stuck = True
     assert 'blocked: told to move by' in far.says('blocked: ')
     far.robot.stands()
-    assert far.node.diagnose().level == b'\x02'
+    assert far.node.plain.diagnose().level == b'\x02'
     far.robot.stuck = False
     far.tester.graph.spin_for(0.3)
     assert not any(far.robot.commands[-1])

@@ -100,10 +100,10 @@ def test_after_a_nap_of_its_process_the_wheels_start_from_rest(tester, kind, top
     driver = Driver(tester, kind, topic, **slow)
     driver.moves()
     node, slept = driver.node, [0.0]
-    node.steady_seconds = lambda: time.monotonic() + slept[0]
+    node.port.steady_seconds = lambda: time.monotonic() + slept[0]
     for _ in range(4):
         tester.wait(driver.commands, lambda m: max(m.velocity) > 0.1)
-        now = node.nanoseconds() * 1e-9
+        now = node.port.nanoseconds() * 1e-9
         slept[0] += 10.0
         driver.commands.clear()
         first = tester.wait(driver.commands, lambda m: seconds_of(m.header.stamp) >= now)  # noqa: B023

@@ -204,9 +204,9 @@ def test_silence_of_the_pose_is_an_explicit_stop(tester):
     course.robot.silent = True
     course.says('stopped: no odom for 0.3 s')
     course.robot.stands()
-    where = course.node._follower.ghost.pose  # noqa: SLF001 - it must not run away meanwhile
+    where = course.node.plain._follower.ghost.pose  # noqa: SLF001 - it must not run away meanwhile
     course.tester.graph.spin_for(0.3)
-    assert course.node._follower.ghost.pose == where  # noqa: SLF001
+    assert course.node.plain._follower.ghost.pose == where  # noqa: SLF001
     course.robot.silent = False
     course.robot.report()
     course.robot.moves()
@@ -218,7 +218,7 @@ def test_a_robot_carried_away_is_lost_and_stops(course):
     course.robot.pose = course.robot.pose._replace(y=2.0)
     course.says('lost: ')
     course.robot.stands()
-    assert course.node.diagnose().level == b'\x02'
+    assert course.node.plain.diagnose().level == b'\x02'
 
 
 def test_the_last_word_is_zero_and_the_goal_is_forgotten(course):
@@ -268,4 +268,4 @@ def test_gains_may_change_on_the_way_but_not_to_anything(course):
     (refused,) = change([Parameter('follow.leash.wait_beyond', value=0.05)])
     assert taken.successful
     assert 'in this order, rising' in refused.reason
-    assert course.node._follower.parameters.kanayama.along == 2.0  # noqa: SLF001
+    assert course.node.plain._follower.parameters.kanayama.along == 2.0  # noqa: SLF001

@@ -41,7 +41,7 @@ def test_without_history_it_says_why_it_rests(tester):
     valid = tester.listen(Bool, 'granier/valid', LATCHED)
     node = tester.start(GranierProbe, warm_up_days=0.0, **QUICK)
     assert not tester.wait(valid).data
-    assert 'probe_1 is learning' in node.diagnose().message
+    assert 'probe_1 is learning' in node.plain.diagnose().message
 
 
 def table(tmp_path, rows):
@@ -77,7 +77,7 @@ def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
     )  # fmt: skip
     assert tester.wait(valid, lambda m: m.data)
     tester.wait(valid, lambda m: not m.data)
-    assert 'probe_2 is off' in node.diagnose().message
+    assert 'probe_2 is off' in node.plain.diagnose().message
 
 
 def test_a_gap_ends_the_sap_flow(tester, tmp_path):
@@ -89,7 +89,7 @@ def test_a_gap_ends_the_sap_flow(tester, tmp_path):
     )  # fmt: skip
     tester.wait(valid, lambda m: m.data)
     tester.wait(valid, lambda m: not m.data)
-    assert 'no reading for' in node.diagnose().message
+    assert 'no reading for' in node.plain.diagnose().message
 
 
 def test_recalibration_is_a_service(tester):
@@ -145,7 +145,7 @@ def test_shade_reaches_the_simulated_tree(tester):
     message = Illuminance(illuminance=20_000.0)
     message.header.stamp.sec = 1434369600  # 15 June 2015, noon
     light.publish(message)
-    tester.graph.spin_until(lambda: node._source._light < 0.3)  # noqa: SLF001 - it shows nowhere else so soon
+    tester.graph.spin_until(lambda: node.plain._source._light < 0.3)  # noqa: SLF001 - it shows nowhere else so soon
 
 
 @pytest.mark.parametrize(

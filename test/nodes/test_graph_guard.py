@@ -160,7 +160,7 @@ def test_driven_wheels_stand_beside_a_second_commander_and_go_on_without_it(onlo
     driven.commands.clear()
     onlooker.reported(driven.node, ERROR, '/motor_test', '/differential_kinematics')
     assert not any(map(any, (command.velocity for command in driven.commands)))
-    assert driven.node._graph.rivals  # noqa: SLF001
+    assert driven.node.port.graph.rivals
     onlooker.gone(rival)
     onlooker.until(driven.turn)
 
@@ -260,7 +260,7 @@ def test_a_quiet_graph_is_hardly_asked(onlooker):
     asked = []
     ask = node.get_publishers_info_by_topic
     node.get_publishers_info_by_topic = lambda topic: asked.append(topic) or ask(topic)
-    watch = node._graph._watch  # noqa: SLF001
+    watch = node.port.graph._watch  # noqa: SLF001
     for _ in range(20):
         watch.look()
     assert len(asked) <= 20 * IN_TURN + 4

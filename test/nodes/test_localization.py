@@ -89,7 +89,7 @@ class Robot:
         return hypot(pose.x - self.truth.x, pose.y - self.truth.y)
 
     def values(self):
-        return self.node.diagnose().values
+        return self.node.plain.diagnose().values
 
 
 def set_pose(pose, covariance=None, frame='map'):
@@ -249,9 +249,9 @@ def test_a_pose_that_has_become_a_guess_is_no_longer_told(tester):
     count = len(robot.poses)
     robot.run(1.0, fixes=False)
     assert len(robot.poses) == count
-    assert robot.node.diagnose().message.startswith('pose not told: no fix for a while')
+    assert robot.node.plain.diagnose().message.startswith('pose not told: no fix for a while')
     assert robot.values()['state'] == 'odometry_only'
-    tester.graph.spin_until(lambda: robot.node.diagnose().message == 'odom is lost')
+    tester.graph.spin_until(lambda: robot.node.plain.diagnose().message == 'odom is lost')
 
 
 def test_restart_forgets(tester):

@@ -11,10 +11,11 @@ pytest.importorskip('rclpy')
 from agv_motion.motion.behavior.memory import Memory
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.nodes.memory_store import FIRST_PERIOD, MemoryStore
+from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 
 
-class Node(SimpleNamespace):
-    """What the keeper needs of its node, with a clock that a test sets."""
+class Port(SimpleNamespace):
+    """What the store needs of a port, with a clock that a test sets."""
 
     def seconds(self):
         return self.now
@@ -25,7 +26,8 @@ class Node(SimpleNamespace):
 
         return SimpleNamespace(publish=publish)
 
-    def every(self, period, callback, _clock=None):
+    def every(self, period, callback, *, steady):
+        assert steady
         self.timers[period] = callback
 
     def stamp(self, message):
@@ -34,12 +36,12 @@ class Node(SimpleNamespace):
 
 def test_the_first_map_waits_for_the_time_and_has_it_as_its_stamp():
     zone = Zone([(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)])
-    node = Node(now=0.0, told=[], timers={}, parameters=SimpleNamespace(map_period=60.0))
-    keeper = MemoryStore(node, Memory(zone), '', 'map', 24.0)
+    port = Port(now=0.0, told=[], timers={})
+    keeper = MemoryStore(port, Memory(zone), MotionGeneratorParameters(map_period=60.0))
     keeper.begin()
-    node.timers[FIRST_PERIOD]()
-    assert node.told == []
-    node.now = 7.0
-    node.timers[FIRST_PERIOD]()
-    node.timers[FIRST_PERIOD]()
-    assert node.told == [('memory/sap_flow', 7), ('memory/last_visit', 7)]
+    port.timers[FIRST_PERIOD]()
+    assert port.told == []
+    port.now = 7.0
+    port.timers[FIRST_PERIOD]()
+    port.timers[FIRST_PERIOD]()
+    assert port.told == [('memory/sap_flow', 7), ('memory/last_visit', 7)]

@@ -213,7 +213,7 @@ def test_a_tree_that_does_not_move_though_told_to_is_blocked_until_a_person_lets
     senses.commands.clear()
     keeps_telling(senses, lambda: len(senses.commands) > 5)
     assert not any(map(senses.moving, senses.commands))
-    assert senses.node.diagnose().level == b'\x02'
+    assert senses.node.plain.diagnose().level == b'\x02'
     assert senses.tester.ask(SetBool, 'motion_generator/pause', SetBool.Request()).success
     senses.commands.clear()
     keeps_telling(senses, lambda: any(map(senses.moving, senses.commands)))

@@ -12,8 +12,8 @@ from geometry_msgs.msg import PoseWithCovarianceStamped, Vector3, Vector3Stamped
 
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process import add
-from agv_motion.ros.world import World
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 
 SECOND = 1_000_000_000
 CLOSING = int(datetime(2015, 6, 15, 18, 0, tzinfo=timezone.utc).timestamp()) * SECOND
@@ -22,13 +22,13 @@ FIXED = {'goals.strategy': 'fixed', 'goal': (9.0, 0.0)}
 
 
 class Tree:
-    """A motion node in a world of its own, and what it said [s since the beginning]."""
+    """A motion node in a graph of its own, and what it said [s since the beginning]."""
 
     def __init__(self, start, **given):
         self.states, self.twists, self.start = [], [], start
-        self.world = World(self.record, start)
-        add(self.world, MotionGenerator, SILENT | FIXED | given, {})
-        self.world.start()
+        self.graph = InProcessGraph(self.record, start)
+        InProcessNode(self.graph, MotionGenerator, SILENT | FIXED | given)
+        self.graph.start()
 
     def record(self, publisher, stamp, data):
         message, seconds = codec(publisher.kind).decode(data), (stamp - self.start) / SECOND
@@ -50,7 +50,7 @@ class Tree:
 
     def _feed(self, seconds, topic, message):
         stamp = self.start + int(seconds * SECOND)
-        self.world.feed(topic, stamp, codec(type(message)).encode(message))
+        self.graph.feed(topic, stamp, codec(type(message)).encode(message))
 
 
 def test_the_closing_hour_is_noticed_though_nothing_is_new():
@@ -58,7 +58,7 @@ def test_the_closing_hour_is_noticed_though_nothing_is_new():
     tree = Tree(CLOSING - 10 * SECOND, **hours)
     tree.stand(0.05)
     tree.flow(0.05)
-    tree.world.run(CLOSING + 2 * SECOND)
+    tree.graph.run(CLOSING + 2 * SECOND)
     (walked, walking), (rested, resting) = tree.states[-2:]
     assert 'walking' in walking
     assert walked <= 0.1
@@ -72,7 +72,7 @@ def test_a_new_pose_and_a_new_flow_count_at_once():
     tree.flow(0.05)
     tree.stand(0.35, y=9.0)
     tree.flow(0.55, 0.0)
-    tree.world.run(CLOSING + SECOND)
+    tree.graph.run(CLOSING + SECOND)
     straight = [(x, y) for t, x, y in tree.twists if 0.05 < t < 0.35]
     aside = [(x, y) for t, x, y in tree.twists if 0.35 <= t < 0.55]
     assert straight
@@ -87,6 +87,6 @@ def test_commands_go_on_between_thoughts():
     tree = Tree(CLOSING)
     tree.stand(0.05)
     tree.flow(0.05)
-    tree.world.run(CLOSING + 5 * SECOND)
+    tree.graph.run(CLOSING + 5 * SECOND)
     assert len(tree.twists) >= 50
     assert all(x > 0.0 for t, x, _ in tree.twists if t > 0.05)

@@ -66,7 +66,7 @@ class Robot:
 
     def drive(self, **components):
         """Return the command that answers a twist: the first that is stamped no sooner."""
-        watch = self.node.command_watch
+        watch = self.node.plain.command_watch
         before = watch.newest
         self.commands.clear()
         self.cmd_vel.publish(twist(**components))
@@ -155,7 +155,7 @@ def test_silence_is_worth_a_warning_only_where_the_robot_was_driven(tester, spee
     robot = Robot(tester, report_after=0.1, stop_after=0.2)
     robot.drive(vx=speed)
     tester.graph.spin_for(0.5)
-    tester.graph.spin_until(lambda: robot.node.diagnose()[:2] == found)
+    tester.graph.spin_until(lambda: robot.node.plain.diagnose()[:2] == found)
 
 
 def test_encoders_that_fall_silent_stop_the_robot(tester):
@@ -163,7 +163,7 @@ def test_encoders_that_fall_silent_stop_the_robot(tester):
     robot.tell(state([0.0] * 3, 1.0))
     tester.graph.repeat(
         lambda: robot.drive(vx=0.3),
-        until=lambda: 'wheels/state is lost' in robot.node.diagnose().message,
+        until=lambda: 'wheels/state is lost' in robot.node.plain.diagnose().message,
     )
     assert not any(robot.drive(vx=0.3).velocity)
     stamps = count(2)
@@ -262,12 +262,12 @@ def test_of_four_wheels_one_may_be_missing_and_come_back(tester):
     names = ['a', 'b', 'c', 'd']
     robot.tell(state([0.0] * 4, 1.0, names))
     robot.tell(state([0.2] * 3, 1.1, ['d', 'a', 'c']))
-    assert 'goes on without b' in robot.node.diagnose().message
+    assert 'goes on without b' in robot.node.plain.diagnose().message
     robot.tell(state([0.4, 77.0, 0.4, 0.4], 1.2, names))
     last = robot.tell(state([0.6, 77.2, 0.6, 0.6], 1.3, names))
     assert last.pose.pose.position.x == pytest.approx(0.6 * RADIUS)
     assert last.pose.pose.position.y == pytest.approx(0.0, abs=1e-12)
-    assert robot.node.diagnose().values['wheels left out'] == 'none'
+    assert robot.node.plain.diagnose().values['wheels left out'] == 'none'
 
 
 def test_set_odometry_goes_on_from_there(tester):

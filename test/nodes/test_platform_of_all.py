@@ -26,7 +26,7 @@ def test_no_node_of_the_tree_refuses_what_is_told_to_all(graph, name):
     node = graph.add(
         KINDS[name](context=graph.context, cli_args=['--ros-args', '--params-file', file])
     )
-    assert node._declared.unknown == ()  # noqa: SLF001 - told a second later, in the log alone
+    assert node.declared.unknown == ()
 
 
 def test_wheels_zone_and_traffic_have_the_same_outline(graph):

@@ -63,6 +63,9 @@ class Tree:
         flow.vector.x, flow.vector.y, flow.vector.z = 1.0, 0.5, 0.5
         self._flows.publish(flow)
 
+    def diagnose(self):
+        return self.node.plain.diagnose()
+
     def away(self):
         return hypot(self.pose.x - self.goal[0], self.pose.y - self.goal[1])
 
@@ -79,7 +82,7 @@ def test_two_that_meet_head_on_keep_clear_and_arrive(tester, zone):
     ash = Tree(tester, zone, 'ash', (6.0, 1.9), (1.0, 2.1))
     nearest, end, before = 9.0, time.monotonic() + 60.0, time.monotonic()
     while max(oak.away(), ash.away()) > 0.35:
-        assert time.monotonic() < end, (oak.node.diagnose(), ash.node.diagnose())
+        assert time.monotonic() < end, (oak.diagnose(), ash.diagnose())
         now = time.monotonic()
         for tree in (oak, ash):
             tree.live(now - before)
@@ -87,7 +90,7 @@ def test_two_that_meet_head_on_keep_clear_and_arrive(tester, zone):
         nearest = min(nearest, hypot(oak.pose.x - ash.pose.x, oak.pose.y - ash.pose.y))
         tester.graph.spin_for(0.05)
     assert nearest >= 2.0 * BODY + MARGIN
-    assert oak.node.diagnose().values['other trees'] == 'ash'
+    assert oak.diagnose().values['other trees'] == 'ash'
 
 
 def test_a_tree_tells_where_it_is_and_parks_at_the_end(tester, zone):
@@ -107,7 +110,7 @@ def live_until(tester, trees, condition, seconds=60.0):
     end = before = time.monotonic()
     while not condition():
         now = time.monotonic()
-        assert now < end + seconds, [tree.node.diagnose() for tree in trees]
+        assert now < end + seconds, [tree.diagnose() for tree in trees]
         for tree in trees:
             tree.live(now - before)
         before = now
@@ -116,7 +119,7 @@ def live_until(tester, trees, condition, seconds=60.0):
 
 def stands(tree, word):
     """Return whether a tree does not move, and says why with a ``word``."""
-    told = tree.node.diagnose()
+    told = tree.diagnose()
     return tree.twist == REST and word in told.values['nobody moves'] and word in told.message
 
 
@@ -129,7 +132,7 @@ def test_two_of_one_name_stand_and_say_so_until_one_is_gone(tester, zone):
     live_until(tester, both, lambda: all(stands(tree, "calls itself 'oak'") for tree in both))
     assert one.pose == Pose(1.0, 2.0, 0.0)
     other.node.trigger_deactivate()
-    live_until(tester, [one], lambda: one.node.diagnose().values['nobody moves'] == 'no')
+    live_until(tester, [one], lambda: one.diagnose().values['nobody moves'] == 'no')
 
 
 def test_a_reservation_that_is_refused_is_told_and_the_tree_stands_for_a_while(tester, zone):
@@ -142,7 +145,7 @@ def test_a_reservation_that_is_refused_is_told_and_the_tree_stands_for_a_while(t
     live_until(tester, [oak], lambda: reservations and messages.get_subscription_count() >= 1)
     messages.publish(MarkerArray())
     live_until(tester, [oak], lambda: stands(oak, '0 markers are no reservation of a tree'))
-    live_until(tester, [oak], lambda: oak.node.diagnose().values['nobody moves'] == 'no')
+    live_until(tester, [oak], lambda: oak.diagnose().values['nobody moves'] == 'no')
 
 
 def test_who_was_heard_is_waited_for_after_a_restart(tester, zone, tmp_path):
@@ -156,7 +159,7 @@ def test_who_was_heard_is_waited_for_after_a_restart(tester, zone, tmp_path):
         tree.node.trigger_shutdown()
     given['traffic__expected'] = ['oak']  # nobody by itself
     again = Tree(tester, zone, 'oak', (1.0, 2.0), (6.0, 2.0), **given)
-    live_until(tester, [again], lambda: 'waits for the answer of pine' in again.node.diagnose()[1])
+    live_until(tester, [again], lambda: 'waits for the answer of pine' in again.diagnose()[1])
     assert again.pose == Pose(1.0, 2.0, 0.0)
 
 
@@ -171,13 +174,13 @@ def test_a_tree_whose_simulated_clock_stands_still_speaks_and_finds_out_who_is_s
     def received():
         clock.publish(Clock(clock=stamp_of(round((1e3 + time.monotonic()) * 1e9))))
         messages.publish(reservation_message(ash, 'map', 0.0))
-        return oak.node.diagnose().values['other trees'] == 'ash'
+        return oak.diagnose().values['other trees'] == 'ash'
 
     live_until(tester, [oak], received)
-    live_until(tester, [oak], lambda: oak.node.clock.fault)
+    live_until(tester, [oak], lambda: oak.node.port.clock.fault)
     reservations.clear()
     live_until(tester, [oak], lambda: len({m.markers[0].text for m in reservations}) >= 3)
-    live_until(tester, [oak], lambda: oak.node.diagnose().values['other trees'] == 'ash (silent)')
+    live_until(tester, [oak], lambda: oak.diagnose().values['other trees'] == 'ash (silent)')
     assert oak.twist == REST
 
 
@@ -197,7 +200,7 @@ def test_a_tree_whose_pose_jumps_to_and_fro_tells_both_places_and_stands(tester,
     live_until(tester, [oak], lambda: reservations.clear() or stands(oak, 'off its way'))
     live_until(tester, [oak], lambda: told((4.0, 3.0), (1.0, 2.0)))
     live_until(tester, [oak], lambda: told((1.0, 2.0)) and not told((4.0, 3.0)))
-    live_until(tester, [oak], lambda: oak.node.diagnose().values['nobody moves'] == 'no')
+    live_until(tester, [oak], lambda: oak.diagnose().values['nobody moves'] == 'no')
 
 
 def test_a_tree_that_knows_of_no_other_does_not_start(tester, zone, tmp_path):

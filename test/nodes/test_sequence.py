@@ -44,7 +44,7 @@ class Mission:
         self.node = tester.start(SequenceNode, **({'file': str(file)} | parameters))
         if find:
             self.robot.find()
-            tester.graph.spin_until(lambda: not self.node.lost)
+            tester.graph.spin_until(lambda: not self.node.plain.lost)
 
     def says(self, words, timeout=60.0):
         return self.tester.wait(self.states, lambda m: words in m.data, timeout)

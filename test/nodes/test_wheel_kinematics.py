@@ -159,7 +159,7 @@ def test_turrets_that_fight_stop_the_platform(tester, drive):
     tester.graph.spin_for(0.2)
     joint_states.publish(state([0.0, pi], [3.0, 3.0]))
     assert tester.wait(residual).data == pytest.approx(0.3)
-    tester.graph.spin_until(lambda: 'stopped' in node.diagnose().message)
+    tester.graph.spin_until(lambda: 'stopped' in node.plain.diagnose().message)
     commands.clear()
     cmd_vel.publish(twist(vx=0.3))
     assert rates(tester.wait(commands)) == [0.0, 0.0]
@@ -319,7 +319,7 @@ def test_zeros_of_the_steering_are_taken_into_account(tester, drive):
     cmd_vel.publish(twist(vx=0.3))
     command = tester.wait(commands, lambda m: any(rates(m)))
     assert angles(command) == pytest.approx([-0.1, 0.0])
-    assert node.diagnose().values['residual [m/s]'] == '0.00000'
+    assert node.plain.diagnose().values['residual [m/s]'] == '0.00000'
     with pytest.raises(ConfigurationError, match='steering_zero'):
         tester.start(WheelKinematics, steering_zero=[0.1], **PAIR)
 
@@ -350,7 +350,7 @@ def test_what_limits_the_motion_is_told(tester, drive):
     tester.wait(limiters, lambda m: m.data == 'turning the turrets before rolling')
     cmd_vel.publish(twist(vy=0.3))
     tester.wait(limiters, lambda m: m.data == 'wheel speed')
-    assert node.diagnose().values['limited by'] == 'wheel speed'
+    assert node.plain.diagnose().values['limited by'] == 'wheel speed'
     (taken,) = node.set_parameters([rclpy.Parameter('wheel_acceleration', value=0.01)])
     assert taken.successful
     cmd_vel.publish(twist(vy=0.01))
@@ -400,7 +400,7 @@ def test_a_turret_found_beyond_its_limit_turns_back_and_the_node_says_so(drive, 
     node, commands, cmd_vel = drive(**FAST)
     state = tester.publisher(JointState, 'turrets/state', SENSOR)
     state.publish(turrets_at(24.0, 0.0))
-    tester.graph.spin_until(lambda: 'beyond its turn_limit' in node.diagnose().message)
+    tester.graph.spin_until(lambda: 'beyond its turn_limit' in node.plain.diagnose().message)
     for _ in range(300):
         cmd_vel.publish(twist(vx=1.0))
         tester.graph.spin_for(0.02)
@@ -409,7 +409,7 @@ def test_a_turret_found_beyond_its_limit_turns_back_and_the_node_says_so(drive, 
         state.publish(turrets_at(*(angles(commands[-1]) if commands else (24.0, 0.0))))
     assert any(rates(commands[-1]))
     assert max(map(abs, angles(commands[-1]))) <= 1.5 * 2 * pi
-    assert 'beyond' not in node.diagnose().message
+    assert 'beyond' not in node.plain.diagnose().message
 
 
 @pytest.mark.parametrize('bad', [1e9, 1.7e308, nan])
@@ -422,7 +422,7 @@ def test_an_angle_that_cannot_be_leaves_the_platform_standing(drive, tester, bad
     if bad == bad:  # noqa: PLR0124 - not NaN
         cmd_vel.publish(twist(vx=1.0))
         assert not any(rates(tester.wait(commands)))
-        assert 'look at the encoder' in node.diagnose().message
+        assert 'look at the encoder' in node.plain.diagnose().message
     state.publish(turrets_at(0.0, 0.0))
     commands.clear()
     for _ in range(300):

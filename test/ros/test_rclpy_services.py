@@ -15,7 +15,8 @@ from rclpy.experimental import EventsExecutor
 
 from agv_motion.cli.nodes import available
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
-from agv_motion.ros.node import ManagedNode
+from agv_motion.ros.live_node import LiveNode
+from agv_motion.ros.plain_node import PlainNode
 
 FITTING = {
     'unconfigured': {1, 5},
@@ -64,7 +65,7 @@ def kinds():
         yield next(
             kind
             for kind in vars(module).values()
-            if isinstance(kind, type) and issubclass(kind, ManagedNode)
+            if isinstance(kind, type) and issubclass(kind, PlainNode)
             and kind.__module__ == module.__name__
         )  # fmt: skip
 
@@ -75,7 +76,7 @@ def served(graph):
     made = []
 
     def make(kind):
-        made.append(Executor(graph, kind(context=graph.context)))
+        made.append(Executor(graph, LiveNode(kind, context=graph.context)))
         return made[-1]
 
     yield make

@@ -10,6 +10,7 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros import run as run_module
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import EXECUTORS, declare, spin, start
 
 
@@ -70,7 +71,7 @@ def test_one_that_cannot_shut_down_keeps_no_other_from_it(graph):
 
 
 def test_how_a_node_is_run_counts_at_its_start_alone(graph):
-    node = DifferentialKinematics(context=graph.context)
+    node = LiveNode(DifferentialKinematics, context=graph.context)
     graph.nodes.append(node)
     assert declare(node) == (True, 'events')
     for name, value in {'autostart': False, 'executor': 'single_threaded'}.items():

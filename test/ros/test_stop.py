@@ -17,19 +17,24 @@ SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 BEGIN = """
 import os, signal, sys
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import run
+make = LiveNode.__init__
 def end():
     for _ in range(2):
         os.kill(os.getpid(), signal.SIGINT)
 class Node(DifferentialKinematics):
     pass
-def make():
-    return Node()
 """
 PHASES = {
-    'before the node': 'def make(): end(); return Node()',
-    'after its construction': 'def make(): node = Node(); end(); return node',
-    'while it is configured': 'Node.open = lambda s: (DifferentialKinematics.open(s), end())',
+    'before the node': 'LiveNode.__init__ = lambda *a, **k: (end(), make(*a, **k))[1]',
+    'after its construction': 'LiveNode.__init__ = lambda *a, **k: (make(*a, **k), end())[0]',
+    'while it is configured': """
+def configured(self, *given):
+    DifferentialKinematics.__init__(self, *given)
+    end()
+Node.__init__ = configured
+""",
     'while it is activated': 'Node.begin = lambda self: end()',
     'while it says its last word': """
 Node.begin = lambda self: end()
@@ -77,7 +82,7 @@ def test_during_the_imports(slow_import, command, number):
 
 @pytest.mark.parametrize('phase', PHASES)
 def test_twice_in_each_phase_of_a_start(phase):
-    code = f'{BEGIN}\n{PHASES[phase]}\nrun(make)\n'
+    code = f'{BEGIN}\n{PHASES[phase]}\nrun(Node)\n'
     process = subprocess.Popen(  # noqa: S603 - our own
         [sys.executable, '-c', code], text=True, stderr=subprocess.PIPE
     )

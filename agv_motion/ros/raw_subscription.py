@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Take = Callable[[bytes, dict[str, Any]], None]
 
 
-class Ears:
+class ListenerNodes:
     """Hidden nodes for subscriptions that no executor takes from.
 
     A participant of the middleware knows one type of a topic only; a topic of several types needs
@@ -64,7 +64,7 @@ class Ears:
 
     def _node(self, context: Context) -> Node:
         return Node(
-            f'_{self._name}_ears',
+            f'_{self._name}_listener',
             context=context,
             start_parameter_services=False,
             enable_rosout=False,
@@ -72,7 +72,7 @@ class Ears:
         )
 
 
-class Tap:
+class RawSubscription:
     """Subscriptions to one topic, which ask for no more than its publishers offer.
 
     A subscription that asks for reliable or latched messages does not hear publishers that offer
@@ -85,7 +85,7 @@ class Tap:
         """Prepare; subscriptions come with the publishers.
 
         Args:
-            node: From :func:`ears`.
+            node: One of :class:`ListenerNodes`.
             topic: Full name.
             kind: Message class.
             take: Called with each message in CDR and rclpy's message info.

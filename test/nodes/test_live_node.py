@@ -1,4 +1,4 @@
-"""`ManagedNode` over a real graph: defects in callbacks, and refusals without end."""
+"""`LiveNode` over a real graph: defects in callbacks, and refusals without end."""
 
 from __future__ import annotations
 
@@ -76,28 +76,28 @@ def robot(tester):
 
 
 def test_a_defect_at_a_message_leaves_an_explicit_zero_and_the_node_can_go_on(robot):
-    robot.node.carry = fail
+    robot.node.plain.carry = fail
     message = JointState(name=['left_wheel', 'right_wheel'], position=[0.0, 0.0])
     message.header.stamp = robot.node.get_clock().now().to_msg()
     robot.encoders.publish(message)
     robot.stands_and_says_so('wheels/state', 'ZeroDivisionError')
-    del robot.node.carry
+    del robot.node.plain.carry
     robot.node.trigger_activate()
     robot.drive()
 
 
 def test_a_defect_at_a_timer(robot):
-    robot.node._rates.get_subscription_count = fail  # noqa: SLF001 - asked by its watch
+    robot.node.plain._rates.get_subscription_count = fail  # noqa: SLF001 - asked by its watch
     robot.stands_and_says_so('a timer', 'ZeroDivisionError')
 
 
 def test_a_defect_in_the_diagnostics(robot):
-    robot.node.diagnose = fail
+    robot.node.plain.diagnose = fail
     robot.stands_and_says_so('the diagnostics', 'ZeroDivisionError')
 
 
-def test_a_defect_at_a_service_is_answered(robot):
-    robot.node._on_stop, robot.node.why_stopped = fail, fail  # noqa: SLF001
+def test_a_defect_at_a_service_is_answered(robot, monkeypatch):
+    monkeypatch.setattr(DifferentialKinematics, '_on_stop', fail)
     robot.node.trigger_deactivate()
     robot.node.trigger_cleanup()
     start(robot.node)
@@ -109,7 +109,7 @@ def test_a_defect_at_a_service_is_answered(robot):
 def test_a_flood_of_foreign_joints_fills_no_log(robot):
     """Names that differ at every message, each 10 kB: a handful of short lines."""
     robot.log.clear()
-    before = robot.node._complaints.count  # noqa: SLF001
+    before = robot.node.port.complaints.count
     numbers = iter(range(10**6))
 
     def flooded():
@@ -117,7 +117,7 @@ def test_a_flood_of_foreign_joints_fills_no_log(robot):
         names = [f'{chr(97 + number % 26)}{number}_' + 'x' * 200 for _ in range(50)]
         robot.encoders.publish(JointState(name=names, position=[0.0] * 50))
         robot.tester.graph.spin_for(0.0)
-        return robot.node._complaints.count >= before + 300  # noqa: SLF001
+        return robot.node.port.complaints.count >= before + 300
 
     robot.tester.graph.spin_until(flooded)
     robot.tester.graph.spin_until(lambda: robot.log)

@@ -1,0 +1,82 @@
+"""Twists of the body as rows, and `cmd_vel`, which may have a stamp or not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import TwistStamped
+
+from agv_motion.ros.messages import fill_twist, twist_of
+from agv_motion.ros.qos import COMMAND
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from agv_motion.planar import Twist
+    from agv_motion.ros.port import Port
+
+PLANAR = 'linear.x', 'linear.y', 'angular.z'
+"""The planar part of a geometry_msgs/Twist."""
+
+
+class TwistRows:
+    """Twists as geometry_msgs/TwistStamped."""
+
+    def __init__(self, frame: str) -> None:
+        """Tell them in ``frame``."""
+        self._frame = frame
+
+    def message(self) -> TwistStamped:
+        """Return a message of no motion."""
+        message = TwistStamped()
+        message.header.frame_id = self._frame
+        return message
+
+    def fill(self, message: Any, row: Twist) -> None:
+        """Write a twist into a message."""
+        fill_twist(message.twist, row)
+
+    def fill_table(self, table: NDArray[Any], rows: Sequence[Twist]) -> None:
+        """Write many twists into the columns of a table."""
+        for axis, column in zip(PLANAR, np.array(rows).reshape(-1, 3).T, strict=True):
+            table[f'twist.{axis}'] = column
+
+    def read(self, message: Any) -> Twist:
+        """Return the twist of a message; raise a `SignalError` where it is not finite."""
+        return twist_of(message.twist)
+
+
+def twist_publisher(port: Port, frame: str, *, stamped: bool) -> Callable[[Twist], None]:
+    """Open `cmd_vel`, and return what commands a twist from now on.
+
+    Args:
+        port: Of the node that commands.
+        frame: Of the twist, where the message has a header.
+        stamped: Whether to send TwistStamped, else Twist.
+
+    """
+    if not stamped:
+        return _plain_publisher(port)
+    publish, now = (
+        port.row_publisher(TwistRows(frame), 'cmd_vel', COMMAND).publish,
+        port.nanoseconds,
+    )
+
+    def command(twist: Twist) -> None:
+        publish(twist, now())
+
+    return command
+
+
+def _plain_publisher(port: Port) -> Callable[[Twist], None]:
+    message, topic = TwistMessage(), port.publisher(TwistMessage, 'cmd_vel', COMMAND)
+
+    def command(twist: Twist) -> None:
+        fill_twist(message, twist)
+        topic.publish(message)
+
+    return command
