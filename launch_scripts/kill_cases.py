@@ -26,9 +26,9 @@ from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.odometry.columns import pose_columns
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process import add
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.world import World
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -133,7 +133,7 @@ def _walk(path: Path, seconds: int, seed: int = 1) -> None:
     """Record what a tree says before a June noon."""
     with BagWriter(path) as writer:
         transcript = Transcript(writer)
-        world = World(transcript.record, NOON)
+        graph = InProcessGraph(transcript.record, NOON)
         for kind, name in (
             (GranierProbe, 'granier_probe'),
             (MotionGenerator, 'motion_generator'),
@@ -143,10 +143,10 @@ def _walk(path: Path, seconds: int, seed: int = 1) -> None:
             given = parameters('tree.yaml', name)
             if name == 'simulator':
                 given |= {'seed': seed, 'start_time': '2015-06-15T11:00:00'}
-            add(world, kind, given, {'/pose': '/fix'})
-        world.start()
-        world.run(NOON + seconds * SECOND)
-        world.stop()
+            InProcessNode(graph, kind, given, {'/pose': '/fix'})
+        graph.start()
+        graph.run(NOON + seconds * SECOND)
+        graph.stop()
         transcript.flush()
 
 
