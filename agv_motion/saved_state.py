@@ -29,6 +29,12 @@ FIRST_LINE = b'agv_motion state 1 sha256 '
 LARGEST = 256 * 1024 * 1024
 """[bytes] A file beyond this is none of ours: the largest memory of places has 96 MB."""
 
+ABANDONED = 3600.0
+"""[s] after which an unfinished file is nobody's any more"""
+
+_PREFIX = '.state-'
+"""of the names of unfinished files"""
+
 ONLY_NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
@@ -44,7 +50,7 @@ def save(path: str | Path, content: bytes) -> None:
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_name(f'.state-{secrets.token_hex(16)}')
+    new = path.with_name(_PREFIX + secrets.token_hex(16))
     descriptor = os.open(new, ONLY_NEW, 0o666)
     try:
         with os.fdopen(descriptor, 'wb') as file:
@@ -56,6 +62,7 @@ def save(path: str | Path, content: bytes) -> None:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
+            _sweep(path.parent, os.fstat(file.fileno()).st_mtime)
         new.replace(path)
     except BaseException:
         with suppress(OSError):
@@ -67,6 +74,21 @@ def save(path: str | Path, content: bytes) -> None:
             os.fsync(folder)
         finally:
             os.close(folder)
+
+
+def _sweep(folder: Path, now: float) -> None:
+    """Delete what saves that were killed have left, and no file that may still be written.
+
+    Args:
+        folder: Where they saved.
+        now: Time by which its file system stamps [s].
+
+    """
+    for left in folder.glob(_PREFIX + '[0-9a-f]' * 32):
+        with suppress(OSError):  # gone meanwhile
+            found = os.lstat(left)
+            if stat.S_ISREG(found.st_mode) and now - found.st_mtime > ABANDONED:
+                left.unlink()
 
 
 def load(path: str | Path, largest: int = LARGEST) -> bytes | None:

@@ -36,6 +36,8 @@ from kill_cases import Case, beside, cases, cluster, prepare
 from kill_run import FULL, INTERRUPT, KILL, TERMINATE, WORKER, Moment, Way, run
 from rich.progress import track
 
+from agv_motion.ros.stop import interrupt
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -188,6 +190,7 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument('--only', nargs='*', default=[], help='names of commands')
     parser.add_argument('--keep', action='store_true', help='keep the folder')
     asked = parser.parse_args(words)
+    interrupt()  # so that what runs beside ends with this
     folder, wrong = Path(tempfile.mkdtemp(prefix='trial_kills_')), 0
     chosen = [case for case in cases(folder / 'sources', 'later') if _is_asked(case, asked.only)]
     prepare(folder / 'sources', chosen)

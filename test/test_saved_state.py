@@ -139,6 +139,17 @@ def test_the_name_of_the_unfinished_file_cannot_be_foretold(path, monkeypatch):
     assert not any('new' in name or path.name + '.' in name for name in names)
 
 
+def test_what_a_killed_save_left_is_swept_and_what_is_being_written_is_not(path):
+    save(path, b'1')
+    old, new, mine = (path.with_name(f'.state-{word}') for word in ('a' * 32, 'b' * 32, 'notes'))
+    for file in (old, new, mine):
+        file.write_bytes(b'half')
+    for file in (old, mine):
+        os.utime(file, (1e9, 1e9))
+    save(path, b'2')
+    assert {file.name for file in path.parent.iterdir()} == {path.name, new.name, mine.name}
+
+
 def test_permissions_stay_and_new_ones_follow_the_umask(path):
     before = os.umask(0o027)
     try:
