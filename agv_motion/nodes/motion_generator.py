@@ -14,7 +14,11 @@ from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.sap_flow import SapFlow, checked_sap_flow
 from agv_motion.motion.command.limits import Limited, Limits
 from agv_motion.motion.command.polar import to_twist
+from agv_motion.motion.navigation.navigator import StraightNavigator
+from agv_motion.motion.navigation.path_follower import PathFollower
+from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.zone_file import load_zone
+from agv_motion.motion.pilot import Pilot
 from agv_motion.nodes.memory_store import MemoryStore
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 from agv_motion.nodes.reservation_exchange import ReservationExchange
@@ -30,13 +34,14 @@ from agv_motion.ros.twist_rows import twist_publisher
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
-    from agv_motion.motion.behavior.decision import Decision
-    from agv_motion.motion.behavior.goals import Goal
+    from agv_motion.motion.behavior.goals.goal import Goal
+    from agv_motion.motion.navigation.polyline import Path as Corners
+    from agv_motion.motion.pilot import MotionCommand
     from agv_motion.ros.port import Port
 
 
-THINK_PERIOD = 1.0
-"""[s] after which the tree thinks again though nothing is new: of the hour, and of other paths."""
+DECIDE_PERIOD = 1.0
+"""[s] after which the tree decides again though nothing is new: of the hour, and of other paths."""
 
 RELEASE = 'clear its way, then call ~/pause with data: false'
 """What a person does to let a blocked tree go on."""
@@ -57,18 +62,20 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         given = parameters
         self._rim = given.rim
         zone = load_zone(find_config(given.zone_file), self._rim) if given.zone_file else None
-        self._agent = Agent(zone, given.agent())
-        self._company = self._join(given) if given.share_zone else None
+        planner = None if zone is None else PathPlanner(zone)
+        self._agent = Agent(planner, given.agent())
+        self._pilot = Pilot(self._agent, PathFollower(planner) if planner else StraightNavigator())
+        self._exchange = self._join(given) if given.share_zone else None
         self._limits = Limits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
         self._valid = True
         self._paused = False
-        self._thought: Decision | None = None
-        self._thought_at = 0.0
-        self._told = ''
-        self._told_goal: Goal | None = None
-        self._published_path: tuple[tuple[float, float], ...] = ()
+        self._motion: MotionCommand | None = None
+        self._decided_at = 0.0
+        self._published_state = ''
+        self._published_goal: Goal | None = None
+        self._published_path: Corners = ()
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = port.seconds()
         self._twist = REST
@@ -78,10 +85,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         limits = Freshness(given.report_after, given.stop_after, given.max_age)
         self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
-        self._path = port.publisher(Path, 'path', LATCHED, sole=True)
+        self._path_publisher = port.publisher(Path, 'path', LATCHED, sole=True)
         self._goal_publisher = port.publisher(PoseStamped, 'goal', LATCHED)
         self._state = port.publisher(String, 'state', LATCHED, sole=True)
-        self._keeper = (
+        self._store = (
             None if self._agent.memory is None else MemoryStore(port, self._agent.memory, given)
         )
         port.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
@@ -100,41 +107,41 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
 
     def begin(self) -> None:
         """Know nothing of before; tell where the tree means to go, and what it remembers."""
-        self._sap_flow = self._pose = self._thought = None
+        self._sap_flow = self._pose = self._motion = None
         self._commanded_at = self._looked_at = self.port.seconds()
         self._guard.release()
         self._lost = 'sap flow'
         self._judge()
-        self._tell_goal(self._agent.goal)
-        if self._keeper is not None:
-            self._keeper.begin()
+        self._publish_goal(self._agent.goal)
+        if self._store is not None:
+            self._store.begin()
 
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""
         self._publish(self._limits.stop(), 'stopped')
-        if self._company is not None and self._pose is not None:
-            self._company.park(self._pose)
-        if self._keeper is not None:
-            self._keeper.save_at_last()
+        if self._exchange is not None and self._pose is not None:
+            self._exchange.park(self._pose)
+        if self._store is not None:
+            self._store.save_at_last()
 
     def accept(self, parameters: MotionGeneratorParameters) -> None:
         """Take over new thresholds."""
         self._agent.rest = parameters.rest
-        self._thought = None
+        self._motion = None
 
     def diagnose(self) -> Diagnosis:
         """Tell what the tree does, why, and what it misses."""
         values = {'limits in force': ', '.join(self._limited_by) or 'none'}
         if self._agent.goal is not None:
             values['goal'] = self._agent.goal.reason
-        if self._keeper is not None:
-            values |= self._keeper.report()
-        if self._company is not None:
-            values |= self._company.report()
-        alarmed = self._company is not None and self._company.alarm
+        if self._store is not None:
+            values |= self._store.report()
+        if self._exchange is not None:
+            values |= self._exchange.report()
+        alarmed = self._exchange is not None and self._exchange.alarm
         if self._guard.reason:
-            return Diagnosis(ERROR, self._told, values)
-        return Diagnosis(WARN if self._lost or alarmed else OK, self._told, values)
+            return Diagnosis(ERROR, self._published_state, values)
+        return Diagnosis(WARN if self._lost or alarmed else OK, self._published_state, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector, watch = message.vector, self._watches['sap flow']
@@ -144,7 +151,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
             return
         self._heard(watch)
         self._sap_flow = flow
-        self._thought = None
+        self._motion = None
         if self._obstacle:
             self._judge()
         self._move()
@@ -162,7 +169,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
             return
         self._heard(watch)
         self._pose = pose
-        self._thought = None
+        self._motion = None
         self._judge()
 
     def _on_goal(self, message: PoseStamped) -> None:
@@ -171,8 +178,8 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._agent.set_goal(goal.x, goal.y, 'asked for')
         self._guard.release()
         self._judge()
-        self._thought = None
-        self._tell_goal(self._agent.goal)
+        self._motion = None
+        self._publish_goal(self._agent.goal)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
@@ -186,17 +193,18 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._agent.next_goal()
         self._guard.release()
         self._judge()
-        self._thought = None
+        self._motion = None
         self._move()
-        return self._agent.goal.reason if self._agent.goal else f'chosen later; {self._told}'
+        goal = self._agent.goal
+        return goal.reason if goal else f'chosen later; {self._published_state}'
 
     def _on_go_home(self, _: Any) -> str:
         self._agent.go_home()
         self._guard.release()
         self._judge()
-        self._thought = None
+        self._motion = None
         self._move()
-        return self._told
+        return self._published_state
 
     def _tick(self) -> None:
         """Keep the command alive."""
@@ -248,41 +256,41 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         """Command what the sap flow asks for, or an explicit zero."""
         if self._obstacle or self._sap_flow is None or self._pose is None:
             self._publish(self._limits.stop(), self._obstacle)
-            if self._company is not None and self._pose is not None:
-                self._company.stay(self._pose, fresh=not self._lost)
+            if self._exchange is not None and self._pose is not None:
+                self._exchange.stay(self._pose, fresh=not self._lost)
             return
         now = self.port.seconds()
-        decision = self._decide(now, self._pose, self._sap_flow)
+        motion = self._update(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._publish(self._limits.apply(decision.wanted, decision.place, dt), decision.activity)
-        if decision.goal is not self._told_goal:
-            self._tell_goal(decision.goal)
-        if decision.path[1:] != self._published_path[1:]:
-            self._publish_path(decision.path)
+        self._publish(self._limits.apply(motion.wanted, motion.rules, dt), motion.activity)
+        if motion.goal is not self._published_goal:
+            self._publish_goal(motion.goal)
+        if motion.path[1:] != self._published_path[1:]:
+            self._publish_path(motion.path)
 
-    def _decide(self, now: float, pose: Pose, flow: SapFlow) -> Decision:
-        """Think when something is new; also now and then, and always where others walk."""
-        if self._company is not None:
-            return self._company.decide(now, pose, flow)
-        if self._thought is None or not 0.0 <= now - self._thought_at < THINK_PERIOD:
-            self._thought, self._thought_at = self._agent.decide(now, pose, flow), now
-        return self._thought
+    def _update(self, now: float, pose: Pose, flow: SapFlow) -> MotionCommand:
+        """Decide when something is new; also now and then, and always where others walk."""
+        if self._exchange is not None:
+            return self._exchange.update(now, pose, flow)
+        if self._motion is None or not 0.0 <= now - self._decided_at < DECIDE_PERIOD:
+            self._motion, self._decided_at = self._pilot.update(now, pose, flow, now), now
+        return self._motion
 
     def _publish(self, limited: Limited, state: str) -> None:
-        # when it is said, not when thinking of it began: by their stamps the rates hold
+        # when it is said, not when the decision began: by their stamps the rates hold
         self._limited_by, self._commanded_at = limited.by, self.port.seconds()
         self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
         self._command(self._twist)
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
-        if state != self._told:
-            self._told = state
+        if state != self._published_state:
+            self._published_state = state
             self._state.publish(String(data=state))
 
-    def _tell_goal(self, goal: Goal | None) -> None:
+    def _publish_goal(self, goal: Goal | None) -> None:
         """Publish and log a new goal with its reason, and why others were not taken."""
-        self._told_goal = goal
+        self._published_goal = goal
         for refusal in self._agent.refusals:
             self.port.info(f'no goal: {refusal}')
         if goal is None:
@@ -294,13 +302,13 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         fill_pose(message.pose, Pose(*goal.place, 0.0))
         self._goal_publisher.publish(message)
 
-    def _publish_path(self, path: tuple[tuple[float, float], ...]) -> None:
+    def _publish_path(self, path: Corners) -> None:
         self._published_path = path
         message = Path()
         message.header.frame_id = self.parameters.map_frame
         self.port.stamp(message)
         fill_path(message, [Pose(x, y, 0.0) for x, y in path])
-        self._path.publish(message)
+        self._path_publisher.publish(message)
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ from agv_motion.blocked import SlowlyBlockedParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import Outline
 from agv_motion.motion.behavior.agent import AgentParameters
-from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.memory import MemoryParameters
 from agv_motion.motion.behavior.sap_flow import RestParameters
@@ -94,7 +94,7 @@ class MotionGeneratorParameters(Outline):
             rest=self.rest,
             schedule=self.schedule,
             home=self.home,
-            goal=(self.goal[0], self.goal[1]) if self.goals.strategy == 'fixed' else None,
+            goal=(self.goal[0], self.goal[1]),
             linear_speed=self.linear_speed,
             platform_radius=self.rim,
         )

@@ -8,18 +8,17 @@ from rclpy.qos import QoSProfile
 from visualization_msgs.msg import MarkerArray
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.reservations.company import Company
 from agv_motion.motion.navigation.reservations.lived_time import LivedTime
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.motion.navigation.reservations.roster import Roster
-from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
+from agv_motion.motion.pilot import Pilot
 from agv_motion.ros.reservations import reservation_message, reservation_of
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.agent import Agent
-    from agv_motion.motion.behavior.decision import Decision
     from agv_motion.motion.behavior.sap_flow import SapFlow
+    from agv_motion.motion.pilot import MotionCommand
     from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
     from agv_motion.planar import Pose
     from agv_motion.ros.port import Port
@@ -27,8 +26,8 @@ if TYPE_CHECKING:
 WAYS = QoSProfile(depth=50)
 """All trees speak on one topic; none of their words may be dropped for another's."""
 
-TELL_EVERY = 1.0
-"""[s] between two reservations, unless there is something new to ask."""
+PUBLISH_EVERY = 1.0
+"""[s] between two reservations, unless there is something new to request."""
 
 
 class ReservationExchange:
@@ -50,7 +49,7 @@ class ReservationExchange:
                 to share it with.
 
         """
-        if agent.zone is None:
+        if agent.planner is None:
             msg = 'share_zone without a zone: give zone_file'
             raise ConfigurationError(msg)
         if not name:
@@ -68,22 +67,25 @@ class ReservationExchange:
             )
             raise ConfigurationError(msg)
         self._port, self._agent, self._parameters = port, agent, parameters
-        self._zone, self._paths = agent.zone, PathPlanner(agent.zone)
+        self._planner = agent.planner
         self._name, self._frame = name, given.map_frame
-        self._lived = LivedTime(max(TELL_EVERY, 2.0 / given.rate))
+        self._lived = LivedTime(max(PUBLISH_EVERY, 2.0 / given.rate))
         self._simulated = port.is_simulated
-        self._company: Company | None = None
-        self._told: object = None
-        self._told_at = -TELL_EVERY
+        self._navigator: SharedNavigator | None = None
+        self._pilot: Pilot | None = None
+        self._published: object = None
+        self._published_at = -PUBLISH_EVERY
         self._publisher = port.publisher(MarkerArray, '/reservations', WAYS)
         port.listen(MarkerArray, '/reservations', self._on_reservation, WAYS)
 
-    def decide(self, time: float, pose: Pose, flow: SapFlow) -> Decision:
-        """Return what to do, as far as the others let the tree; see :meth:`Company.decide`."""
-        now = self._now()
-        decision = self._joined(pose).decide(time, pose, flow, now)
-        self._tell(now)
-        return decision
+    def update(self, time: float, pose: Pose, flow: SapFlow) -> MotionCommand:
+        """Return how to move, as far as the others let the tree; see :meth:`Pilot.update`."""
+        now, navigator = self._now(), self._joined(pose)
+        if self._pilot is None:
+            self._pilot = Pilot(self._agent, navigator)
+        motion = self._pilot.update(time, pose, flow, now)
+        self._publish_if_due(now)
+        return motion
 
     def stay(self, pose: Pose, *, fresh: bool) -> None:
         """Hold the place where the tree stands, and tell so.
@@ -94,20 +96,20 @@ class ReservationExchange:
 
         """
         now = self._now()
-        self._joined(pose).traffic.rest((pose.x, pose.y), now, fresh=fresh)
-        self._tell(now)
+        self._joined(pose).rest((pose.x, pose.y), now, fresh=fresh)
+        self._publish_if_due(now)
 
     def park(self, pose: Pose) -> None:
         """Say at the end that the tree stays here: nobody needs to wait for its answer."""
-        now, traffic = self._now(), self._joined(pose).traffic
-        traffic.park((pose.x, pose.y), now)
+        now = self._now()
+        self._joined(pose).park((pose.x, pose.y), now)
         self._publish(now)
 
     def report(self) -> dict[str, str]:
         """Return who else is there, and what is wrong with them, for the diagnostics."""
-        if self._company is None:
+        if self._navigator is None:
             return {'other trees': 'not known: no pose yet', 'nobody moves': 'no'}
-        right = self._company.traffic.right
+        right = self._navigator.right
         told = [f'{p.reservation.name}{" (silent)" if p.silent else ""}' for p in right.peers]
         told += [f'{name} (never heard)' for name in right.awaited if name not in right.peers]
         return {
@@ -118,7 +120,7 @@ class ReservationExchange:
     @property
     def alarm(self) -> str:
         """Why this tree must not move whatever it holds, in words; empty if it may."""
-        return '' if self._company is None else self._company.traffic.right.obstacle(self._now())
+        return '' if self._navigator is None else self._navigator.right.obstacle(self._now())
 
     def _now(self) -> float:
         """Return the time this tree has lived through [s]; see :class:`LivedTime`.
@@ -129,27 +131,27 @@ class ReservationExchange:
         simulated = [port.seconds()] if self._simulated else []
         return self._lived.update(port.steady_seconds(), *simulated)
 
-    def _joined(self, pose: Pose) -> Company:
-        if self._company is None:
-            right = RightOfWay(
-                self._name, (pose.x, pose.y), self._parameters, known=self._roster.names
-            )
-            self._company = Company(self._agent, Traffic(right, self._zone, self._paths))
-        return self._company
+    def _joined(self, pose: Pose) -> SharedNavigator:
+        """Return what takes the tree among the others, once it knows where it stands."""
+        if self._navigator is None:
+            place, known = (pose.x, pose.y), self._roster.names
+            right = RightOfWay(self._name, place, self._parameters, known=known)
+            self._navigator = SharedNavigator(right, self._planner)
+        return self._navigator
 
-    def _tell(self, now: float) -> None:
-        """Tell the others once a second, and at once what is newly asked for."""
-        if self._company is None:
+    def _publish_if_due(self, now: float) -> None:
+        """Tell the others once a second, and at once what is newly requested."""
+        if self._navigator is None:
             return
-        if self._company.traffic.right.requested is self._told and now - self._told_at < TELL_EVERY:
-            return
-        self._publish(now)
+        news = self._navigator.right.requested is not self._published
+        if news or now - self._published_at >= PUBLISH_EVERY:
+            self._publish(now)
 
     def _publish(self, now: float) -> None:
-        assert self._company is not None
-        traffic = self._company.traffic
-        self._told, self._told_at = traffic.right.requested, now
-        message = reservation_message(traffic.reservation(now), self._frame, self._port.seconds())
+        assert self._navigator is not None
+        self._published, self._published_at = self._navigator.right.requested, now
+        reservation = self._navigator.reservation(now)
+        message = reservation_message(reservation, self._frame, self._port.seconds())
         self._publisher.publish(message)
 
     def _on_reservation(self, message: MarkerArray) -> None:
@@ -159,9 +161,9 @@ class ReservationExchange:
             SignalError: It cannot be understood, or bears the name of this tree.
 
         """
-        if self._company is None:
+        if self._navigator is None:
             return
-        right, now = self._company.traffic.right, self._now()
+        right, now = self._navigator.right, self._now()
         try:
             reservation = reservation_of(message, self._frame)
         except SignalError as error:

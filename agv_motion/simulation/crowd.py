@@ -17,10 +17,11 @@ import shapely
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.command.polar import LINEAR_SPEED
+from agv_motion.motion.navigation.navigator import Guidance
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.traffic import Passage, Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.radio import Radio, RadioParameters
 
@@ -58,11 +59,11 @@ class CrowdParameters:
 class Walker:
     """One tree of the crowd: it goes where chance sends it."""
 
-    def __init__(self, name: str, place: Point, traffic: Traffic, seed: int) -> None:
+    def __init__(self, name: str, place: Point, navigator: SharedNavigator, seed: int) -> None:
         """Stand at ``place``."""
-        self.name, self.place, self.traffic = name, place, traffic
+        self.name, self.place, self.navigator = name, place, navigator
         self.goal: Point | None = None
-        self.passage = Passage(None, '', 0.0, ())
+        self.guidance = Guidance()
         self.arrivals = 0
         self.moved_at = 0.0
         self.longest_stand = 0.0
@@ -85,19 +86,19 @@ class Walker:
         goal = self.goal
         arrived = goal is not None and _distance(goal, believed) < ARRIVAL
         self.arrivals += arrived
-        if goal is None or arrived or self.passage.blocked > self.traffic.right.parameters.patience:
+        if goal is None or arrived or self.guidance.blocked > self.navigator.patience:
             reachable = candidates
             if not arrived and goal is not None:
-                closed = self.traffic.closed()
+                closed = self.navigator.closed()
                 reachable = candidates[~shapely.intersects_xy(closed, *candidates.T)]
             if len(reachable):
                 x, y = reachable[self._random.randrange(len(reachable))]
                 self.goal = (float(x), float(y))
-        self.passage = self.traffic.towards(self.goal, believed, now + self.skew)
+        self.guidance = self.navigator.navigate(self.goal, believed, now + self.skew)
 
     def move(self, believed: Point, reach: float, now: float) -> None:
-        """Walk up to ``reach`` [m] to where the passage says."""
-        target = self.passage.target
+        """Walk up to ``reach`` [m] to where its navigator says."""
+        target = self.guidance.target
         if target is not None:
             away = _distance(target, believed)
             share = min(reach / away, 1.0) if away > 0.0 else 0.0
@@ -123,12 +124,12 @@ class Crowd:
         clearance = parameters.traffic.clearance
         places = places or scattered(zone, parameters.trees, clearance, chance)
         names = [f'tree_{i}' for i in range(len(places))]
-        paths = PathPlanner(zone)
+        planner = PathPlanner(zone)
         self.walkers = []
         for i, (name, place) in enumerate(zip(names, places, strict=True)):
             right = RightOfWay(name, place, parameters.traffic)
-            traffic = Traffic(right, zone, paths)
-            walker = Walker(name, place, traffic, 1000 * parameters.seed + i)
+            navigator = SharedNavigator(right, planner)
+            walker = Walker(name, place, navigator, 1000 * parameters.seed + i)
             walker.skew = chance.uniform(-parameters.skew, parameters.skew)
             self.walkers.append(walker)
         self.radio = Radio(names, parameters.radio, parameters.seed)
@@ -153,17 +154,17 @@ class Crowd:
         by_name = {walker.name: walker for walker in self.walkers}
         for receiver, reservation in self.radio.receive(self.now):
             walker = by_name[receiver]
-            walker.traffic.receive(reservation, self.now + walker.skew)
+            walker.navigator.receive(reservation, self.now + walker.skew)
         for walker in self.walkers:
             believed = walker.supposed(given.step, given.error)
             if walker.resting:
-                walker.traffic.rest(believed, self.now + walker.skew)
+                walker.navigator.rest(believed, self.now + walker.skew)
                 walker.moved_at = self.now
             else:
                 walker.decide(believed, self.candidates, self.now)
                 share = max(walker.speed, given.slowest)
                 walker.move(believed, share * LINEAR_SPEED * given.step, self.now)
-            self.radio.send(walker.traffic.reservation(self.now + walker.skew), self.now)
+            self.radio.send(walker.navigator.reservation(self.now + walker.skew), self.now)
         self._measure()
 
     def _measure(self) -> None:
@@ -173,7 +174,7 @@ class Crowd:
             self.least_gap = min(self.least_gap, gap)
             held = shapely.distance(
                 *(
-                    shapely.LineString((*w.traffic.right.held, w.traffic.right.held[-1]))
+                    shapely.LineString((*w.navigator.right.held, w.navigator.right.held[-1]))
                     for w in (a, b)
                 )
             )

@@ -14,14 +14,13 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from agv_motion.motion.behavior.agent import Agent, AgentParameters
-from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.goals.strategies import STRATEGIES, GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.schedule import DAYS, ScheduleParameters
 from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.reservations.company import Company
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.crowd import scattered
 from agv_motion.simulation.radio import Radio, RadioParameters
@@ -48,6 +47,9 @@ OPEN = 8 * 3600.0
 
 DAY = 86400.0
 
+REMEMBERING = tuple(name for name, kind in STRATEGIES.items() if kind.remembers)
+"""strategies that need nobody to tell them a goal"""
+
 
 @dataclass(frozen=True)
 class SeasonParameters:
@@ -57,7 +59,7 @@ class SeasonParameters:
     trees: Annotated[int, Spec('how many share it', '1', (1, 10))] = 2
     days: Annotated[int, Spec('how many opening days', '1', (1, 10000))] = 20
     seed: Annotated[int, Spec('of zone, weather, noise and network', '1', (0, 2**31))] = 1
-    strategy: Annotated[str, Spec('of the goals', choices=('memory', 'straight'))] = 'memory'
+    strategy: Annotated[str, Spec('of the goals', choices=REMEMBERING)] = 'memory'
     step: Annotated[float, Spec('time step while a tree moves', 's', (0.5, 60.0))] = 15.0
     error: Annotated[
         float, Spec('standard deviation of x and of y, never beyond three of it', 'm', (0.0, 0.5))
@@ -105,13 +107,13 @@ class Season:
         clearance = given.traffic.clearance + HomeParameters().arrival + 0.1
         homes = scattered(self.zone, given.trees, clearance, chance)
         self._obstacles = _obstacles(self.zone, chance)
-        paths = PathPlanner(self.zone)
         names = [f'tree_{i}' for i in range(given.trees)]
         self.trees = []
         for name, home in zip(names, homes, strict=True):
-            agent = Agent(plan.zone(home), _agent(given, chance))
-            traffic = Traffic(RightOfWay(name, home, given.traffic), self.zone, paths)
-            self.trees.append(SeasonTree(name, Company(agent, traffic), home, chance))
+            planner = PathPlanner(plan.zone(home))
+            agent = Agent(planner, _agent(given, chance))
+            navigator = SharedNavigator(RightOfWay(name, home, given.traffic), planner)
+            self.trees.append(SeasonTree(name, agent, navigator, home, chance))
         self._by_name = {tree.name: tree for tree in self.trees}
         self._radio = Radio(names, given.radio, given.seed)
         self._chance = chance
@@ -155,7 +157,7 @@ class Season:
                 for tree in self.trees:
                     tree.count_from(now)
             now += given.step if moving else PERIOD
-        memory = self.trees[0].company.agent.memory
+        memory = self.trees[0].agent.memory
         assert memory is not None
         self._coverage.append(memory.coverage()[0])
 
@@ -165,10 +167,10 @@ class Season:
         self._radio.deaf = set()
         self._radio.receive(inf)
         for speaker in self.trees:
-            reservation = speaker.company.traffic.reservation(now)
+            reservation = speaker.navigator.reservation(now)
             for listener in self.trees:
                 if listener is not speaker:
-                    listener.company.traffic.receive(reservation, now)
+                    listener.navigator.receive(reservation, now)
         for tree in self.trees:
             tree.live(now, lambda _x, _y: 1.0, given.step, given.error)
 
@@ -180,7 +182,7 @@ class Season:
         """Let one step pass; return whether any tree moves."""
         given = self.parameters
         for receiver, reservation in self._radio.receive(now):
-            self._by_name[receiver].company.traffic.receive(reservation, now)
+            self._by_name[receiver].navigator.receive(reservation, now)
 
         def light(x: float, y: float) -> float:
             return light_factor(x, y, sky, self._obstacles)
@@ -189,7 +191,7 @@ class Season:
         for tree in self.trees:
             moving |= tree.live(now, light, given.step, given.error)
             if len(self.trees) > 1:
-                self._radio.send(tree.company.traffic.reservation(now), now)
+                self._radio.send(tree.navigator.reservation(now), now)
             self._least_inside = min(self._least_inside, self._inside(tree.pose))
         allowed = 2.0 * given.traffic.body + given.traffic.margin
         for a, b in combinations(self.trees, 2):

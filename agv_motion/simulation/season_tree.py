@@ -6,6 +6,7 @@ from math import exp, hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.motion.command.polar import LINEAR_SPEED, STILL, to_twist
+from agv_motion.motion.pilot import Pilot
 from agv_motion.planar import Pose, integrate
 from agv_motion.simulation.sap import SapSense
 
@@ -13,9 +14,10 @@ if TYPE_CHECKING:
     import random
     from collections.abc import Callable
 
-    from agv_motion.motion.behavior.decision import Decision
+    from agv_motion.motion.behavior.agent import Agent
     from agv_motion.motion.navigation.polyline import Point
-    from agv_motion.motion.navigation.reservations.company import Company
+    from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
+    from agv_motion.motion.pilot import MotionCommand
 
 STEPPED = 0.1
 """[m] A tree that has moved so far does not stand."""
@@ -27,9 +29,17 @@ ERROR_TIME = 300.0
 class SeasonTree:
     """One tree; it follows exactly what it is told, off by the error of its position."""
 
-    def __init__(self, name: str, company: Company, place: Point, chance: random.Random) -> None:
+    def __init__(
+        self,
+        name: str,
+        agent: Agent,
+        navigator: SharedNavigator,
+        place: Point,
+        chance: random.Random,
+    ) -> None:
         """Stand at ``place``, looking anywhere."""
-        self.name, self.company = name, company
+        self.name, self.agent, self.navigator = name, agent, navigator
+        self._pilot = Pilot(agent, navigator)
         self.pose = Pose(*place, chance.uniform(-3.0, 3.0))
         self.sense = SapSense(chance.randrange(2**20))
         self._chance = chance
@@ -57,13 +67,13 @@ class SeasonTree:
         dx, dy = (keep * e + self._chance.gauss(0.0, fresh) for e in self._error)
         shrink = min(3.0 * deviation / max(hypot(dx, dy), 1e-9), 1.0)
         self._error = dx, dy = shrink * dx, shrink * dy
-        decision = self.company.decide(now, Pose(x + dx, y + dy, theta), flow, now)
-        self._count(decision, now, flow.s1)
-        command = decision.wanted
+        motion = self._pilot.update(now, Pose(x + dx, y + dy, theta), flow, now)
+        self._count(motion, now, flow.s1)
+        command = motion.wanted
         if command == STILL:
             return False
-        if len(decision.path) > 1:  # a step never leads past the corner it heads for
-            (ax, ay), (bx, by) = decision.path[:2]
+        if len(motion.path) > 1:  # a step never leads past the corner it heads for
+            (ax, ay), (bx, by) = motion.path[:2]
             most = hypot(bx - ax, by - ay) / (LINEAR_SPEED * step)
             command = command._replace(v=min(command.v, most))
         twist = to_twist(command)
@@ -75,13 +85,13 @@ class SeasonTree:
         """Count how long the tree stands from now [s] on: so far it could not help it."""
         self._moved_at = now
 
-    def _count(self, decision: Decision, now: float, speed: float) -> None:
+    def _count(self, motion: MotionCommand, now: float, speed: float) -> None:
         """Count goals, and how long the tree has stood with somewhere to go."""
-        if decision.goal is not self._goal and decision.goal is not None:
-            self._goal = decision.goal
-            self.goals += decision.goal.objective is not None
+        if motion.goal is not self._goal and motion.goal is not None:
+            self._goal = motion.goal
+            self.goals += motion.goal.objective is not None
         here = self.pose.x, self.pose.y
-        seeks = speed > 0.0 and decision.goal is not None and bool(decision.path)
+        seeks = speed > 0.0 and motion.goal is not None and bool(motion.path)
         if not seeks or hypot(here[0] - self._anchor[0], here[1] - self._anchor[1]) > STEPPED:
             self._anchor, self._moved_at = here, now
         self._moved_at = min(self._moved_at, now)

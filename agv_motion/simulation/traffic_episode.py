@@ -18,7 +18,7 @@ from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.lived_time import LivedTime
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 from agv_motion.parameters import Spec, check
 from agv_motion.simulation.crowd import Walker, grid, scattered
 from agv_motion.simulation.radio import Radio, RadioParameters
@@ -89,7 +89,7 @@ class Episode:
         self._chance = chance = random.Random(given.seed)  # noqa: S311 - a simulation, no secret
         kind = chance.choice(KINDS)
         self._zone: Zone = plan_of(kind, given.seed).zone()
-        self._paths = PathPlanner(self._zone)
+        self._planner = PathPlanner(self._zone)
         self._candidates = grid(self._zone, 0.5)
         count = chance.randint(2, MOST_TREES[kind])
         self._traffic = [self._drawn() for _ in range(count)]
@@ -104,7 +104,7 @@ class Episode:
         self.trees = []
         for i, (name, place) in enumerate(zip(self._names, places, strict=True)):
             right = self._right(i, place, expects=True)
-            walker = Walker(name, place, Traffic(right, self._zone, self._paths), given.seed + i)
+            walker = Walker(name, place, SharedNavigator(right, self._planner), given.seed + i)
             self.trees.append(_Tree(name, walker, chance))
         if late:
             self.trees[-1].off_until = chance.uniform(0.0, given.seconds / 2.0)
@@ -140,7 +140,7 @@ class Episode:
             tree = by_name[receiver]
             if tree.off_until <= self.now:
                 tree.known.add(reservation.name)
-                tree.walker.traffic.receive(reservation, tree.lived.seconds)
+                tree.walker.navigator.receive(reservation, tree.lived.seconds)
         for tree in self.trees:
             if tree.off_until <= self.now:
                 self._live(tree)
@@ -151,9 +151,9 @@ class Episode:
     # What happens to one tree
 
     def _live(self, tree: _Tree) -> None:
-        walker, traffic = tree.walker, tree.walker.traffic
+        walker, navigator = tree.walker, tree.walker.navigator
         walker.skew = tree.lived.seconds - self.now
-        tolerance = traffic.right.parameters.tolerance
+        tolerance = navigator.right.parameters.tolerance
         believed = walker.supposed(STEP, 0.1 * tolerance)
         dx, dy = believed[0] - walker.place[0], believed[1] - walker.place[1]
         shrink = min(0.5 * tolerance / max(hypot(dx, dy), 1e-9), 1.0)
@@ -163,20 +163,20 @@ class Episode:
         walker.move(believed, max(walker.speed, 0.3) * LINEAR_SPEED * STEP, self.now)
         dice = self._chance.random() if not self.parameters.calm else 1.0
         if dice < 0.003:
-            traffic.park(believed, tree.lived.seconds)
+            navigator.park(believed, tree.lived.seconds)
             tree.off_until = self.now + self._chance.uniform(10.0, 600.0)
             self.parkings += 1
         elif dice < 0.006:
             tree.off_until = self.now + self._chance.uniform(5.0, 120.0)
             tree.starts_again = True
-        self.radio.send(traffic.reservation(tree.lived.seconds), self.now)
+        self.radio.send(navigator.reservation(tree.lived.seconds), self.now)
 
     def _off(self, tree: _Tree) -> Point:
         """Return by how much a wrong fix puts the tree elsewhere.
 
         For less than it takes to be sure: who believes it for longer lets its true place go.
         """
-        given = tree.walker.traffic.right.parameters
+        given = tree.walker.navigator.right.parameters
         longest = given.silent_after - 3.0 * STEP
         if self.now > tree.wrong_next and longest > 0.0 and self._chance.random() < 0.01:
             far = given.tolerance + 10.0 ** self._chance.uniform(-0.3, 1.3)
@@ -194,7 +194,7 @@ class Episode:
         tree.starts_again = False
         expects = tree.name in self._guests or self._chance.random() < 0.5
         right = self._right(i, tree.walker.place, expects=expects, known=tree.known)
-        tree.walker.traffic = Traffic(right, self._zone, self._paths)
+        tree.walker.navigator = SharedNavigator(right, self._planner)
         tree.lived = LivedTime(2.0 * STEP)
         tree.walker.goal, tree.walker.moved_at = None, self.now
         self.starts += 1

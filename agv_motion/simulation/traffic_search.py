@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
 
     from agv_motion.motion.navigation.polyline import Point
-    from agv_motion.motion.navigation.reservations.peer import Peer
+    from agv_motion.motion.navigation.reservations.peers import Peer
     from agv_motion.motion.navigation.reservations.reservation import Reservation
 
 TRAFFIC = TrafficParameters(body=0.2, tolerance=0.1, margin=0.3, listen=0.0)

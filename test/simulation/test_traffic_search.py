@@ -8,8 +8,7 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.motion.navigation.reservations.doubt import Doubt
-from agv_motion.motion.navigation.reservations.peer import Peer
-from agv_motion.motion.navigation.reservations.peers import Peers
+from agv_motion.motion.navigation.reservations.peers import Peer, Peers
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameters
 

@@ -1,41 +1,34 @@
-"""What the mind of a tree makes of a moment, and what others allow it meanwhile."""
+"""What an agent makes of a moment."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.motion.command.limits import FloorRules
+
 if TYPE_CHECKING:
-    import shapely
+    from agv_motion.motion.behavior.goals.goal import Goal
+    from agv_motion.motion.navigation.polyline import Point
 
-    from agv_motion.motion.behavior.goals import Goal
-    from agv_motion.motion.command.limits import FloorRules
-    from agv_motion.motion.command.polar import PolarCommand
-    from agv_motion.motion.navigation.path_planner import Point
-
-
-class Surroundings(NamedTuple):
-    """What others allow: the seam to other trees."""
-
-    avoid: shapely.Geometry | None = None
-    """area to keep off, taken off the walkable floor; the same object while it is the same"""
-    wait: str = ''
-    """why the tree must not go on now, in words; empty if it may"""
-
-
-ALONE = Surroundings()
+NO_RULES = FloorRules()
 
 
 class Decision(NamedTuple):
-    """What the tree makes of a moment."""
+    """What to do now, where to go and how; by which path, a navigator finds."""
 
-    wanted: PolarCommand
-    """before the limits"""
     activity: str
-    """what it does, in words"""
-    place: FloorRules
-    """what the place allows, for the limits"""
+    """what the tree does and why, in words"""
     goal: Goal | None
-    path: tuple[Point, ...]
-    """corners from here to the goal; empty if it goes nowhere"""
-    aside: float = 0.0
-    """v at least while it walks out of the way of others; 0: it stays where it is"""
+    """what it seeks, or would if it moved; for whoever watches"""
+    destination: Point | None = None
+    """where to go now [m]; None: it stays where it is"""
+    speed: float = 0.0
+    """v on the path there"""
+    rotation: float = 0.0
+    """omega, also while it stays or waits"""
+    yield_speed: float = 0.0
+    """v at least while it gives way to others; 0: it stays where it is, whoever comes"""
+    straight: bool = False
+    """whether it goes straight there, back into its zone"""
+    rules: FloorRules = NO_RULES
+    """what the floor allows, for the limits"""

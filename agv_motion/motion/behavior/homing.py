@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Annotated
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.motion.navigation.polyline import length
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
-    from agv_motion.motion.navigation.path_follower import PathFollower
-    from agv_motion.motion.navigation.path_planner import Point
+    from agv_motion.motion.navigation.path_planner import PathPlanner
+    from agv_motion.motion.navigation.polyline import Point
 
 REST_OF_WAY = 1.25
 """[-] How much longer the path home may turn out."""
@@ -48,26 +49,19 @@ class HomeParameters:
 class Homing:
     """Remembers why the tree is going home."""
 
-    def __init__(
-        self,
-        home: Point | None,
-        course: PathFollower | None,
-        parameters: HomeParameters,
-        top: float,
-    ) -> None:
+    def __init__(self, planner: PathPlanner | None, parameters: HomeParameters, top: float) -> None:
         """Start with no reason to go home.
 
         Args:
-            home: Where it is [m]; None: nowhere.
-            course: The paths there.
+            planner: The paths there, in a zone that may have a home; None: there is none.
             parameters: How early and how fast.
             top: Speed at v = 1 [m/s].
 
         """
-        self.home = home
+        self.home = None if planner is None else planner.zone.home
         self.why = ''
         """Why the tree goes home, in words; empty while it does not."""
-        self._course, self._given = course, parameters
+        self._planner, self._given = planner, parameters
         self._speed = parameters.speed * top
         self._looked_at, self._distance = -inf, 0.0
 
@@ -89,9 +83,17 @@ class Homing:
         The path home is the shortest, a quarter longer for what may come, at the speed that the
         tree keeps on it however little sap flows.
         """
-        if self.home is None or self._course is None or closing == inf:
+        if self.home is None or closing == inf:
             return False
         if not 0.0 <= time - self._looked_at < LOOK_PERIOD:
-            self._looked_at, self._distance = time, self._course.distance(here, self.home)
+            self._looked_at, self._distance = time, self._length(here, self.home)
         needed = REST_OF_WAY * self._distance / self._speed
         return closing - time <= needed + 60.0 * self._given.spare
+
+    def _length(self, here: Point, home: Point) -> float:
+        """Return the length of the path home [m]; 0 if there is none."""
+        assert self._planner is not None
+        try:
+            return length(self._planner.path(here, home))
+        except GeometryError:
+            return 0.0

@@ -1,4 +1,4 @@
-"""The path that the tree is on: looked for when it must be, followed from corner to corner."""
+"""The navigator of a tree that is alone: its path, planned when it must be, followed by corners."""
 
 from __future__ import annotations
 
@@ -10,81 +10,91 @@ import shapely
 from shapely import LineString
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.polyline import cut, length, nearest
+from agv_motion.motion.navigation.navigator import Guidance
+from agv_motion.motion.navigation.polyline import cut, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.motion.navigation.path_planner import Point
+    from agv_motion.motion.navigation.path_planner import PathPlanner
+    from agv_motion.motion.navigation.polyline import Path, Point
     from agv_motion.motion.navigation.zone import Zone
 
+CORNER_REACH = 0.3
+"""[m] A corner of the path counts as reached from here: twice the noise of a position fix ..."""
+
+CORNER_SLACK = 0.01
+"""[m] ... unless skipping it would cut into the margin by more than this."""
+
 PLAN_PERIOD = 1.0
-"""[s] between two looks for the path of a tree that is off it."""
+"""[s] between two plans for a tree that is off its path."""
 
 PLAN_LIFETIME = 60.0
-"""[s] after which the path is looked for anew in any case."""
+"""[s] after which the path is planned anew in any case."""
 
 
 class PathFollower:
-    """The path to the goal, looked for now and then; and the paths that others leave free."""
+    """Keeps the path to the goal, and the place of the tree on it."""
 
-    def __init__(self, zone: Zone, corner_reach: float, corner_slack: float) -> None:
-        """Make the graph of all paths; see :class:`Waypoints` for the other two."""
-        self._zone, self._reach = zone, corner_reach
-        self._all = PathPlanner(zone)
-        self._taken: shapely.Geometry | None = None
-        self._free = self._all
-        self._waypoints = Waypoints(zone, corner_reach, corner_slack)
-        self._planned_at, self._planned_for = -inf, ((0.0, 0.0), self._all)
-        self._path: tuple[Point, ...] = ((0.0, 0.0),)
+    patience = inf
+    """[s] nobody else is there who could block it"""
 
-    def free(self, avoid: shapely.Geometry | None = None) -> PathPlanner:
-        """Return the paths off what others need; worked out once for each area."""
-        if avoid is not self._taken:
-            self._taken = avoid
-            self._free = self._all if self._taken is None else self._all.without(self._taken)
-        return self._free
+    def __init__(self, planner: PathPlanner) -> None:
+        """Have no goal yet."""
+        self._planner = planner
+        self._waypoints = Waypoints(planner.zone, CORNER_REACH, CORNER_SLACK)
+        self._planned_at, self._planned_for = -inf, (0.0, 0.0)
+        self._path: Path = ((0.0, 0.0),)
 
-    def to(
-        self, time: float, here: Point, goal: Point, avoid: shapely.Geometry | None = None
-    ) -> tuple[Point, ...]:
-        """Return the corners of the path to ``goal``, the first to head for after ``here``.
+    def navigate(
+        self, goal: Point | None, here: Point, now: float, *, straight: bool = False
+    ) -> Guidance:
+        """Return the next corner of the path to ``goal``; see :meth:`Navigator.navigate`."""
+        if goal is None:
+            return Guidance()
+        if straight:
+            return Guidance(goal, (here, goal))
+        try:
+            path = here, *self._waypoints.ahead(here, self._path_to(goal, here, now))
+        except GeometryError as error:
+            return Guidance(failure=error)
+        return Guidance(path[1], path)
 
-        It is looked for anew when the goal or what others leave free has changed, when the tree
-        is off it, and now and then.
+    def rest(self, here: Point, now: float) -> None:
+        """Do nothing: nobody needs to know."""
+
+    def closed(self) -> None:
+        """Return None: nobody takes any floor."""
+
+    def _path_to(self, goal: Point, here: Point, now: float) -> Path:
+        """Return the rest of the path to ``goal``, from the point nearest to ``here`` on.
+
+        It is planned anew when the goal has changed, when the tree is off it, and now and then.
 
         Raises:
             GeometryError: There is none.
 
         """
-        wanted = goal, self.free(avoid)
-        age = time - self._planned_at
+        age = now - self._planned_at
         along, away = nearest(self._path, here)
         if (
-            wanted != self._planned_for
+            goal != self._planned_for
             or not 0.0 <= age < PLAN_LIFETIME
-            or (age >= PLAN_PERIOD and away > self._reach)
+            or (age >= PLAN_PERIOD and away > CORNER_REACH)
         ):
             self._planned_at = -inf
-            self._path = self._look(here, goal)
-            self._planned_at, self._planned_for = time, wanted
+            self._path = self._plan(here, goal)
+            self._planned_at, self._planned_for = now, goal
             along = 0.0
         self._path = cut(self._path, along)[1]
-        return (here, *self._waypoints.ahead(here, self._path))
+        return self._path
 
-    def _look(self, here: Point, goal: Point) -> tuple[Point, ...]:
+    def _plan(self, here: Point, goal: Point) -> Path:
         """Return the path; a small step back into the margins is made on the path, not before."""
-        path = tuple(self._free.path(here, goal))
+        path = tuple(self._planner.path(here, goal))
         aside = hypot(path[1][0] - here[0], path[1][1] - here[1])
-        return path if aside > self._reach or self._zone.walkable(*here) else path[1:]
-
-    def distance(self, here: Point, goal: Point) -> float:
-        """Return the length of the path to ``goal`` past nobody [m]; 0 if there is none."""
-        try:
-            return length(self._all.path(here, goal))
-        except GeometryError:
-            return 0.0
+        keeps_start = aside > CORNER_REACH or self._planner.zone.walkable(*here)
+        return path if keeps_start else path[1:]
 
 
 class Waypoints:

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.motion.navigation.polyline import Point
     from agv_motion.motion.navigation.zone import Zone
 
-    Point = tuple[float, float]
     Column = NDArray[np.float64]
 
 TOLERANCE = 1e-6
@@ -47,7 +47,7 @@ class PathPlanner:
             parts: What of its walkable floor is free; None: all of it.
 
         """
-        self._zone = zone
+        self.zone = zone
         self._free = list(zone.parts if parts is None else parts)
         self._parts = [VisibilityGraph(part) for part in self._free]
 
@@ -55,7 +55,7 @@ class PathPlanner:
         """Return the paths that keep off ``taken``, an area that others need."""
         left = (shapely.get_parts(part.difference(taken)) for part in self._free)
         polygons = [p for parts in left for p in parts if isinstance(p, Polygon) and p.area > 0.0]
-        return PathPlanner(self._zone, polygons)
+        return PathPlanner(self.zone, polygons)
 
     def path(self, start: Point, goal: Point) -> list[Point]:
         """Return the corners of the shortest path, its ends included.
@@ -70,7 +70,27 @@ class PathPlanner:
             GeometryError: The goal is not walkable or not free, or no way leads there.
 
         """
-        zone = self._zone
+        inside, graph = self._connected(start, goal)
+        path = graph.shortest(inside, goal)
+        return path if inside == start else [start, *path]
+
+    def require_connected(self, start: Point, goal: Point) -> None:
+        """Make sure that a path leads from ``start`` to ``goal`` [m], without planning it.
+
+        Raises:
+            GeometryError: As by :meth:`path`.
+
+        """
+        self._connected(start, goal)
+
+    def _connected(self, start: Point, goal: Point) -> tuple[Point, VisibilityGraph]:
+        """Return where the path enters walkable floor, and the graph of the part it leads through.
+
+        Raises:
+            GeometryError: As by :meth:`path`.
+
+        """
+        zone = self.zone
         if not zone.walkable(*goal):
             msg = f'goal ({goal[0]:.2f}, {goal[1]:.2f}) {zone.why_not(*goal)}: choose another'
             raise GeometryError(msg)
@@ -86,8 +106,7 @@ class PathPlanner:
                 'margins'
             )
             raise GeometryError(msg)
-        path = graph.shortest(inside, goal)
-        return path if inside == start else [start, *path]
+        return inside, graph
 
 
 class VisibilityGraph:

@@ -1,4 +1,4 @@
-"""The mind in a closed loop with an ideal platform: it reaches, returns, rests, and says why."""
+"""The agent in a closed loop with an ideal platform: it reaches, returns, rests, and says why."""
 
 from __future__ import annotations
 
@@ -10,13 +10,17 @@ import shapely
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.motion.behavior.agent import Agent, AgentParameters
-from agv_motion.motion.behavior.decision import Surroundings
-from agv_motion.motion.behavior.goals import GoalParameters, Objective
+from agv_motion.motion.behavior.goals.goal import Objective
+from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.polar import PLATFORM_RADIUS, STILL, to_twist
+from agv_motion.motion.navigation.navigator import StraightNavigator
+from agv_motion.motion.navigation.path_follower import PathFollower
+from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.zone import Zone
+from agv_motion.motion.pilot import Pilot
 from agv_motion.planar import Pose, integrate
 from agv_motion.simulation.season_zones import plan_of
 
@@ -32,27 +36,28 @@ class Life:
 
     def __init__(self, agent, x, y, time=NOON):
         self.agent, self.pose, self.time = agent, Pose(x, y, 0.3), time
+        planner = agent.planner
+        self.pilot = Pilot(agent, PathFollower(planner) if planner else StraightNavigator())
         self.flow = SapFlow(0.8, 0.6, 0.5)
-        self.decision = None
+        self.motion = None
         self.activities = []
         self.goals = []
 
-    def decide(self, surroundings=None):
+    def move(self):
         flow = self.flow._replace(s3=min(max(self.pose.x / 12.0, 0.0), 1.0))
-        given = () if surroundings is None else (surroundings,)
-        self.decision = self.agent.decide(self.time, self.pose, flow, *given)
-        if not self.activities or self.activities[-1] != self.decision.activity:
-            self.activities.append(self.decision.activity)
-        if self.decision.goal is not None and self.decision.goal not in self.goals[-1:]:
-            self.goals.append(self.decision.goal)
-        return self.decision
+        self.motion = self.pilot.update(self.time, self.pose, flow, self.time)
+        if not self.activities or self.activities[-1] != self.motion.activity:
+            self.activities.append(self.motion.activity)
+        if self.motion.goal is not None and self.motion.goal not in self.goals[-1:]:
+            self.goals.append(self.motion.goal)
+        return self.motion
 
-    def live(self, seconds, dt=2.0, surroundings=None):
+    def live(self, seconds, dt=2.0):
         """Go on for a while; the centre never leaves the margin by more than the slack."""
         end = self.time + seconds
         while self.time < end:
-            decision = self.decide(surroundings)
-            wanted = decision.wanted._replace(v=min(decision.wanted.v, decision.place.top_speed))
+            motion = self.move()
+            wanted = motion.wanted._replace(v=min(motion.wanted.v, motion.rules.top_speed))
             self.pose = integrate(self.pose, to_twist(wanted), dt)
             self.time += dt
         return self
@@ -63,7 +68,10 @@ class Life:
 
 
 def agent(zone=YARD, **parameters):
-    return Agent(zone, AgentParameters(**({'goals': MEMORY} | parameters)))
+    return Agent(
+        None if zone is None else PathPlanner(zone),
+        AgentParameters(**({'goals': MEMORY} | parameters)),
+    )
 
 
 def test_it_goes_from_goal_to_goal_round_the_wall_and_never_leaves_the_margin():
@@ -81,11 +89,11 @@ def test_it_goes_from_goal_to_goal_round_the_wall_and_never_leaves_the_margin():
 
 def test_the_goal_is_reached_within_the_way_over_the_speed():
     life = Life(agent(), 2.0, 2.0)
-    first = life.decide().goal
-    path = shapely.LineString(life.decision.path).length
+    first = life.move().goal
+    path = shapely.LineString(life.motion.path).length
     life.live((path - 1.0) / 0.8 * 60.0 + 10.0)
     assert life.goals[0] is first
-    assert life.decide().goal is not first
+    assert life.move().goal is not first
 
 
 def test_every_reachable_place_is_visited_in_two_days():
@@ -97,7 +105,7 @@ def test_every_reachable_place_is_visited_in_two_days():
 
 def test_what_it_does_is_told_with_the_reason():
     life = Life(agent(), 2.0, 2.0)
-    assert life.decide().activity.startswith('walking to never visited: (')
+    assert life.move().activity.startswith('walking to never visited: (')
     life.live(3600.0)
     assert any('walking to highest remembered sap flow 0.' in a for a in life.activities)
 
@@ -106,8 +114,8 @@ def test_nothing_is_remembered_of_its_sleep():
     life = Life(agent(), 2.0, 2.0)
     life.flow = SapFlow(0.0, 0.0, 0.0)
     life.pose = Pose(0.6, 2.0, 0.0)
-    assert life.decide().activity == 'resting: the sap stands'
-    assert life.decision.wanted is STILL
+    assert life.move().activity == 'resting: the sap stands'
+    assert life.motion.wanted == STILL
     assert not life.agent.memory.visited.any()
 
 
@@ -116,48 +124,64 @@ def test_turning_is_not_allowed_where_part_of_the_platform_is_on_delicate_floor(
         [[0, 0], [20, 0], [20, 9], [0, 9]], translation_only=[[[0, 0], [4, 0], [4, 9], [0, 9]]]
     )
     life = Life(agent(zone), 5.0, 5.0)
-    assert not life.decide().place.may_turn
+    assert not life.move().rules.may_turn
     life.pose = Pose(5.2, 5.0, 0.0)
-    assert life.decide().place.may_turn
+    assert life.move().rules.may_turn
 
 
 # What others allow
 
 
-def test_it_keeps_off_what_others_need_and_waits_when_told():
-    life = Life(agent(), 2.0, 2.0)
-    taken = shapely.box(7.0, 0.0, 12.0, 9.0)
-    life.live(3600.0, surroundings=Surroundings(avoid=taken))
-    assert all(goal.x < 7.0 for goal in life.goals)
-    waiting = life.decide(Surroundings(taken, 'the oak passes'))
-    assert waiting.wanted is STILL
-    assert waiting.activity == 'waiting: the oak passes'
-    assert waiting.path
+def test_a_goal_is_chosen_off_what_others_close_and_only_while_they_do():
+    tree, closed = agent(), shapely.box(7.0, 0.0, 12.0, 9.0)
+    flow, chosen, free = SapFlow(0.8, 0.6, 0.5), [], []
+    for goals, area in ((chosen, closed), (free, None)):
+        for _ in range(30):
+            goals.append(tree.decide(NOON, Pose(2.0, 2.0, 0.0), flow, area).goal)
+            assert tree.give_up(goals[-1])
+    assert all(goal.x < 7.0 for goal in chosen)
+    assert any(goal.x > 7.0 for goal in free)
 
 
-def test_a_goal_whose_way_is_taken_is_given_up_for_another():
-    life = Life(agent(), 2.0, 2.0)
-    life.live(1800.0)
-    life.pose = Pose(2.0, 2.0, 0.0)
+def test_a_goal_to_which_no_path_leads_is_given_up_for_another():
+    parted = Zone([[0, 0], [12, 0], [12, 9], [0, 9]], [[[5, 0], [7, 0], [7, 9], [5, 9]]])
+    life = Life(agent(parted), 2.0, 2.0)
     life.agent.set_goal(10.0, 7.0, 'asked for')
-    assert life.decide().goal.place == (10.0, 7.0)
-    door = Surroundings(avoid=shapely.box(5.0, 0.0, 7.0, 3.0))
-    assert life.decide(door).activity.startswith('stopped: goal (10.00, 7.00) lies in another part')
-    assert life.decide(door).goal.x < 5.0
+    stopped = life.move()
+    assert stopped.activity.startswith('stopped: goal (10.00, 7.00) lies in another part')
+    assert (stopped.wanted, stopped.path) == (STILL, ())
+    assert life.move().goal.x < 5.0
+
+
+def test_a_goal_that_lasts_or_was_replaced_is_not_given_up():
+    fixed = agent(goals=GoalParameters(), goal=(10.0, 2.0))
+    assert not fixed.give_up(fixed.goal)
+    assert fixed.goal.place == (10.0, 2.0)
+    tree = agent()
+    old = tree.decide(NOON, Pose(2.0, 2.0, 0.0), SapFlow(0.8, 0.6, 0.5)).goal
+    tree.set_goal(10.0, 7.0, 'asked for')
+    assert not tree.give_up(old)
+    assert tree.goal.place == (10.0, 7.0)
+
+
+def test_giving_up_a_goal_does_not_call_it_back_from_its_way_home():
+    tree = agent()
+    goal = tree.decide(NOON, Pose(8.0, 2.0, 0.0), SapFlow(0.8, 0.6, 0.5)).goal
+    tree.go_home()
+    assert tree.give_up(goal)
+    decision = tree.decide(NOON, Pose(8.0, 2.0, 0.0), SapFlow(0.8, 0.6, 0.5))
+    assert decision.activity == 'walking to home at (2.0, 7.0), asked to'
 
 
 def test_without_any_goal_it_turns_on_the_spot_and_tries_again_after_ten_seconds():
-    life = Life(agent(), 2.0, 2.0)
-    cell = YARD.floor.buffer(1.0).difference(shapely.box(1.9, 1.9, 2.1, 2.1))
-    around = Surroundings(avoid=cell)
-    first = life.decide(around)
+    tree, flow, pose = agent(), SapFlow(0.8, 0.6, 0.5), Pose(2.0, 2.0, 0.0)
+    around = YARD.floor.buffer(1.0).difference(shapely.box(1.9, 1.9, 2.1, 2.1))
+    first = tree.decide(NOON, pose, flow, around)
     assert first.activity == 'no goal can be reached: turning on the spot'
-    assert first.wanted == pytest.approx((0.0, 0.0, 2.0 * 0.6 - 1.0))
-    assert 'where another tree is' in life.agent.refusals[0]
-    life.time += 9.0
-    assert life.decide().goal is None
-    life.time += 1.0
-    assert life.decide().goal is not None
+    assert (first.destination, first.rotation) == (None, pytest.approx(2.0 * 0.6 - 1.0))
+    assert 'where another tree is' in tree.refusals[0]
+    assert tree.decide(NOON + 9.0, pose, flow).goal is None
+    assert tree.decide(NOON + 10.0, pose, flow).goal is not None
 
 
 # From outside
@@ -167,17 +191,17 @@ def test_a_goal_asked_for_is_reached_and_then_the_cycle_goes_on():
     life = Life(agent(), 2.0, 2.0)
     life.live(60.0)
     life.agent.set_goal(10.0, 7.0, 'asked for')
-    assert life.decide().goal.reason == '(10.0, 7.0), asked for'
-    while life.decision.goal.objective is None:
+    assert life.move().goal.reason == '(10.0, 7.0), asked for'
+    while life.motion.goal.objective is None:
         life.live(10.0)
     assert hypot(life.pose.x - 10.0, life.pose.y - 7.0) < 1.2
 
 
 def test_the_next_goal_is_another():
     life = Life(agent(), 2.0, 2.0)
-    first = life.decide().goal
+    first = life.move().goal
     life.agent.next_goal()
-    assert life.decide().goal is not first
+    assert life.move().goal is not first
 
 
 def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
@@ -186,7 +210,7 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
     seen = []
     for x in (8.9, 9.1, 8.9, 8.1, 7.9, 8.1):
         life.pose = Pose(x, 2.0, 0.0)
-        seen.append(life.decide().activity.split()[0])
+        seen.append(life.move().activity.split()[0])
     assert seen == ['turning', 'turning', 'turning', 'turning', 'walking', 'walking']
     with pytest.raises(ConfigurationError, match='one goal'):
         life.agent.next_goal()
@@ -198,20 +222,20 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
 def test_a_fixed_goal_is_gone_to_again_after_home():
     life = Life(agent(goals=GoalParameters(), goal=(10.0, 2.0)), 2.0, 2.0)
     life.agent.go_home()
-    assert life.decide().activity.startswith('walking to home')
+    assert life.move().activity.startswith('walking to home')
     life.agent.next_goal()
-    assert life.decide().activity.startswith('walking to (10.0, 2.0)')
+    assert life.move().activity.startswith('walking to (10.0, 2.0)')
 
 
 def test_it_goes_home_when_asked_and_stays():
     life = Life(agent(), 10.0, 7.0)
     life.agent.go_home()
     life.live(3600.0)
-    assert life.decision.activity == 'at home: asked to'
+    assert life.motion.activity == 'at home: asked to'
     assert hypot(life.pose.x - 2.0, life.pose.y - 7.0) < 0.3
-    assert life.decision.wanted is STILL
+    assert life.motion.wanted == STILL
     life.agent.next_goal()
-    assert life.decide().activity.startswith('walking')
+    assert life.move().activity.startswith('walking')
 
 
 def test_it_is_home_before_closing_even_if_little_sap_flows():
@@ -220,18 +244,18 @@ def test_it_is_home_before_closing_even_if_little_sap_flows():
     life = Life(agent(schedule=hours), 10.0, 8.0, NOON - 3600.0)
     life.flow = SapFlow(0.3, 0.5, 0.5)
     life.live(3 * 3600.0 - 1.0, dt=5.0)
-    assert life.decision.activity == 'at home: closing at Mon 14:00'
+    assert life.motion.activity == 'at home: closing at Mon 14:00'
     life.live(10.0)
-    assert life.decision.activity == 'resting: closed until Tue 10:00'
+    assert life.motion.activity == 'resting: closed until Tue 10:00'
     life.time = NOON + 22 * 3600.0
-    assert life.decide().activity.startswith('walking to')
+    assert life.move().activity.startswith('walking to')
 
 
 def test_it_rests_while_the_probes_calibrate():
     hours = ScheduleParameters(enabled=True, opens='00:00', closes='23:59')
     life = Life(agent(schedule=hours), 2.0, 2.0, NOON - 7 * 3600.0)
-    assert life.decide().activity == 'resting: the probes calibrate until Mon 07:00'
-    assert life.decision.wanted is STILL
+    assert life.move().activity == 'resting: the probes calibrate until Mon 07:00'
+    assert life.motion.wanted == STILL
 
 
 def test_without_a_home_nobody_goes_there():
@@ -245,25 +269,25 @@ def test_without_a_home_nobody_goes_there():
 
 def test_outside_it_refuses_and_says_where_it_is():
     life = Life(agent(), -0.5, 2.0)
-    assert 'lies outside the zone' in life.decide().activity
-    assert life.decision.wanted is STILL
+    assert 'lies outside the zone' in life.move().activity
+    assert life.motion.wanted == STILL
 
 
 def test_outside_it_returns_slowly_without_turning_where_that_is_wanted():
     life = Life(agent(home=HomeParameters(outside='return', return_speed=0.2)), -0.5, 2.0)
-    decision = life.decide()
-    assert decision.activity.startswith('returning slowly to the zone: the tree lies outside')
-    assert (decision.wanted.omega, decision.place.top_speed) == (0.0, 0.2)
-    assert decision.path[1] == pytest.approx((0.5, 2.0))
+    motion = life.move()
+    assert motion.activity.startswith('returning slowly to the zone: the tree lies outside')
+    assert (motion.wanted.omega, motion.rules.top_speed) == (0.0, 0.2)
+    assert motion.path[1] == pytest.approx((0.5, 2.0))
     life.live(60.0 * 0.5 / 0.2 + 4.0)
     assert YARD.contains(*life.here)
-    assert life.decide().activity.startswith('walking')
+    assert life.move().activity.startswith('walking')
 
 
 def test_a_return_through_a_hole_is_refused():
     zone = Zone([[0, 0], [9, 0], [9, 9], [0, 9]], [[[0.2, 1], [0.4, 1], [0.4, 8], [0.2, 8]]])
     life = Life(agent(zone, home=HomeParameters(outside='return')), -0.5, 4.0)
-    assert 'no straight way leads back' in life.decide().activity
+    assert 'no straight way leads back' in life.move().activity
 
 
 def test_a_strategy_that_remembers_needs_a_zone():
@@ -272,7 +296,7 @@ def test_a_strategy_that_remembers_needs_a_zone():
 
 
 def test_the_same_life_twice():
-    """Deterministic: the same seed and the same senses give the same thoughts."""
+    """Deterministic: the same seed and the same senses give the same decisions."""
     lives = [Life(agent(), 2.0, 2.0).live(1800.0) for _ in range(2)]
     assert lives[0].goals == lives[1].goals
     assert lives[0].pose == lives[1].pose
@@ -285,9 +309,9 @@ def test_noise_of_the_fixes_does_not_keep_it_from_its_goal():
     for k in range(1800):
         life.pose = Pose(true.x + 0.2 * sin(7.1 * k), true.y + 0.2 * cos(5.3 * k), true.theta)
         before = life.agent.goal
-        decision = life.decide()
-        reached += decision.goal is not before
-        true = integrate(true, to_twist(decision.wanted), 4.0)
+        motion = life.move()
+        reached += motion.goal is not before
+        true = integrate(true, to_twist(motion.wanted), 4.0)
         life.time += 4.0
         assert YARD.contains(true.x, true.y)
     assert reached > 3
@@ -308,7 +332,7 @@ def test_through_a_narrow_door_with_noisy_fixes_no_rim_touches_a_wall(seed):
             error = tuple(0.6 * e + float(chance.normal(0.0, 0.032)) for e in error)
             share = min(0.12 / max(hypot(*error), 0.12), 1.0)
             life.pose = Pose(true.x + share * error[0], true.y + share * error[1], true.theta)
-            true = integrate(true, to_twist(life.decide().wanted), 0.5)
+            true = integrate(true, to_twist(life.move().wanted), 0.5)
             life.time += 0.5
             edge = zone.floor.boundary.distance(shapely.Point(true.x, true.y))
             least = min(least, edge)

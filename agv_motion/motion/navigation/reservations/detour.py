@@ -1,8 +1,8 @@
-"""Ways round floor that others need, and places to give way at."""
+"""Detours past floor that others need, and places to give way at."""
 
 from __future__ import annotations
 
-from math import cos, hypot, pi
+from math import cos, hypot, inf, pi
 from typing import TYPE_CHECKING
 
 import shapely
@@ -11,13 +11,14 @@ from shapely import Polygon
 from agv_motion.errors import GeometryError
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.polyline import Path, joined, straight_pieces
-from agv_motion.motion.navigation.reservations.separation import keeps_away
+from agv_motion.motion.navigation.reservations.needs import ARRIVED, COURTESY
+from agv_motion.motion.navigation.reservations.separation import apart, keeps_away
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from agv_motion.motion.navigation.polyline import Point
-    from agv_motion.motion.navigation.reservations.needs import Need
+    from agv_motion.motion.navigation.reservations.needs import Need, Needs
     from agv_motion.motion.navigation.reservations.separation import Floor
     from agv_motion.motion.navigation.zone import Zone
 
@@ -29,6 +30,43 @@ QUARTER = 3
 
 ROUND = 1.0 / cos(pi / (4 * QUARTER)) + 1e-4
 """[-] A polygon on a circle so much larger has the circle inside."""
+
+
+NEAR = 0.8
+"""[m] how near to the goal a detour may end where the goal itself is not free"""
+
+
+class Detours:
+    """What one tree may do where its way is barred: go round, or out of the way."""
+
+    def __init__(self, zone: Zone, needs: Needs) -> None:
+        """Look at what the others need in ``zone``."""
+        self._zone, self._needs = zone, needs
+
+    def occupied(self) -> shapely.Geometry:
+        """Return the floor that others hold or ask for, with the clearance to keep from it."""
+        return taken(self._needs.of_all(plans=False))
+
+    def past_all(self, place: Point, goal: Point) -> Path | None:
+        """Return the shortest path from ``place`` to ``goal`` past all that others need."""
+        needs = self._needs
+        floor = free_floor(self._zone, place, taken(needs.of_all()), needs.held())
+        return None if floor is None else detour(self._zone, place, goal, floor, NEAR)
+
+    def to_refuge(self, place: Point) -> Path | None:
+        """Return the path to a refuge; None where there is none, or the tree bars nobody's way."""
+        here = shapely.Point(place)
+        if all(apart(here, *planned) for planned in self._needs.plans(inf, 0.0)):
+            return None
+        floor = free_floor(self._zone, place, self.occupied(), self._needs.held())
+        if floor is None:
+            return None
+        for reach in (inf, COURTESY):
+            planned = taken(self._needs.plans(reach, 2.0 * ARRIVED))
+            path = refuge(self._zone, place, floor, planned)
+            if path is not None:
+                return path
+        return None
 
 
 def taken(lines: Iterable[Need]) -> shapely.Geometry:

@@ -12,8 +12,11 @@ if TYPE_CHECKING:
     import shapely
 
     from agv_motion.motion.navigation.polyline import Path
-    from agv_motion.motion.navigation.reservations.peer import Peer
+    from agv_motion.motion.navigation.reservations.peers import Peer
     from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+
+ARRIVED = 0.05
+"""[m] The end of what is held counts as reached from here."""
 
 COURTESY = 4.0
 """[m] of the path of who goes first that the others keep off; who gave way keeps off all of it."""

@@ -21,7 +21,7 @@ gave way. A message overtaken by a later one of its run is dropped, so nobody fo
 
 A tree that starts again has a new run: all it knew is void, and it holds the place where it stands,
 which its last run held. Answers to the last run do not count for the new one, and of a peer both
-old and new floor stay taken until its new run has answered (:mod:`.peer`). It takes nothing before
+old and new floor stay taken until its new run has answered (:mod:`.peers`). It takes nothing before
 all that it was told of, by ``expected`` or by a file, have answered.
 
 A tree whose pose jumps does not know where it is: it holds all places where it may be, and stands,
@@ -49,10 +49,16 @@ from typing import TYPE_CHECKING
 from agv_motion.errors import SignalError
 from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line
 from agv_motion.motion.navigation.reservations.doubt import jumped
-from agv_motion.motion.navigation.reservations.peers import Peers
-from agv_motion.motion.navigation.reservations.reservation import IDLE, MessageId, Reservation
-from agv_motion.motion.navigation.reservations.separation import apart, keeps_away
-from agv_motion.motion.navigation.reservations.verdict import GRANTED, UNHEARD, Answer, Verdict
+from agv_motion.motion.navigation.reservations.peers import Peer, Peers
+from agv_motion.motion.navigation.reservations.reservation import (
+    GRANTED,
+    IDLE,
+    UNHEARD,
+    Answer,
+    MessageId,
+    Reservation,
+    Verdict,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,7 +66,6 @@ if TYPE_CHECKING:
     from agv_motion.motion.navigation.polyline import Point
     from agv_motion.motion.navigation.reservations.doubt import Doubt
     from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-    from agv_motion.motion.navigation.reservations.peer import Peer
 
 
 MOST_PEERS = 100
@@ -98,11 +103,11 @@ class RightOfWay:
         self.awaited = [one for one in dict.fromkeys((*parameters.expected, *known)) if one != name]
         self.held: Path = (place,)
         self.parked = False
-        self._journey = IDLE
+        self.journey = IDLE
+        """Which journey it is on: the older of two has precedence."""
         self._begun: float | None = None
         self._held_line = line(self.held)
         self.requested: Path = ()
-        self._requested_line = line(())
         self._requested_since: int | None = None
         self._number = -1
         self._alarm: tuple[str, float] | None = None
@@ -166,7 +171,7 @@ class RightOfWay:
             received[self.name] = self._twin
         return Reservation(
             self.name, MessageId(self.run, self._number), self.radius, self.held, self.requested,
-            planned[:MOST_PLANNED], self._journey, received, self.parked, self.margin,
+            planned[:MOST_PLANNED], self.journey, received, self.parked, self.margin,
         )  # fmt: skip
 
     def locate(self, place: Point, now: float, *, fresh: bool = True) -> bool:
@@ -215,11 +220,6 @@ class RightOfWay:
         self.stop()
         self.parked = True
 
-    @property
-    def journey(self) -> int:
-        """Which journey the tree is on: the older of two has precedence."""
-        return self._journey
-
     def set_out(self, journey: int | None = None) -> None:
         """Begin another journey; a request stands for the precedence it was made with, and ends.
 
@@ -229,9 +229,9 @@ class RightOfWay:
         """
         self.withdraw()
         if journey is None:
-            own = self._journey if self._journey < IDLE else 0
+            own = self.journey if self.journey < IDLE else 0
             journey = min(max(own, self.peers.latest_journey()) + 1, IDLE - 1)
-        self._journey = journey
+        self.journey = journey
 
     def request(self, piece: Path) -> None:
         """Ask for ``piece``, which begins where the held path ends; :meth:`settle` may grant it."""
@@ -248,7 +248,7 @@ class RightOfWay:
     @property
     def precedence(self) -> tuple[int, str]:
         """Who goes first: the lesser; see :class:`Reservation`."""
-        return self._journey, self.name
+        return self.journey, self.name
 
     @property
     def ahead(self) -> float:
@@ -270,7 +270,15 @@ class RightOfWay:
         if why := self.obstacle(now):
             return Verdict(Answer.ALARM, why)
         self.peers.judge(now, self._held_line, self._moved_since)
-        verdicts = [self._objection(peer) for peer in self.peers]
+        verdicts = [
+            peer.objection(
+                self.requested,
+                self.clearance(peer),
+                self._requested_since,
+                first=self.precedence < peer.reservation.precedence,
+            )
+            for peer in self.peers
+        ]
         verdicts += [
             Verdict(Answer.PENDING, f'{name}, {UNHEARD}')
             for name in self.awaited
@@ -288,33 +296,8 @@ class RightOfWay:
         """Return the distance that the centres of this tree and another keep [m]."""
         return self.radius + peer.radius + max(self.margin, peer.margin)
 
-    def clear_of(self, path: Path, peer: Peer) -> bool:
-        """Return whether ``path`` keeps clear of what ``peer`` holds, or leads away from it."""
-        clearance = self.clearance(peer)
-        return all(keeps_away(path, floor, clearance) for floor in peer.floors())
-
-    def _objection(self, peer: Peer) -> Verdict:
-        reservation, clearance = peer.reservation, self.clearance(peer)
-        if peer.stays and self.clear_of(self.requested, peer):
-            return GRANTED
-        if peer.silent:
-            allowed = peer.sides is not None and peer.sides.allow(self.requested, clearance)
-            return (
-                GRANTED
-                if allowed
-                else Verdict(Answer.TAKEN, f'{reservation.name}, which is silent')
-            )
-        if not self.clear_of(self.requested, peer):
-            return Verdict(Answer.TAKEN, reservation.name)
-        first = self.precedence < reservation.precedence
-        if not first and not apart(self._requested_line, reservation.requested_line, clearance):
-            return Verdict(Answer.TAKEN, reservation.name)
-        if self._requested_since is None or not peer.answered(self._requested_since):
-            return Verdict(Answer.PENDING, reservation.name)
-        return GRANTED
-
     def _set_request(self, piece: Path) -> None:
-        self.requested, self._requested_since, self._requested_line = piece, None, line(piece)
+        self.requested, self._requested_since = piece, None
 
     def _hold(self, path: Path) -> None:
         self.held, self._held_line = path, line(path)

@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 from agv_motion.errors import SignalError
 from agv_motion.motion.navigation.polyline import line
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
+from agv_motion.motion.navigation.reservations.reservation import Answer, MessageId, Reservation
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.motion.navigation.reservations.sides import Sides
-from agv_motion.motion.navigation.reservations.verdict import Answer
 from agv_motion.simulation.radio import Radio, RadioParameters
 
 PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)

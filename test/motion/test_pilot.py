@@ -1,4 +1,4 @@
-"""A mind among others: whoever may move steps out of the way, even while its sap stands."""
+"""One command of agent and navigator; whoever may move gives way, even while its sap stands."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from math import dist
 import pytest
 
 from agv_motion.motion.behavior.agent import Agent, AgentParameters
-from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.polar import to_twist
 from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.reservations.company import Company
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.traffic import Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 from agv_motion.motion.navigation.zone import Zone
+from agv_motion.motion.pilot import Pilot
 from agv_motion.planar import Pose, integrate
 
 CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
@@ -36,32 +36,32 @@ NIGHT = 1434344400.0
 class Oak:
     """A tree in the corridor; `ash` comes along it, and went first."""
 
-    def __init__(self, place, **given):
-        agent = Agent(CORRIDOR, AgentParameters(home=HomeParameters(speed=SPEED), **given))
-        right = RightOfWay('oak', place, TRAFFIC, RUN)
-        self.company = Company(agent, Traffic(right, CORRIDOR, PathPlanner(CORRIDOR)))
+    def __init__(self, place, zone=CORRIDOR, **given):
+        planner = PathPlanner(zone)
+        self.agent = Agent(planner, AgentParameters(home=HomeParameters(speed=SPEED), **given))
+        self.navigator = SharedNavigator(RightOfWay('oak', place, TRAFFIC, RUN), planner)
+        self.pilot = Pilot(self.agent, self.navigator)
         self.pose = Pose(*place, 0.0)
         self.going, self.giving_way, self.activities = set(), set(), []
 
     def live(self, flow, seconds, start=NIGHT):
-        """Go on for a while, one thought a second."""
+        """Go on for a while, one decision a second."""
         for now in range(round(start), round(start) + seconds):
-            traffic = self.company.traffic
             path = (6.0, 1.25), (14.0, 1.25)
-            traffic.receive(
+            self.navigator.receive(
                 Reservation(
                     'ash', MessageId(1, now), 0.9, path[:1], (), path, 0,
                     received={'oak': MessageId(RUN, now)}, margin=0.2,
                 ), now,
             )  # fmt: skip
-            traffic.reservation(now)
-            decision = self.company.decide(now, self.pose, flow, now)
-            speeds = self.giving_way if 'gives way' in decision.activity else self.going
-            speeds.add(decision.wanted.v)
-            assert decision.path or not decision.wanted.v
-            if decision.activity not in self.activities[-1:]:
-                self.activities.append(decision.activity)
-            self.pose = integrate(self.pose, to_twist(decision.wanted), 1.0)
+            self.navigator.reservation(now)
+            motion = self.pilot.update(now, self.pose, flow, now)
+            speeds = self.giving_way if 'gives way' in motion.activity else self.going
+            speeds.add(motion.wanted.v)
+            assert motion.path or not motion.wanted.v
+            if motion.activity not in self.activities[-1:]:
+                self.activities.append(motion.activity)
+            self.pose = integrate(self.pose, to_twist(motion.wanted), 1.0)
         return self
 
     def gave_way(self):
@@ -87,7 +87,7 @@ def test_a_tree_steps_aside_as_its_sap_flows_but_no_slower(s1):
 def test_one_that_is_in_nobodys_way_rests_where_it_is():
     oak = Oak((20.0, 1.25)).live(ASLEEP, 300)
     assert (oak.pose.x, oak.pose.y) == (20.0, 1.25)
-    assert oak.company.decide(NIGHT + 300, oak.pose, ASLEEP, NIGHT + 300).path == ()
+    assert oak.pilot.update(NIGHT + 300, oak.pose, ASLEEP, NIGHT + 300).path == ()
 
 
 def test_nobody_steps_aside_before_opening():

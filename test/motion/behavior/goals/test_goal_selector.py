@@ -1,4 +1,4 @@
-"""The cycle of wishes: highest, lowest, longest unvisited; ties, masks, reasons, strategies."""
+"""The cycle of objectives: highest, lowest, longest unvisited; ties, masks, reasons."""
 
 from __future__ import annotations
 
@@ -8,8 +8,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agv_motion.motion.behavior.goals import GoalParameters, GoalSelector, Objective, ago
+from agv_motion.motion.behavior.goals.goal import Objective
+from agv_motion.motion.behavior.goals.goal_selector import GoalSelector, ago
+from agv_motion.motion.behavior.goals.reachability import ShortestPath, StraightLine
+from agv_motion.motion.behavior.goals.strategy import GoalSetting
 from agv_motion.motion.behavior.memory import Memory
+from agv_motion.motion.navigation.open_floor import OpenFloor
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.zone import Zone
 
@@ -21,8 +25,10 @@ HERE = (5.0, 5.0)
 WALL = [[4.9, 0], [5.1, 0], [5.1, 8], [4.9, 8]]
 
 
-def arrival(_wish):
-    return 1.0
+def selector(*, paths=PATHS, seed=1, attempts=9, reachability=None):
+    """Return a selector for a tree that has arrived within 1 m."""
+    setting = GoalSetting(None, seed, attempts, OpenFloor(paths), lambda _objective: 1.0)
+    return GoalSelector(setting, reachability or ShortestPath())
 
 
 def walked(zone=ZONE):
@@ -34,9 +40,9 @@ def walked(zone=ZONE):
 
 
 def goals(memory, count, *, paths=PATHS, start=HERE, **parameters):
-    cycle = GoalSelector(GoalParameters(**parameters))
+    cycle = selector(paths=paths, **parameters)
     now = NOON + 3 * 3600.0
-    return [cycle.next(now, start, memory, paths, arrival).goal for _ in range(count)]
+    return [cycle.next_goal(memory, start, now) for _ in range(count)]
 
 
 def test_sun_shade_and_the_unknown_in_turn_with_their_reasons():
@@ -68,7 +74,7 @@ def test_ties_fall_on_every_equal():
     memory = Memory(ZONE)
     for x in (1.1, 3.1, 5.1, 7.1):
         memory.update(NOON, x, 1.1, 0.9)
-    cycle = GoalSelector(GoalParameters())
+    cycle = selector()
     chosen = {cycle.best(Objective.SUN, NOON, memory, memory.walkable).x for _ in range(60)}
     assert len(chosen) == 4
 
@@ -84,7 +90,7 @@ def test_no_walkable_cell_is_higher_lower_or_longer_unvisited(places, seed):
     memory = Memory(ZONE)
     for i, place in enumerate(places):
         memory.update(NOON + 60.0 * i, *place)
-    cycle = GoalSelector(GoalParameters(seed=seed))
+    cycle = selector(seed=seed)
     sun, shade, unknown = (cycle.best(w, NOON + 1e4, memory, memory.walkable) for w in Objective)
     felt = memory.flow[memory.felt]
     assert memory.flow[memory.cell_of(*sun.place)] == felt.max()
@@ -117,41 +123,36 @@ def test_the_shortest_way_reaches_round_the_corner_and_the_straight_line_does_no
     memory.update(NOON, 8.1, 1.1, 0.2)
     memory.visited_at[memory.walkable] = NOON
     paths, start = PathPlanner(zone), (8.5, 3.0)
-    (round_the_wall,) = goals(memory, 1, paths=paths, start=start, strategy='memory')
+    (round_the_wall,) = goals(memory, 1, paths=paths, start=start)
     assert round_the_wall.objective is Objective.SUN
-    ancestor = GoalSelector(GoalParameters(strategy='straight', seed=3))
-    choice = ancestor.next(NOON, start, memory, paths, arrival)
-    assert 'no straight line leads to' in choice.failures[0]
-    assert choice.goal is None or choice.goal.x > 4.0
+    straight = selector(paths=paths, seed=3, reachability=StraightLine())
+    goal = straight.next_goal(memory, start, NOON)
+    assert 'no straight line leads to' in straight.refusals[0]
+    assert goal is None or goal.x > 4.0
 
 
 def test_goals_that_others_take_are_left_and_told():
-    taken = PATHS.without(shapely.box(0.0, 0.0, 3.0, 3.0))
-    cycle = GoalSelector(GoalParameters())
-    choice = cycle.next(NOON, HERE, walked(), taken, arrival)
-    assert choice.goal.objective is Objective.SHADE
-    assert 'where another tree is' in choice.failures[0]
-    assert choice.path[0] == HERE
+    cycle = selector(paths=PATHS.without(shapely.box(0.0, 0.0, 3.0, 3.0)))
+    assert cycle.next_goal(walked(), HERE, NOON).objective is Objective.SHADE
+    assert 'where another tree is' in cycle.refusals[0]
 
 
 def test_after_so_many_failures_there_is_no_goal():
     everything = PATHS.without(shapely.box(0.0, 0.0, 4.0, 10.0).union(shapely.box(6, 0, 10, 10)))
     memory = Memory(ZONE)
     memory.visited_at[:, 16:24] = NOON
-    choice = GoalSelector(GoalParameters(attempts=4)).next(NOON, HERE, memory, everything, arrival)
-    assert choice.goal is None
-    assert len(choice.failures) == 4
+    cycle = selector(paths=everything, attempts=4)
+    assert cycle.next_goal(memory, HERE, NOON) is None
+    assert len(cycle.refusals) == 4
 
 
 def test_a_tree_with_nowhere_to_go_does_not_search_for_ever():
     cell = Zone([[0, 0], [1.2, 0], [1.2, 1.2], [0, 1.2]])
     memory = Memory(cell)
     memory.update(NOON, 0.6, 0.6, 0.5)
-    choice = GoalSelector(GoalParameters()).next(
-        NOON, (0.6, 0.6), memory, PathPlanner(cell), arrival
-    )
-    assert choice.goal is None
-    assert choice.failures == []
+    cycle = selector(paths=PathPlanner(cell))
+    assert cycle.next_goal(memory, (0.6, 0.6), NOON) is None
+    assert cycle.refusals == []
 
 
 @pytest.mark.parametrize(
@@ -173,7 +174,5 @@ def test_the_faded_flow_decides_where_memory_fades():
     memory.update(NOON - 3 * 3600.0, 1.1, 1.1, 0.9)
     memory.update(NOON, 8.1, 8.1, 0.7)
     memory.update(NOON, 8.1, 1.1, 0.2)
-    best = GoalSelector(GoalParameters()).best(
-        Objective.SUN, NOON, memory, np.copy(memory.walkable)
-    )
+    best = selector().best(Objective.SUN, NOON, memory, np.copy(memory.walkable))
     assert best.place == (8.125, 8.125)

@@ -1,4 +1,4 @@
-"""One tree among others: which path it takes, when it waits, and when it gives way.
+"""The navigator of a tree among others: which path it takes, when it waits, when it gives way.
 
 Safety is the matter of :class:`RightOfWay`; what is here only decides what to ask for, so a defect
 here can cost time but no bark. Five habits let all go on:
@@ -16,78 +16,57 @@ The oldest journey has everybody's way out of it, and each journey becomes the o
 
 from __future__ import annotations
 
-from math import hypot
-from typing import TYPE_CHECKING, NamedTuple
+from math import hypot, inf
+from typing import TYPE_CHECKING
 
-import numpy as np
 import shapely
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.navigation.path_follower import Waypoints
+from agv_motion.motion.navigation.navigator import Guidance
+from agv_motion.motion.navigation.path_follower import CORNER_REACH, CORNER_SLACK, Waypoints
 from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line, nearest
-from agv_motion.motion.navigation.reservations.detour import detour, free_floor, refuge, taken
-from agv_motion.motion.navigation.reservations.needs import COURTESY, Needs
-from agv_motion.motion.navigation.reservations.reservation import IDLE, Reservation
+from agv_motion.motion.navigation.reservations.detour import Detours
+from agv_motion.motion.navigation.reservations.needs import ARRIVED, COURTESY, Needs
+from agv_motion.motion.navigation.reservations.reservation import IDLE, Answer, Reservation
 from agv_motion.motion.navigation.reservations.separation import TOUCH, apart
-from agv_motion.motion.navigation.reservations.verdict import Answer
 
 if TYPE_CHECKING:
     from agv_motion.motion.navigation.path_planner import PathPlanner
     from agv_motion.motion.navigation.polyline import Point
     from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-    from agv_motion.motion.navigation.zone import Zone
 
 STRETCH = 1.0
 """[m] asked for at a time, and held ahead: a minute's walk at the most."""
-
-ARRIVED = 0.05
-"""[m] The end of what is held counts as reached from here."""
 
 STUCK = 5.0
 """[s] without floor ahead after which another path is sought, and time between two searches."""
 
 LONG_WAY = 60.0
-"""[s] A way round of more than twice the length is taken only when stuck for so long."""
+"""[s] A detour of more than twice the length is taken only when stuck for so long."""
 
-CORNER = 0.3
-"""[m] A corner counts as reached from here, or from half the tolerance if that is less ..."""
-
-SLACK = 0.01
-"""[m] ... unless the short cut would cut so deep into the margin."""
+CHECK_PERIOD = 1.0
+"""[s] between two looks whether any path leads to the goal: the tree may have been carried."""
 
 
-class Passage(NamedTuple):
-    """How far the tree may go now."""
+class SharedNavigator:
+    """Takes one tree to its goals along floor that it holds."""
 
-    target: Point | None
-    """where to head for, straight; None: stay"""
-    reason: str
-    """why it stays or gives way; empty while it goes towards its goal"""
-    blocked: float
-    """[s] for how long it could not go towards its goal"""
-    path: Path
-    """corners from here on to the goal, or to where it gives way"""
-    gives_way: bool = False
-    """whether it goes out of the way of others, not towards its goal"""
-
-
-class Traffic:
-    """What one tree asks for, on its path to its goals."""
-
-    def __init__(self, right: RightOfWay, zone: Zone, paths: PathPlanner) -> None:
+    def __init__(self, right: RightOfWay, planner: PathPlanner) -> None:
         """Stand where ``right`` says.
 
         Args:
             right: What the tree holds.
-            zone: Where it walks.
-            paths: The paths in it.
+            planner: The paths in its zone.
 
         """
         self.right, self._needs = right, Needs(right)
+        self.patience = right.parameters.patience
         self._spare = right.parameters.tolerance / 2.0  # the other half is for errors of position
-        self._zone, self._paths = zone, paths
-        self._waypoints = Waypoints(zone, min(CORNER, self._spare), SLACK)
+        self._planner, self._detours = planner, Detours(planner.zone, self._needs)
+        self._waypoints = Waypoints(planner.zone, min(CORNER_REACH, self._spare), CORNER_SLACK)
         self._goal: Point | None = None
+        self._checked: tuple[Point | None, float] = (None, -inf)
+        self._failure: GeometryError | None = None
         self._route: Path = ()
         self._after_piece: Path = ()
         self._yielding = False
@@ -103,20 +82,42 @@ class Traffic:
         right = self.right
         return right.reservation(now, joined(right.held, self._route))
 
-    def towards(self, goal: Point | None, place: Point, now: float) -> Passage:
-        """Return how to go on to ``goal``.
+    def navigate(
+        self, goal: Point | None, here: Point, now: float, *, straight: bool = False
+    ) -> Guidance:
+        """Return how to go on to ``goal``, as far as others let the tree.
 
-        Args:
-            goal: Where to go in the map [m]; None: nowhere, but give way to others.
-            place: Where the centre is [m].
-            now: Time of this tree's steady clock [s].
-
+        See :meth:`Navigator.navigate`. ``now`` is of the tree's steady clock [s]. Where no path
+        leads to the goal, the tree has none, and gives way.
         """
+        failure = None
+        if goal is not None and not straight:
+            failure = self._check(goal, here, now)
+        if failure is not None:
+            goal = None
+        guidance = self._go_on(goal, here, now)
+        if goal is None and guidance.target is None:
+            return Guidance(failure=failure)
+        return guidance._replace(path=(here, *guidance.path), failure=failure)
+
+    def _check(self, goal: Point, here: Point, now: float) -> GeometryError | None:
+        """Return why no path at all leads from ``here`` to ``goal``; looked at now and then."""
+        checked, at = self._checked
+        if goal != checked or not 0.0 <= now - at < CHECK_PERIOD:
+            self._checked, self._failure = (goal, now), None
+            try:
+                self._planner.require_connected(here, goal)
+            except GeometryError as error:
+                self._failure = error
+        return self._failure
+
+    def _go_on(self, goal: Point | None, here: Point, now: float) -> Guidance:
+        """Ask for floor ahead where there is little left, and go on along what is held."""
         right = self.right
-        along = self._track(place, now)
+        along = self._track(here, now)
         if right.doubt is not None:
-            blocked = now - self._going_at if self._goal is not None else 0.0
-            return Passage(None, f'stands: {right.obstacle(now)}', blocked, (place,))
+            blocked = now - self._going_at if goal is not None and self._goal is not None else 0.0
+            return Guidance(None, (here,), f'stands: {right.obstacle(now)}', blocked)
         if goal != self._goal or self._has_waited(now):
             self._set_out(goal, along, now)
             along = 0.0
@@ -127,16 +128,16 @@ class Traffic:
             self._plan_again(along, stuck, now)
             along, ahead = 0.0, 0.0
         if not right.requested and ahead < STRETCH:
-            self._ask()
+            self._request()
             self._settle(now)
-        return self._passage(place, along, now)
+        return self._follow(here, along, now)
 
-    def _passage(self, place: Point, along: float, now: float) -> Passage:
+    def _follow(self, here: Point, along: float, now: float) -> Guidance:
         """Return how far the tree may go on the path it holds, as far as the last guard lets it."""
         right = self.right
-        path = joined(self._waypoints.ahead(place, cut(right.held, along)[1]), self._route)
+        path = joined(self._waypoints.ahead(here, cut(right.held, along)[1]), self._route)
         holds = right.ahead - along > ARRIVED
-        free = self._needs.step((place, path[0]), self._spare)
+        free = self._needs.step((here, path[0]), self._spare)
         obstacle = right.obstacle(now)
         walks = holds and not obstacle and length(free.path) > TOUCH
         self._count(now, walks=walks and not self._yielding)
@@ -145,9 +146,10 @@ class Traffic:
             self._reason = f'waits for {free.by}, which is on its floor'
         blocked = now - self._going_at if self._goal is not None else 0.0
         if not walks:
-            return Passage(None, f'stands: {obstacle}' if obstacle else self._reason, blocked, path)
+            reason = f'stands: {obstacle}' if obstacle else self._reason
+            return Guidance(None, path, reason, blocked)
         reason = 'gives way' if self._yielding else ''
-        return Passage(free.path[-1], reason, blocked, path, self._yielding)
+        return Guidance(free.path[-1], path, reason, blocked, self._yielding)
 
     def _count(self, now: float, *, walks: bool) -> None:
         """Count for how long the tree could not go on; waiting for an answer does not count.
@@ -160,40 +162,37 @@ class Traffic:
             self._going_at = min(self._going_at + max(now - self._counted_at, 0.0), now)
         self._counted_at = now
 
-    def rest(self, place: Point, now: float, *, fresh: bool = True) -> None:
+    def rest(self, here: Point, now: float, *, fresh: bool = True) -> None:
         """Hold nothing but the place where the tree is: it does not move for a while.
 
         Args:
-            place: Where the centre is in the map [m].
+            here: Where the centre is in the map [m].
             now: Time of this tree's steady clock [s].
             fresh: See :meth:`RightOfWay.locate`.
 
         """
-        self._let_go(self._track(place, now, fresh=fresh))
+        self._let_go(self._track(here, now, fresh=fresh))
         self._goal = None
         self.right.set_out(IDLE)
 
-    def park(self, place: Point, now: float) -> None:
+    def park(self, here: Point, now: float) -> None:
         """Rest, and promise to stay: nobody needs to wait for an answer of this tree."""
-        self.rest(place, now, fresh=False)
+        self.rest(here, now, fresh=False)
         self.right.park()
-
-    def occupied(self) -> shapely.Geometry:
-        """Return the floor that others hold or ask for, with the clearance to keep from it."""
-        return taken(self._needs.of_all(plans=False))
 
     def closed(self) -> shapely.Geometry:
         """Return the floor on which no goal makes sense now: occupied, or left to a silent tree."""
+        bounds = self._planner.zone.bounds
         sides = [
-            peer.sides.closed(self._zone.bounds, self._needs.clearance(peer))
+            peer.sides.closed(bounds, self._needs.clearance(peer))
             for peer in self.right.peers
             if peer.sides is not None
         ]
-        return shapely.union_all([self.occupied(), *sides])
+        return shapely.union_all([self._detours.occupied(), *sides])
 
     # Where the tree is on the path it holds
 
-    def _track(self, place: Point, now: float, *, fresh: bool = True) -> float:
+    def _track(self, here: Point, now: float, *, fresh: bool = True) -> float:
         """Return how far along the path it holds the tree is, and let go of what lies behind.
 
         A tree that is farther off than the tolerance stands, and has another path to find once it
@@ -201,12 +200,12 @@ class Traffic:
         """
         right = self.right
         was_sure = right.doubt is None
-        if not right.locate(place, now, fresh=fresh):
+        if not right.locate(here, now, fresh=fresh):
             self._route, self._yielding = (), False
             return 0.0
         if not was_sure:
             self._plan()
-        along, _ = nearest(right.held, place)
+        along, _ = nearest(right.held, here)
         passed = max(along - right.parameters.tolerance, 0.0)
         right.pass_by(passed)
         return along - passed
@@ -249,7 +248,7 @@ class Traffic:
         far = 0.0
         if goal is not None and stuck < LONG_WAY:
             far = hypot(goal[0] - place[0], goal[1] - place[1])
-        if not self._take_detour(far or np.inf) and not self._give_way():
+        if not self._take_detour(far or inf) and not self._give_way():
             self._go_direct()
 
     def _go_direct(self) -> None:
@@ -257,7 +256,7 @@ class Traffic:
         if self._goal is None:
             return
         try:
-            self._route = tuple(self._paths.path(self.right.held[0], self._goal))
+            self._route = tuple(self._planner.path(self.right.held[0], self._goal))
         except GeometryError as error:
             self._reason = str(error)
 
@@ -265,12 +264,7 @@ class Traffic:
         """Take the shortest path past all that others need; return whether there is one."""
         if self._goal is None:
             return False
-        place = self.right.held[0]
-        needs = self._needs
-        floor = free_floor(self._zone, place, taken(needs.of_all()), needs.held())
-        if floor is None:
-            return False
-        path = detour(self._zone, place, self._goal, floor, near=0.8)
+        path = self._detours.past_all(self.right.held[0], self._goal)
         if path is None or length(path) > 2.0 * direct + 2.0:
             return False
         self._route, self._yielding = path, False
@@ -278,25 +272,16 @@ class Traffic:
 
     def _give_way(self) -> bool:
         """Walk to a refuge if the tree stands in the way of one that goes first; return whether."""
-        place = self.right.held[0]
-        here = shapely.Point(place)
-        if all(apart(here, *planned) for planned in self._needs.plans(np.inf, 0.0)):
+        path = self._detours.to_refuge(self.right.held[0])
+        if path is None:
             return False
-        floor = free_floor(self._zone, place, self.occupied(), self._needs.held())
-        if floor is None:
-            return False
-        for reach in (np.inf, COURTESY):
-            wished = taken(self._needs.plans(reach, 2.0 * ARRIVED))
-            path = refuge(self._zone, place, floor, wished)
-            if path is not None:
-                self._route, self._yielding = path, True
-                self._needs.courtesy = np.inf
-                return True
-        return False
+        self._route, self._yielding = path, True
+        self._needs.courtesy = inf
+        return True
 
     # What to ask for
 
-    def _ask(self) -> None:
+    def _request(self) -> None:
         """Ask for the next stretch of the route, as far as it is free by all that is known."""
         if len(self._route) < 2:
             return

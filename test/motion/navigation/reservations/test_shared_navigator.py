@@ -11,7 +11,7 @@ from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.reservation import IDLE, MessageId, Reservation
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.traffic import STUCK, Traffic
+from agv_motion.motion.navigation.reservations.shared_navigator import STUCK, SharedNavigator
 from agv_motion.motion.navigation.zone import Zone
 
 PARAMETERS = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0, silent_after=30.0)
@@ -27,7 +27,7 @@ RUN = 7
 
 def tree(name, x, y, zone=HALL, **changes):
     given = TrafficParameters(**(PARAMETERS.__dict__ | changes))
-    return Traffic(RightOfWay(name, (x, y), given, RUN), zone, PathPlanner(zone))
+    return SharedNavigator(RightOfWay(name, (x, y), given, RUN), PathPlanner(zone))
 
 
 def other(now, *held, **rest):
@@ -45,7 +45,7 @@ def walk(oak, goal, seconds, ash=lambda now: None, start=0):
         if message_id is not None:
             oak.receive(message_id, now)
         oak.reservation(now)
-        target = oak.towards(goal, place, now).target
+        target = oak.navigate(goal, place, now).target
         if target is not None and (away := dist(place, target)) > 0.0:
             share = min(0.05 / away, 1.0)
             place = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
@@ -71,7 +71,7 @@ def test_in_a_corridor_it_waits_and_says_for_whom():
     oak = tree('oak', 2.0, 1.25, CORRIDOR)
     places = walk(oak, (20.0, 1.25), 300, ash=lambda now: other(now, (10.0, 1.25)))
     assert dist(places[-1], (10.0, 1.25)) >= CLEARANCE
-    passage = oak.towards((20.0, 1.25), places[-1], 300.0)
+    passage = oak.navigate((20.0, 1.25), places[-1], 300.0)
     assert passage.target is None
     assert passage.reason == 'waits for ash'
     assert passage.blocked > 100.0
@@ -122,10 +122,10 @@ def test_whatever_was_granted_no_step_leads_onto_floor_that_another_holds_now():
     x, y = place = walk(oak, goal, 20)[-1]
     assert oak.right.held[-1][0] > x + 0.1
     oak.receive(other(20, (x + 1.95, y)), 20)
-    target = oak.towards(goal, place, 20).target
+    target = oak.navigate(goal, place, 20).target
     assert target == pytest.approx((x + 0.05, y), abs=0.03), 'half the tolerance nearer than 2 m'
     oak.receive(other(21, (x + 1.5, y)), 21)
-    passage = oak.towards(goal, place, 21)
+    passage = oak.navigate(goal, place, 21)
     assert passage.target is None
     assert passage.reason == 'waits for ash, which is on its floor'
     assert len(oak.right.held) == 1
@@ -134,7 +134,7 @@ def test_whatever_was_granted_no_step_leads_onto_floor_that_another_holds_now():
 def test_a_tree_that_was_carried_tells_where_it_is_and_stands_until_others_have_heard():
     oak = tree('oak', 2.0, 5.0)
     walk(oak, (10.0, 5.0), 20)
-    passage = oak.towards((10.0, 5.0), (4.0, 8.0), 20.0)
+    passage = oak.navigate((10.0, 5.0), (4.0, 8.0), 20.0)
     assert passage.target is None
     assert 'off its way, more than the tolerance of 0.2 m' in passage.reason
     assert oak.reservation(20.0).held[0] == (4.0, 8.0)
@@ -154,7 +154,7 @@ def test_nobody_walks_onto_the_floor_of_one_whose_fix_comes_and_goes():
         messages = oak.reservation(now), ash.reservation(now)
         oak.receive(messages[1], now)
         ash.receive(messages[0], now)
-        target = oak.towards((12.0, 1.25), place, now).target
+        target = oak.navigate((12.0, 1.25), place, now).target
         if target is not None and (away := dist(place, target)) > 0.0:
             share = min(0.05 / away, 1.0)
             place = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
@@ -165,14 +165,14 @@ def test_a_fix_that_was_wrong_once_costs_time_and_no_more():
     oak = tree('oak', 2.0, 5.0)
     place = walk(oak, (10.0, 5.0), 20)[-1]
     for now in range(20, 25):
-        passage = oak.towards((10.0, 5.0), (15.0, 9.0), now)
+        passage = oak.navigate((10.0, 5.0), (15.0, 9.0), now)
         assert passage.target is None
     assert oak.right.reservation(25).held == ((15.0, 9.0), *oak.right.doubt.before)
-    oak.towards((10.0, 5.0), place, 25)
+    oak.navigate((10.0, 5.0), place, 25)
     places = [place]
     for now in range(26, 300):
         oak.reservation(now)
-        target = oak.towards((10.0, 5.0), places[-1], now).target
+        target = oak.navigate((10.0, 5.0), places[-1], now).target
         assert target is None or now > 55
         if target is not None and (away := dist(places[-1], target)) > 0.0:
             share = min(0.05 / away, 1.0)
@@ -189,13 +189,13 @@ def test_a_request_is_never_taken_back_because_the_answer_is_slow():
     for now in range(600):
         oak.receive(Reservation('ash', MessageId(1, now), 0.9, ((20.0, 15.0),), margin=0.2), now)
         oak.reservation(now)
-        passage = oak.towards((10.0, 5.0), (2.0, 5.0), now)
+        passage = oak.navigate((10.0, 5.0), (2.0, 5.0), now)
         asked.add(oak.right.requested)
         assert passage.blocked < STUCK
         assert passage.reason == 'waits for the answer of ash'
     assert len(asked) == 1
     oak.receive(other(600, (20.0, 15.0)), 600)
-    assert oak.towards((10.0, 5.0), (2.0, 5.0), 600).target is not None
+    assert oak.navigate((10.0, 5.0), (2.0, 5.0), 600).target is not None
 
 
 @pytest.mark.parametrize('tolerance', [0.02, 0.1, 0.3])
@@ -223,7 +223,7 @@ def test_two_with_fixed_goals_in_a_t_both_get_there(starts):
         messages = {one: one.reservation(now) for one in trees}
         for one, place in trees.items():
             one.receive(messages[ash if one is oak else oak], now)
-            target = one.towards(goals[one], place, now).target
+            target = one.navigate(goals[one], place, now).target
             if target is not None and (away := dist(place, target)) > 0.0:
                 share = min(0.05 / away, 1.0)
                 trees[one] = tuple(p + share * (t - p) for p, t in zip(place, target, strict=True))
