@@ -8,10 +8,10 @@ from typing import Annotated
 from agv_motion.blocked import SlowlyBlockedParameters
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import Outline
-from agv_motion.motion.behavior.agent import AgentParameters
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.memory import MemoryParameters
+from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import RestParameters
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.limits import LimitParameters

@@ -154,7 +154,7 @@ class Crowd:
         by_name = {walker.name: walker for walker in self.walkers}
         for receiver, reservation in self.radio.receive(self.now):
             walker = by_name[receiver]
-            walker.navigator.receive(reservation, self.now + walker.skew)
+            walker.navigator.right.receive(reservation, self.now + walker.skew)
         for walker in self.walkers:
             believed = walker.supposed(given.step, given.error)
             if walker.resting:

@@ -13,9 +13,10 @@ from itertools import combinations
 from math import hypot, inf
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from agv_motion.motion.behavior.agent import Agent, AgentParameters
+from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.goals.strategies import STRATEGIES, GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.schedule import DAYS, ScheduleParameters
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
@@ -170,7 +171,7 @@ class Season:
             reservation = speaker.navigator.reservation(now)
             for listener in self.trees:
                 if listener is not speaker:
-                    listener.navigator.receive(reservation, now)
+                    listener.navigator.right.receive(reservation, now)
         for tree in self.trees:
             tree.live(now, lambda _x, _y: 1.0, given.step, given.error)
 
@@ -182,7 +183,7 @@ class Season:
         """Let one step pass; return whether any tree moves."""
         given = self.parameters
         for receiver, reservation in self._radio.receive(now):
-            self._by_name[receiver].navigator.receive(reservation, now)
+            self._by_name[receiver].navigator.right.receive(reservation, now)
 
         def light(x: float, y: float) -> float:
             return light_factor(x, y, sky, self._obstacles)

@@ -140,7 +140,7 @@ class Episode:
             tree = by_name[receiver]
             if tree.off_until <= self.now:
                 tree.known.add(reservation.name)
-                tree.walker.navigator.receive(reservation, tree.lived.seconds)
+                tree.walker.navigator.right.receive(reservation, tree.lived.seconds)
         for tree in self.trees:
             if tree.off_until <= self.now:
                 self._live(tree)

@@ -6,9 +6,10 @@ from math import dist
 
 import pytest
 
-from agv_motion.motion.behavior.agent import Agent, AgentParameters
+from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.polar import to_twist
@@ -48,7 +49,7 @@ class Oak:
         """Go on for a while, one decision a second."""
         for now in range(round(start), round(start) + seconds):
             path = (6.0, 1.25), (14.0, 1.25)
-            self.navigator.receive(
+            self.navigator.right.receive(
                 Reservation(
                     'ash', MessageId(1, now), 0.9, path[:1], (), path, 0,
                     received={'oak': MessageId(RUN, now)}, margin=0.2,

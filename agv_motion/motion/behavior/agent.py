@@ -7,26 +7,25 @@ there is the matter of its navigator.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.motion.behavior.decision import Decision
 from agv_motion.motion.behavior.goals.goal import Goal, Objective
-from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.goals.strategy import GoalSetting
-from agv_motion.motion.behavior.homing import HomeParameters, Homing
-from agv_motion.motion.behavior.memory import Memory, MemoryParameters
-from agv_motion.motion.behavior.sap_flow import RestParameters, SapFlow, Sleep
-from agv_motion.motion.behavior.schedule import ALWAYS, Phase, Schedule, ScheduleParameters
+from agv_motion.motion.behavior.homing import Homing
+from agv_motion.motion.behavior.memory import Memory
+from agv_motion.motion.behavior.parameters import AgentParameters
+from agv_motion.motion.behavior.sap_flow import Sleep
+from agv_motion.motion.behavior.schedule import ALWAYS, Phase, Schedule
 from agv_motion.motion.command.limits import FloorRules
-from agv_motion.motion.command.polar import LINEAR_SPEED, PLATFORM_RADIUS
 from agv_motion.motion.navigation.open_floor import OpenFloor
 
 if TYPE_CHECKING:
     import shapely
 
+    from agv_motion.motion.behavior.sap_flow import RestParameters, SapFlow
     from agv_motion.motion.navigation.path_planner import PathPlanner
     from agv_motion.motion.navigation.polyline import Point
     from agv_motion.planar import Pose
@@ -34,23 +33,6 @@ if TYPE_CHECKING:
 LEAVE = 2.0
 """[-] A tree that has arrived for good sets out again only from so many times the distance of
 arrival, so that the noise of position fixes does not send it to and fro."""
-
-
-@dataclass(frozen=True)
-class AgentParameters:
-    """All that shapes the decisions of one tree."""
-
-    goals: GoalParameters = field(default_factory=GoalParameters)
-    memory: MemoryParameters = field(default_factory=MemoryParameters)
-    rest: RestParameters = field(default_factory=RestParameters)
-    schedule: ScheduleParameters = field(default_factory=ScheduleParameters)
-    home: HomeParameters = field(default_factory=HomeParameters)
-    goal: Point | None = None
-    """where to go, for a strategy that is told its goal [m]"""
-    linear_speed: float = LINEAR_SPEED
-    """[m/s] at v = 1"""
-    platform_radius: float = PLATFORM_RADIUS
-    """[m] how far the platform reaches: what must not turn over delicate floor"""
 
 
 class Agent:

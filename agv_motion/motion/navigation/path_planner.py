@@ -74,14 +74,13 @@ class PathPlanner:
         path = graph.shortest(inside, goal)
         return path if inside == start else [start, *path]
 
-    def require_connected(self, start: Point, goal: Point) -> None:
-        """Make sure that a path leads from ``start`` to ``goal`` [m], without planning it.
-
-        Raises:
-            GeometryError: As by :meth:`path`.
-
-        """
-        self._connected(start, goal)
+    def failure(self, start: Point, goal: Point) -> GeometryError | None:
+        """Return why no path leads from ``start`` to ``goal`` [m]; None if one does."""
+        try:
+            self._connected(start, goal)
+        except GeometryError as error:
+            return error
+        return None
 
     def _connected(self, start: Point, goal: Point) -> tuple[Point, VisibilityGraph]:
         """Return where the path enters walkable floor, and the graph of the part it leads through.

@@ -9,10 +9,11 @@ import pytest
 import shapely
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.behavior.agent import Agent, AgentParameters
+from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.goals.goal import Objective
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
+from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.polar import PLATFORM_RADIUS, STILL, to_twist

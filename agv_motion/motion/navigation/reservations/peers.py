@@ -137,18 +137,19 @@ class Peer:
         return max(run.reservation.margin for run in self._runs.values())
 
     def objection(
-        self, piece: Path, clearance: float, asked_in: int | None, *, first: bool
+        self, piece: Path, asked_in: int | None, clearance: float, precedence: tuple[int, str]
     ) -> Verdict:
         """Return what it has against ``piece``, which this tree requests.
 
         Args:
             piece: Where the centre of this tree would go next.
+            asked_in: Number of the first message that told of the request; None: none has yet.
             clearance: To keep between the two centres [m].
-            asked_in: Number of the first message that told it of the request; None: none has.
-            first: Whether this tree has precedence.
+            precedence: Of this tree.
 
         """
         reservation = self.reservation
+        first = precedence < reservation.precedence
         clear = all(keeps_away(piece, floor, clearance) for floor in self.floors())
         if self.stays and clear:
             return GRANTED

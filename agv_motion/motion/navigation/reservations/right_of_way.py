@@ -272,10 +272,7 @@ class RightOfWay:
         self.peers.judge(now, self._held_line, self._moved_since)
         verdicts = [
             peer.objection(
-                self.requested,
-                self.clearance(peer),
-                self._requested_since,
-                first=self.precedence < peer.reservation.precedence,
+                self.requested, self._requested_since, self.clearance(peer), self.precedence
             )
             for peer in self.peers
         ]

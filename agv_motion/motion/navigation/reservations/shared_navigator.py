@@ -73,10 +73,6 @@ class SharedNavigator:
         self._reason = ''
         self._going_at = self._planned_at = self._counted_at = 0.0
 
-    def receive(self, reservation: Reservation, now: float) -> None:
-        """Take up the message of another tree; see :meth:`RightOfWay.receive`."""
-        self.right.receive(reservation, now)
-
     def reservation(self, now: float) -> Reservation:
         """Return what to tell the others, every second or two and after every step of interest."""
         right = self.right
@@ -104,11 +100,7 @@ class SharedNavigator:
         """Return why no path at all leads from ``here`` to ``goal``; looked at now and then."""
         checked, at = self._checked
         if goal != checked or not 0.0 <= now - at < CHECK_PERIOD:
-            self._checked, self._failure = (goal, now), None
-            try:
-                self._planner.require_connected(here, goal)
-            except GeometryError as error:
-                self._failure = error
+            self._checked, self._failure = (goal, now), self._planner.failure(here, goal)
         return self._failure
 
     def _go_on(self, goal: Point | None, here: Point, now: float) -> Guidance:

@@ -43,7 +43,7 @@ def walk(oak, goal, seconds, ash=lambda now: None, start=0):
     for now in range(start, start + seconds):
         message_id = ash(now)
         if message_id is not None:
-            oak.receive(message_id, now)
+            oak.right.receive(message_id, now)
         oak.reservation(now)
         target = oak.navigate(goal, place, now).target
         if target is not None and (away := dist(place, target)) > 0.0:
@@ -121,10 +121,10 @@ def test_whatever_was_granted_no_step_leads_onto_floor_that_another_holds_now():
     oak, goal = tree('oak', 2.0, 5.0), (12.0, 5.0)
     x, y = place = walk(oak, goal, 20)[-1]
     assert oak.right.held[-1][0] > x + 0.1
-    oak.receive(other(20, (x + 1.95, y)), 20)
+    oak.right.receive(other(20, (x + 1.95, y)), 20)
     target = oak.navigate(goal, place, 20).target
     assert target == pytest.approx((x + 0.05, y), abs=0.03), 'half the tolerance nearer than 2 m'
-    oak.receive(other(21, (x + 1.5, y)), 21)
+    oak.right.receive(other(21, (x + 1.5, y)), 21)
     passage = oak.navigate(goal, place, 21)
     assert passage.target is None
     assert passage.reason == 'waits for ash, which is on its floor'
@@ -152,8 +152,8 @@ def test_nobody_walks_onto_the_floor_of_one_whose_fix_comes_and_goes():
         wrong = now > 5 and now % 30 < 25
         ash.rest((20.0, 1.25) if wrong else (6.0, 1.25), now)
         messages = oak.reservation(now), ash.reservation(now)
-        oak.receive(messages[1], now)
-        ash.receive(messages[0], now)
+        oak.right.receive(messages[1], now)
+        ash.right.receive(messages[0], now)
         target = oak.navigate((12.0, 1.25), place, now).target
         if target is not None and (away := dist(place, target)) > 0.0:
             share = min(0.05 / away, 1.0)
@@ -187,14 +187,16 @@ def test_a_request_is_never_taken_back_because_the_answer_is_slow():
     oak = tree('oak', 2.0, 5.0)
     asked = set()
     for now in range(600):
-        oak.receive(Reservation('ash', MessageId(1, now), 0.9, ((20.0, 15.0),), margin=0.2), now)
+        oak.right.receive(
+            Reservation('ash', MessageId(1, now), 0.9, ((20.0, 15.0),), margin=0.2), now
+        )
         oak.reservation(now)
         passage = oak.navigate((10.0, 5.0), (2.0, 5.0), now)
         asked.add(oak.right.requested)
         assert passage.blocked < STUCK
         assert passage.reason == 'waits for the answer of ash'
     assert len(asked) == 1
-    oak.receive(other(600, (20.0, 15.0)), 600)
+    oak.right.receive(other(600, (20.0, 15.0)), 600)
     assert oak.navigate((10.0, 5.0), (2.0, 5.0), 600).target is not None
 
 
@@ -222,7 +224,7 @@ def test_two_with_fixed_goals_in_a_t_both_get_there(starts):
     for now in range(3000):
         messages = {one: one.reservation(now) for one in trees}
         for one, place in trees.items():
-            one.receive(messages[ash if one is oak else oak], now)
+            one.right.receive(messages[ash if one is oak else oak], now)
             target = one.navigate(goals[one], place, now).target
             if target is not None and (away := dist(place, target)) > 0.0:
                 share = min(0.05 / away, 1.0)
