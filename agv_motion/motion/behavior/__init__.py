@@ -1,1 +1,19 @@
 """What to do now: goals, memory, hours, home and rest of one tree."""
+
+from agv_motion.motion.behavior.agent import Agent
+from agv_motion.motion.behavior.decision import Decision
+from agv_motion.motion.behavior.memory import Memory, MemoryParameters
+from agv_motion.motion.behavior.parameters import AgentParameters
+from agv_motion.motion.behavior.sap_flow import SapFlow
+from agv_motion.motion.behavior.schedule import Schedule, ScheduleParameters
+
+__all__ = [
+    'Agent',
+    'AgentParameters',
+    'Decision',
+    'Memory',
+    'MemoryParameters',
+    'SapFlow',
+    'Schedule',
+    'ScheduleParameters',
+]

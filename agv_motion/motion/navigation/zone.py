@@ -74,10 +74,7 @@ class Zone:
             _polygon(f'translation-only area {i + 1}', area)
             for i, area in enumerate(translation_only)
         ]
-        for i, area in enumerate(self.translation_only):
-            if not area.intersects(self.floor):
-                msg = f'translation-only area {i + 1} touches no floor: check its coordinates'
-                raise GeometryError(msg)
+        self._check_areas()
         self.parts = self._take_off(self.clearance)
         self._walkable = shapely.union_all(self.parts)
         self._delicate = shapely.union_all(self.translation_only)
@@ -95,6 +92,12 @@ class Zone:
                 f'{margin:g} m of margin{self._from_rim}'
             )
             raise GeometryError(msg)
+
+    def _check_areas(self) -> None:
+        for i, area in enumerate(self.translation_only):
+            if not area.intersects(self.floor):
+                msg = f'translation-only area {i + 1} touches no floor: check its coordinates'
+                raise GeometryError(msg)
 
     def _check_holes(self, outer: Polygon) -> None:
         for i, hole in enumerate(self.holes):

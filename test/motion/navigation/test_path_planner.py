@@ -13,7 +13,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.navigation.path_follower import Waypoints
 from agv_motion.motion.navigation.path_planner import TOLERANCE, PathPlanner
 from agv_motion.motion.navigation.polyline import length
 from agv_motion.motion.navigation.zone import Zone
@@ -94,31 +93,6 @@ def test_a_goal_behind_too_narrow_a_passage_is_refused():
     parted = Zone(SQUARE, [[[4.9, 0], [5.1, 0], [5.1, 9.5], [4.9, 9.5]]])
     with pytest.raises(GeometryError, match='another part of the zone'):
         PathPlanner(parted).path((1.0, 1.0), (9.0, 1.0))
-
-
-def test_a_corner_is_skipped_when_near_and_the_next_can_be_seen():
-    waypoints = Waypoints(AROUND, reach=0.3, slack=0.1)
-    path = [(1.0, 1.0), (1.1, 1.0), (2.0, 1.0), (5.0, 2.0)]
-    assert waypoints.reached(path[0], path[1:]) == 1
-    assert waypoints.ahead(path[0], path) == tuple(path[2:])
-    assert waypoints.ahead((1.0, 1.0), [(1.0, 1.0), (1.1, 1.0)]) == ((1.1, 1.0),)
-    assert waypoints.ahead((1.0, 1.0), [(1.1, 1.0)]) == ((1.1, 1.0),)
-
-
-def test_a_near_corner_is_not_cut_by_more_than_the_slack():
-    """0.29 m before the end of the wall, the line to the other side would pass through it."""
-    path = [(4.3, 8.21), (4.4, 8.5), (5.6, 8.5), (8.0, 1.0)]
-    waypoints = Waypoints(ALONG, reach=0.31, slack=0.1)
-    assert waypoints.reached(path[0], path[1:]) == 0
-    assert waypoints.ahead(path[0], path) == tuple(path[1:])
-
-
-def test_off_the_way_behind_an_edge_one_goes_back_to_the_way_first():
-    """A metre beside the path, the wall stands before its corner: not straight there."""
-    waypoints = Waypoints(ALONG, reach=0.3, slack=0.02)
-    path = [(4.4, 8.0), (4.4, 9.0), (8.0, 9.0)]
-    assert waypoints.ahead((4.4, 8.0), path) == tuple(path[1:])
-    assert waypoints.ahead((4.8, 8.0), path) == ((4.4, pytest.approx(8.3)), *path[1:])
 
 
 ROOMS = Zone(

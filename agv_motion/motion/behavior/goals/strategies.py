@@ -33,7 +33,7 @@ STRATEGIES = {
         lambda setting: GoalSelector(setting, ShortestPath()),
     ),
     'straight': StrategyKind(
-        'those of them to which a straight line leads, as the ancestor did',
+        'those of them to which a straight line leads, as the original installation did',
         lambda setting: GoalSelector(setting, StraightLine()),
     ),
 }

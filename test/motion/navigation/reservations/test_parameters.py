@@ -1,0 +1,19 @@
+"""How far two trees keep apart."""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+
+
+def test_the_clearance_is_of_two_bodies_two_errors_and_one_margin():
+    given = TrafficParameters(body=0.7, tolerance=0.2, margin=0.3)
+    assert given.radius == pytest.approx(0.9)
+    assert given.clearance == pytest.approx(2.1)
+
+
+def test_a_margin_that_cannot_be_is_refused():
+    with pytest.raises(ConfigurationError, match='margin'):
+        TrafficParameters(margin=-0.1)

@@ -1,0 +1,86 @@
+"""The rooms of motion: each built on those before it, with a face, and each file with its test."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+MOTION = ROOT / 'agv_motion' / 'motion'
+ORDER = ('command', 'navigation', 'navigation.reservations', 'behavior', 'pilot')
+FACES = (*ORDER[:-1], 'behavior.goals')
+FILES = sorted(path for path in MOTION.rglob('*.py') if path.name != '__init__.py')
+
+
+def name_of(path):
+    return '.'.join(path.relative_to(ROOT).with_suffix('').parts)
+
+
+def room_of(module):
+    """Return the room of a module, by its place in the order."""
+    inner = module.removeprefix('agv_motion.motion.')
+    return max(i for i, room in enumerate(ORDER) if f'{inner}.'.startswith(f'{room}.'))
+
+
+def imports(path):
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module.startswith('agv_motion.motion.'):
+            yield node.module
+
+
+@pytest.mark.parametrize('path', FILES, ids=name_of)
+def test_a_room_imports_from_those_before_it_and_from_files_not_faces(path):
+    for module in imports(path):
+        assert (MOTION / f'{"/".join(module.split(".")[2:])}.py').is_file(), f'{path}: {module}'
+        assert room_of(module) <= room_of(name_of(path)), f'{path} imports {module}'
+
+
+def test_no_circle_of_files():
+    graph = {name_of(path): set(imports(path)) for path in FILES}
+    while graph:
+        done = [name for name, needs in graph.items() if not needs & graph.keys()]
+        assert done, f'in a circle, or led to by one: {sorted(graph)}'
+        for name in done:
+            del graph[name]
+
+
+@pytest.mark.parametrize('room', FACES)
+def test_a_face_names_what_is_there_and_the_readme_tells_of_it(room):
+    face = importlib.import_module(f'agv_motion.motion.{room}')
+    readme = (MOTION / 'README.md').read_text()
+    for name in face.__all__:
+        assert hasattr(face, name)
+        assert f'`{name}`' in readme, f'tell of {name} in motion/README.md'
+
+
+@pytest.mark.parametrize('path', FILES, ids=name_of)
+def test_each_file_has_its_test(path):
+    mirrored = path.relative_to(MOTION)
+    test = ROOT / 'test' / 'motion' / mirrored.with_name(f'test_{mirrored.name}')
+    assert test.is_file(), f'write {test.relative_to(ROOT)}'
+
+
+@pytest.mark.parametrize('path', FILES, ids=name_of)
+def test_no_file_and_no_function_is_too_long(path):
+    text = path.read_text()
+    assert text.count('\n') <= 300, f'{path}: look for the seam'
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            assert node.end_lineno - node.lineno < 60, f'{path}: {node.name}'
+
+
+def test_no_other_file_decides_by_the_name_of_a_strategy():
+    for path in (ROOT / 'agv_motion').rglob('*.py'):
+        if path.name != 'strategies.py':
+            assert not re.search(r"""strategy (==|!=|in|is) ['"({\[]""", path.read_text()), path
+
+
+def test_every_file_that_the_readme_names_is_there():
+    for name in re.findall(r'`([\w/]+\.py)`', (MOTION / 'README.md').read_text()):
+        places = (ROOT, ROOT / 'agv_motion', MOTION, *MOTION.glob('*/'), *MOTION.glob('*/*/'))
+        tests = (ROOT / 'test' / 'motion').rglob(Path(name).name)
+        assert any((place / name).is_file() for place in places) or any(tests), name
