@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import typer
 
-from agv_motion.cli import (
-    bag_check,
-    bag_diff,
-    bag_echo,
-    bag_export,
-    bag_info,
-    bag_plot,
-    bag_rates,
-    bag_recover,
+from agv_motion.cli.lazy_group import lazy_group
+
+app = typer.Typer(
+    cls=lazy_group(
+        {
+            'info': 'bag_info:info',
+            'echo': 'bag_echo:echo',
+            'hz': 'bag_rates:hz',
+            'gaps': 'bag_rates:gaps',
+            'check': 'bag_check:check',
+            'plot': 'bag_plot:plot',
+            'export': 'bag_export:export',
+            'recover': 'bag_recover:recover',
+            'diff': 'bag_diff:diff',
+        }
+    ),
+    no_args_is_help=True,
 )
 
-app = typer.Typer(no_args_is_help=True, help='Look into bags.')
-for verb in (
-    bag_info.info, bag_echo.echo, bag_rates.hz, bag_rates.gaps, bag_check.check,
-    bag_plot.plot, bag_export.export,     bag_recover.recover, bag_diff.diff,
-):  # fmt: skip
-    app.command()(verb)
+
+@app.callback()
+def bag() -> None:
+    """Look into bags."""

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.demo_differential import differential
-from agv_motion.cli.demo_domain import take_domain
+from agv_motion.cli.demo_domain import begin
 from agv_motion.cli.demo_folder import results
-from agv_motion.cli.demo_omni import omni
-from agv_motion.cli.demo_trees import trees
+from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.stop import end_at_once
 
-app = typer.Typer()
-app.command()(trees)
-app.command()(omni)
-app.command()(differential)
+app = typer.Typer(
+    cls=lazy_group(
+        {
+            'trees': 'demo_trees:trees',
+            'omni': 'demo_omni:omni',
+            'differential': 'demo_differential:differential',
+        }
+    )
+)
 
 
 @app.callback(invoke_without_command=True)
@@ -47,13 +48,10 @@ def demo(
     agv demo
     agv demo --probes spruce.csv --days 7
     """
-    # what drives a simulated robot must never reach a real one on the network
-    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    end_at_once()  # until the graph is there
-    console = terminal()
-    take_domain(console.print)
     if context.invoked_subcommand:
         return
+    console = terminal()
+    begin(console)
     from agv_motion.cli.demo_graph import DemoGraph
 
     given: dict[str, Any] = {'simulated__seed': seed}

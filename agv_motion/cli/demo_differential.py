@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from agv_motion.cli.bag_options import opened
+from agv_motion.cli.demo_domain import begin
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -48,6 +49,7 @@ def differential(
     from agv_motion.cli.run_figure import draw
 
     console = terminal()
+    begin(console)
     with results(output, 'run.png') as bag:
         told, success = _perform(sequence, time_factor, seed, bag, console)
         console.print(told)

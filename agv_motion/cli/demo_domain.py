@@ -7,15 +7,31 @@ import socket
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.stop import end_at_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rich.console import Console
 
 DOMAINS = range(102)
 """Those whose ports are not given to others by Linux"""
 
 _held: list[socket.socket] = []
 """What marks the domain as taken, for the life of this process"""
+
+
+def begin(console: Console) -> None:
+    """Begin a demo: on this machine alone, in a domain without another, ended by any signal.
+
+    Raises:
+        ConfigurationError: As `take_domain`.
+
+    """
+    # what drives a simulated robot must never reach a real one on the network
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    end_at_once()  # until the graph is there
+    take_domain(console.print)
 
 
 def take_domain(say: Callable[[str], None]) -> None:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from agv_motion.cli.bag_options import opened
+from agv_motion.cli.demo_domain import begin
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -38,6 +39,7 @@ def omni(
     from agv_motion.cli.demo_omni_report import draw, read_run, summary
 
     console = terminal()
+    begin(console)
     seconds = 60.0 * minutes
     carried = seconds / 1.5 if carry else 2 * seconds
     with results(output, 'path.png') as bag:

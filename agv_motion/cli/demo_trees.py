@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from agv_motion.cli.bag_options import opened
+from agv_motion.cli.demo_domain import begin
 from agv_motion.cli.demo_folder import results
 from agv_motion.cli.terminal import terminal
 
@@ -40,6 +41,7 @@ def trees(
     from agv_motion.cli.demo_trees_report import draw, nearest, read_walks, summary
 
     console = terminal()
+    begin(console)
     with results(output, 'trees.png') as bag:
         graph = TreesGraph(count, zone, seed, time_factor, bag)
         graph.run(60.0 * minutes, console)

@@ -8,54 +8,44 @@ import sys
 
 import typer
 
-from agv_motion.cli import (
-    INTERRUPTED,
-    bag,
-    calibrate,
-    demo,
-    doctor,
-    drive,
-    nodes,
-    parameters,
-    plot,
-    record,
-    replay,
-    reprocess,
-    route,
-    sequence,
-    topic,
-)  # fmt: skip
-from agv_motion.cli.terminal import escape_help
+from agv_motion.cli import INTERRUPTED
+from agv_motion.cli.lazy_group import HELP, lazy_group
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.stop import interrupt
 
 app = typer.Typer(
+    cls=lazy_group(
+        {
+            'topic': 'topic:app',
+            'nodes': 'nodes:app',
+            'drive': 'drive:app',
+            'run': 'nodes:run_app',
+            'parameters': 'parameters:parameters',
+            'route': 'route:route',
+            'sequence': 'sequence:app',
+            'demo': 'demo:app',
+            'calibrate': 'calibrate:calibrate',
+            'record': 'record:record',
+            'plot': 'plot:plot',
+            'replay': 'replay:replay',
+            'reprocess': 'reprocess:reprocess',
+            'bag': 'bag:app',
+            'doctor': 'doctor:doctor',
+        }
+    ),
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode='rich',
-    context_settings={'help_option_names': ['-h', '--help']},
-    help='Motion of slow, sensor-driven robots on ROS 2. Start with `agv demo`; when '
-    'something does not work, with `agv doctor`.',
+    context_settings=HELP,
 )
-app.add_typer(topic.app, name='topic')
-app.add_typer(nodes.app, name='nodes')
-app.add_typer(drive.app, name='drive')
-app.command(
-    context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
-)(nodes.run)
-app.command()(parameters.parameters)
-app.command()(route.route)
-app.command(
-    context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
-)(sequence.sequence)
-app.add_typer(demo.app, name='demo')
-app.command()(calibrate.calibrate)
-app.command()(record.record)
-app.command()(plot.plot)
-app.command()(replay.replay)
-app.command()(reprocess.reprocess)
-app.add_typer(bag.app, name='bag')
-app.command()(doctor.doctor)
+
+
+@app.callback()
+def agv() -> None:
+    """Motion of slow, sensor-driven robots on ROS 2.
+
+    Start with `agv demo`; when something does not work, with `agv doctor`.
+    """
 
 
 def main() -> None:
@@ -65,13 +55,13 @@ def main() -> None:
     """
     interrupt()
     try:
-        command = typer.main.get_command(app)
-        escape_help(command)
-        command(standalone_mode=True)
+        typer.main.get_command(app)()
     except AgvMotionError as error:
         typer.echo(f'error: {error}', err=True)
         sys.exit(1)
     except ModuleNotFoundError as error:
+        from agv_motion.cli import doctor
+
         name = (error.name or '').partition('.')[0]
         remedy = doctor.how_to_get(name)
         if not remedy:

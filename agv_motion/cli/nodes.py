@@ -11,10 +11,12 @@ import typer
 
 import agv_motion.nodes
 from agv_motion.cli.graph import DISCOVERY, joined, meant, spin
+from agv_motion.cli.lazy_group import HELP
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.stop import end_at_once
 
 app = typer.Typer(help='Which nodes are on the graph, and in which state.')
+run_app = typer.Typer()
 
 ANSWER_TIME = 1.0
 """[s] How long a node may take to tell its state."""
@@ -78,6 +80,7 @@ def require_node(name: str) -> None:
         raise ConfigurationError(msg)
 
 
+@run_app.command(context_settings=HELP | {'allow_extra_args': True, 'ignore_unknown_options': True})
 def run(
     context: typer.Context,
     node: Annotated[str, typer.Argument(help='Name of the node, such as wheel_kinematics.')] = '',

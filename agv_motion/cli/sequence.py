@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
+from agv_motion.cli.lazy_group import HELP
 from agv_motion.cli.pose_text import parse_pose
 from agv_motion.cli.terminal import terminal
 
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
     from agv_motion.sequence.prediction import Predicted
 
 
+app = typer.Typer()
+
+
+@app.command(context_settings=HELP | {'allow_extra_args': True, 'ignore_unknown_options': True})
 def sequence(
     context: typer.Context,
     file: Annotated[

@@ -7,23 +7,27 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli import topic_echo, topic_pub, topic_rates
 from agv_motion.cli.graph import (
     DISCOVERY,
     joined,
     require_topic,
     topics,
 )
+from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.cli.topic_options import Hidden, SimTime, SpinTime, Topic
 
 app = typer.Typer(
+    cls=lazy_group(
+        {
+            'hz': 'topic_rates:hz',
+            'bw': 'topic_rates:bw',
+            'echo': 'topic_echo:echo',
+            'pub': 'topic_pub:pub',
+        }
+    ),
     no_args_is_help=True,
     help='Look at topics, with the words and the output of `ros2 topic`.',
 )
-app.command(name='hz')(topic_rates.hz)
-app.command(name='bw')(topic_rates.bw)
-app.command()(topic_echo.echo)
-app.command()(topic_pub.pub)
 
 
 @app.command(name='list')

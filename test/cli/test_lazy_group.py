@@ -1,0 +1,56 @@
+"""Commands are imported when they are asked for, and nothing of them is lost by that."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import typer
+from typer.testing import CliRunner
+
+from agv_motion.cli.main import app
+
+
+def commands(command, name=()):
+    """Yield the words of every command and group below ``command``."""
+    yield name
+    for word, below in getattr(command, 'commands', {}).items():
+        yield from commands(below, (*name, word))
+
+
+def test_every_command_tells_what_it_is_for():
+    found = list(commands(typer.main.get_command(app)))
+    assert len(found) > 30
+    for words in found:
+        result = CliRunner().invoke(app, [*words, '--help'])
+        assert result.exit_code == 0, words
+        assert len(result.output) > 200, words
+
+
+PROGRAM = """
+import sys
+from agv_motion.cli.main import main
+sys.argv = ["agv", "bag", "export", "-h"]
+try:
+    main()
+except SystemExit:
+    print([module for module in ("rclpy", "matplotlib", "rosbags") if module in sys.modules])
+"""
+
+
+def test_a_question_for_help_loads_nothing_heavy():
+    done = subprocess.run(  # noqa: S603 - our own command
+        [sys.executable, '-c', PROGRAM], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.endswith('[]\n')
+
+
+def test_a_command_that_does_not_exist_is_told_what_was_meant():
+    result = CliRunner().invoke(app, ['bag', 'exprt'])
+    assert result.exit_code == 2
+    assert 'export' in result.output
+
+
+def test_square_brackets_are_shown_as_they_are():
+    """Units are written in them, and `rich` takes them for markup."""
+    assert '[m/s]' in CliRunner().invoke(app, ['drive', 'to', '--help']).output
