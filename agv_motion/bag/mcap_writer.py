@@ -81,10 +81,10 @@ class McapWriter:
         notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
         notes = dict(topic.notes) or notes
         channel = records.Channel(number, self._schema(topic), topic.name, topic.encoding, notes)
+        self._put(records.channel(channel))
         self._channels.append(channel)
         self._indexes.append(array('Q'))
         self.counts.append(0)
-        self._put(records.channel(channel))
         return number
 
     def _schema(self, topic: Topic) -> int:
@@ -96,8 +96,8 @@ class McapWriter:
             number = len(self._schemas) + 1
             definition = topic.definition.encode(errors='surrogateescape')
             schema = records.Schema(number, topic.type, topic.definition_encoding, definition)
-            self._schemas[key] = schema
             self._put(records.schema(schema))
+            self._schemas[key] = schema
         return self._schemas[key].id
 
     def keep(self, extra: records.Attachment | records.Metadata) -> None:

@@ -20,7 +20,7 @@ from agv_motion.bag.continuity import Continuity
 from agv_motion.bag.quality_of_service import kept
 from agv_motion.bag.storage import MEGABYTE
 from agv_motion.bag.writer import BagWriter
-from agv_motion.errors import AgvMotionError
+from agv_motion.errors import AgvMotionError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -109,10 +109,15 @@ class Recording:
 
         Raises:
             ConfigurationError: The type is not installed, or the topic is there already.
+            SourceError: The disk is full or failed, and the recording has ended with a whole bag.
 
         """
         with self._lock:
-            handle = self._writer.add_topic(name, message_type, qos=qos)
+            try:
+                handle = self._writer.add_topic(name, message_type, qos=qos)
+            except OSError as error:
+                self._end(str(error.strerror or error))
+                raise SourceError(self.failure) from error
             self._topics.append(_Topic(name, deque(maxlen=min(kept(qos), MOST_LATCHED))))
         return handle
 

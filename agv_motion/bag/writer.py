@@ -123,9 +123,10 @@ class BagWriter:
         if any((other.name, other.type) == (topic.name, topic.type) for other in self._topics):
             msg = f'topic {topic.name} is in bag {self.path} already: add it once, keep the handle'
             raise ConfigurationError(msg)
+        handle = self._file.add_channel(topic)
         self._topics.append(topic)
         self.deleted.append(0)
-        return self._file.add_channel(topic)
+        return handle
 
     def write(
         self, topic: int, stamp: int, data: bytes, publish: int | None = None, sequence: int = 0

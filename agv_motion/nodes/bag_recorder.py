@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from agv_motion.bag.recording import Recording, TopicReport
 from agv_motion.bag.selection import Selection
 from agv_motion.bag.storage import StorageParameters
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.parameters import Spec, check
 from agv_motion.ros.arrivals import TICK, Arrivals
 from agv_motion.ros.clock_guard import CLOCK_TOPIC
@@ -214,7 +214,7 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
                 self._subscriptions[name, kind] = self._subscribe(
                     name, kind, offered(publishers), recording
                 )
-            except ConfigurationError as error:
+            except (ConfigurationError, SourceError) as error:
                 self._unusable.add((name, kind))
                 self.port.error(f'{name} is not recorded: {error}')
                 return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import signal
@@ -20,6 +21,7 @@ from rosbags.rosbag2 import Reader
 
 pytest.importorskip('std_msgs')
 
+from agv_motion.bag.mcap_writer import McapWriter
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.recording import Recording
 from agv_motion.bag.storage import StorageParameters
@@ -263,3 +265,24 @@ def test_a_type_that_is_not_installed_is_refused_and_the_recording_goes_on(tmp_p
 def test_an_existing_folder_is_refused(tmp_path):
     with pytest.raises(SourceError, match='choose a new folder'):
         recording(tmp_path)
+
+
+def test_a_disk_that_is_full_at_a_new_topic_ends_a_recording_with_a_whole_bag(
+    tmp_path, monkeypatch
+):
+    one = recording(tmp_path / 'bag')
+    topic = one.add_topic('/text', TEXT, VOLATILE)
+    one.put(topic, 0, text(0), 0)
+
+    def refuse(*_):
+        raise OSError(errno.ENOSPC, 'No space left on device')
+
+    with monkeypatch.context() as patch:
+        patch.setattr(McapWriter, 'add_channel', refuse)
+        with pytest.raises(SourceError, match='No space left'):
+            one.add_topic('/later', TEXT, VOLATILE)
+    (report,) = one.close()
+    assert 'No space left' in one.failure
+    assert report.name == '/text'
+    with Reader(tmp_path / 'bag') as reader:
+        assert [connection.topic for connection in reader.connections] == ['/text']
