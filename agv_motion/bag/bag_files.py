@@ -78,6 +78,9 @@ def unpack_file(path: Path, folder: Path) -> Path:
                 file.write(piece)
         except zstandard.ZstdError as error:
             raise DamagedBagError(path, packed.tell(), f'zstd: {error}') from None
+        if not file.tell():
+            finding = 'the file ends before anything can be unpacked'
+            raise DamagedBagError(path, packed.tell(), finding, 'copy or record it again')
     return target
 
 
@@ -87,7 +90,7 @@ def _in_folder(folder: Path) -> BagFiles:
         finding = 'no metadata that can be read'
         problems.append(_problem(folder, finding, 'what lies in the folder is read'))
         described = {}
-    named = [folder / PurePath(str(name)).name for name in _names(described)]
+    named = list(dict.fromkeys(folder / PurePath(str(n)).name for n in _names(described)))
     there = [path for path in named if _is_there(path)]
     unnamed, notes = _unnamed(folder, named, there)
     problems += notes

@@ -15,7 +15,7 @@ import numpy as np
 
 from agv_motion.bag.message_decoder import MessageDecoder
 from agv_motion.bag.pairing import Pairing, pairs
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -168,8 +168,10 @@ class _Comparison:
             return []
         try:
             return list(self._differences(self._decode(one), self._decode(other), ''))
-        except ConfigurationError:  # of their type nobody can tell more
-            return [('bytes that cannot be decoded', one.data.hex()[:16], other.data.hex()[:16])]
+        except (ConfigurationError, SourceError) as error:  # nobody can tell more
+            shown = one.data.hex()[:16], other.data.hex()[:16]
+            whose = f', as one is no {kinds[0]}' if isinstance(error, SourceError) else ''
+            return [(f'bytes that cannot be decoded{whose}', *shown)]
 
     def _decode(self, message: Message) -> Any:
         connection = message.connection

@@ -42,13 +42,21 @@ class Entries(NamedTuple):
 class McapFile:
     """Reads a file with or without index, whole or torn."""
 
-    def __init__(self, path: Path, *, validate: bool = True, scan: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        *,
+        validate: bool = True,
+        scan: bool = False,
+        unpacked: Path | None = None,
+    ) -> None:
         """Map the file and find out what is in it.
 
         Args:
             path: The file.
             validate: Compare chunks with their CRC, where the file has one.
             scan: Walk through the file even if it has a summary.
+            unpacked: Where it lies unpacked, if it is compressed as a whole; bytes are its.
 
         Raises:
             SourceError: It cannot be opened, or is no MCAP file.
@@ -56,7 +64,7 @@ class McapFile:
         """
         self.path = path
         self._validate = validate
-        self._mapped: memoryview | None = _mapped(path)
+        self._mapped: memoryview | None = _mapped(path, unpacked or path)
         self._cache: OrderedDict[int, Buffer] = OrderedDict()
         self._cached = 0
         found, problems = None, []
@@ -383,15 +391,15 @@ class McapFile:
         return chunk.indexes is None or bool(chunk.indexes)
 
 
-def _mapped(path: Path) -> memoryview:
-    """Return the bytes of an MCAP file.
+def _mapped(path: Path, place: Path) -> memoryview:
+    """Return the bytes of an MCAP file; they lie at a place, which errors do not name.
 
     Raises:
         SourceError: It cannot be opened, or is no MCAP file.
 
     """
     try:
-        with path.open('rb') as file:
+        with place.open('rb') as file:
             data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
     except OSError as error:
         msg = f'{path} cannot be read: {error.strerror}'

@@ -102,10 +102,13 @@ def complete(summary: Summary) -> bool:
     statistics, channels = summary.statistics, summary.channels
     if statistics is None or statistics.chunks != len(summary.chunks):
         return False
+    counts = statistics.channel_messages
+    if counts and sum(counts.values()) != statistics.messages:
+        return False
     named = {number for chunk in summary.chunks for number in chunk.indexes or ()}
     return (
         not any(chunk.unindexed for chunk in summary.chunks)
         and named <= channels.keys()
-        and set(statistics.channel_messages) <= channels.keys()
+        and counts.keys() <= channels.keys()
         and all(c.schema_id in summary.schemas or not c.schema_id for c in channels.values())
     )

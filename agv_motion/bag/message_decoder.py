@@ -12,6 +12,8 @@ from agv_motion.bag.message_type import NOTHING, declared, short, unfold
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.message_type import Field
 
@@ -22,8 +24,12 @@ LONGEST_REASON = 300
 class MessageDecoder:
     """Decodes the messages of a topic."""
 
-    def __init__(self, connection: Connection) -> None:
+    def __init__(self, connection: Connection, bag: Path | str = '') -> None:
         """Understand the definition.
+
+        Args:
+            connection: The topic.
+            bag: Whose it is, for errors.
 
         Raises:
             ConfigurationError: The bag has no definition of the type, or one that cannot be read,
@@ -31,13 +37,14 @@ class MessageDecoder:
 
         """
         self._connection = connection
+        self._where = f'bag {bag}, topic {connection.topic}' if bag else connection.topic
         self.store = get_typestore(Stores.EMPTY)
         """knows the type and those that it uses"""
         try:
             self.store.register(_types(connection))
         except Exception as error:  # rosbags raises several kinds
             msg = (
-                f'{connection.topic}: messages of {connection.type} cannot be decoded '
+                f'{self._where}: messages of {connection.type} cannot be decoded '
                 f'({str(error)[:LONGEST_REASON]})'
             )
             raise ConfigurationError(msg) from error
@@ -54,7 +61,7 @@ class MessageDecoder:
             return self.store.deserialize_cdr(message.data, self._type)
         except Exception as error:  # whatever the bytes provoke
             msg = (
-                f'{self._connection.topic}: the message at {message.stamp} ns is no '
+                f'{self._where}: the message at {message.stamp} ns is no '
                 f'{self._connection.type} ({error}); agv bag check tells more'
             )
             raise SourceError(msg) from error

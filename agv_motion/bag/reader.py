@@ -176,17 +176,19 @@ class BagReader:
         """Close the bag."""
         self.close()
 
-    def _open(self, path: Path, found: str, *, validate: bool) -> File:
+    def _open(
+        self, path: Path, found: str, *, validate: bool, unpacked: Path | None = None
+    ) -> File:
         if found == SQLITE:
-            return SqliteFile(path)
+            return SqliteFile(path, unpacked)
         if found == MCAP:
-            return McapFile(path, validate=validate)
+            return McapFile(path, validate=validate, unpacked=unpacked)
         self._unpacked = self._unpacked or TemporaryDirectory()
         inside = unpack_file(path, Path(self._unpacked.name))
-        if kind(inside) == ZSTD:
+        if unpacked or kind(inside) == ZSTD:
             msg = f'{path} is compressed by zstd twice: unpack it first'
             raise SourceError(msg)
-        return self._open(inside, kind(inside), validate=validate)
+        return self._open(path, kind(inside), validate=validate, unpacked=inside)
 
     def _messages(self, topics: frozenset[str] | None, start: int, stop: int) -> Iterator[Message]:
         for group in _overlapping(self.files):

@@ -58,6 +58,7 @@ class Recovery:
         found = find(path)
         self.problems += found.problems
         for number, file in enumerate(found.paths):
+            first = len(self.problems)
             with self._noting(SourceError), TemporaryDirectory() as folder:
                 readable = file
                 if kind(file) == SQLITE:
@@ -67,6 +68,7 @@ class Recovery:
                     self.problems += bag.problems
                     for share in self._saved(bag, packed=found.messages_compressed):
                         progress((number + share) / len(found.paths))
+            self.problems[first:] = [_of(file, readable, p) for p in self.problems[first:]]
 
     @contextmanager
     def _noting(self, kind: type[SourceError]) -> Iterator[None]:
@@ -135,3 +137,11 @@ class Recovery:
             with self._noting(DamagedBagError):
                 for message in file.walk(chunk):
                     yield message, number / len(file.chunks)
+
+
+def _of(file: Path, readable: Path, problem: SourceError) -> SourceError:
+    """Return a problem of what could be read of a file as one of the file."""
+    told = str(problem)
+    if file == readable or str(readable) not in told:
+        return problem
+    return SourceError(told.replace(str(readable), str(file)))

@@ -32,7 +32,7 @@ def set_aside(path: Path, folder: Path) -> Path:
     logs = [(end, path.with_name(path.name + end)) for end in _BESIDE]
     filled = [(end, log) for end, log in logs if log.is_file() and log.stat().st_size]
     if not filled:
-        aside.symlink_to(path.absolute())  # a name without # and ?, which rosbags takes for a URI
+        aside.symlink_to(path.absolute())  # which is gone when the reader is closed
         return aside
     size = path.stat().st_size + sum(log.stat().st_size for _, log in filled)
     if 2 * size > shutil.disk_usage(folder).free:

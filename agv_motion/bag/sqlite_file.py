@@ -1,86 +1,93 @@
-"""One sqlite3 file of rosbag2, read by rosbags."""
+"""One sqlite3 file of rosbag2, of any version of its tables."""
 
 from __future__ import annotations
 
+import sqlite3
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from sqlite3 import DatabaseError
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
-
-from rosbags.rosbag2 import Reader, ReaderError
 
 from agv_motion.bag import definitions
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import CLOSED
-from agv_motion.bag.quality_of_service import OfferedQos, nanoseconds
+from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.sqlite_aside import set_aside
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from agv_motion.bag.damage import DamagedBagError
-
-_UNREADABLE = (ReaderError, OSError, ValueError, KeyError, TypeError, DatabaseError)
+LATEST = 2**63 - 1
+"""[ns] Last time that sqlite3 can hold."""
+_TOPIC = ('id', 'name', 'type', 'serialization_format')
+_LATER = ('offered_qos_profiles', 'type_description_hash')
+"""Columns that topics have since Foxy and since Jazzy."""
+_WHOLE = "typeof(timestamp) = 'integer' and timestamp >= 0 and typeof(data) = 'blob'"
+"""What a row must be; sqlite3 takes anything into any column."""
 
 
 class SqliteFile:
     """Reads a ``.db3`` file; definitions that it lacks are taken from the installed types."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, unpacked: Path | None = None) -> None:
         """Open the file.
+
+        Args:
+            path: The file.
+            unpacked: Where it lies unpacked, if it is compressed as a whole.
 
         Raises:
             SourceError: It cannot be opened, or is no bag.
 
         """
         self.path = path
-        self.problems: list[DamagedBagError] = []
+        self.problems: list[SourceError] = []
         self.indexed = self.counted = True
         self._closed = False
-        self._folder = TemporaryDirectory()
+        self._held = ExitStack()
+        """the open database, and the folder that it is set aside in"""
         try:
-            self._reader = Reader(set_aside(path, Path(self._folder.name)))
-            self._reader.open()
-        except _UNREADABLE as error:
-            self._folder.cleanup()
-            if isinstance(error, SourceError):
-                raise
-            reason = str(error).replace(self._folder.name, str(path.parent))
-            msg = f'{path} cannot be read as a bag in sqlite3: {reason}; agv bag recover may help'
-            raise SourceError(msg) from error
-        self._by_id = {c.id: c for c in self._reader.connections}
-        self.channels = {c.id: _connection(c) for c in self._reader.connections}
+            with self._told():
+                folder = self._held.enter_context(TemporaryDirectory())
+                aside = set_aside(unpacked or path, Path(folder))
+                address = f'{aside.absolute().as_uri()}?mode=ro&immutable=1'
+                self._base = sqlite3.connect(address, uri=True, check_same_thread=False)
+                self._held.callback(self._base.close)
+                self._base.text_factory = _text
+                self.channels = self._topics()
+                self._counts = self._counted()
+        except BaseException:
+            self._held.close()
+            raise
 
     @property
     def span(self) -> tuple[int, int] | None:
         """Log time of the first and the last message [ns]; None without messages."""
         self.require_open()
-        if not self._reader.message_count:
+        spans = [times for count, *times in self._counts.values() if count]
+        if not spans:
             return None
-        return self._reader.start_time, self._reader.end_time - 1
+        return min(first for first, _ in spans), max(last for _, last in spans)
 
     def counts(self) -> dict[int, int]:
         """Return the number of messages of each channel."""
         self.require_open()
-        return {c.id: c.msgcount for c in self._reader.connections}
+        return {number: count for number, (count, *_) in self._counts.items()}
 
     def messages(self, channels: Collection[int], start: int, stop: int) -> Iterator[Message]:
         """Yield messages in the order of their log time [ns], from ``start`` to before ``stop``."""
         self.require_open()
-        wanted = [self._by_id[number] for number in channels]
-        limit = 2**63 - 1
-        if not wanted or start > limit:
+        if not channels or start > LATEST:
             return
-        rows = self._reader.messages(wanted, max(start, -limit), min(stop, limit))
-        try:
-            for connection, stamp, data in rows:
-                yield Message(self.channels[connection.id], stamp, data, stamp, 0)
-        except Exception as error:
-            if type(error).__module__.partition('.')[0] != 'apsw':
-                raise
-            msg = f'{self.path} is damaged: {error}; agv bag recover saves what can be read'
-            raise SourceError(msg) from error
+        among = ', '.join(str(int(number)) for number in channels)
+        query = (
+            f'select topic_id, timestamp, data from messages where topic_id in ({among}) and '  # noqa: S608 - whole numbers
+            f'timestamp between ? and ? and {_WHOLE} order by timestamp, rowid'
+        )
+        with self._told():
+            for number, stamp, data in self._base.execute(query, (start, min(stop - 1, LATEST))):
+                yield Message(self.channels[number], stamp, data, stamp, 0)
 
     def require_open(self) -> None:
         """Refuse to go on once the file was closed.
@@ -95,29 +102,79 @@ class SqliteFile:
     def close(self) -> None:
         """Let go of the file."""
         self._closed = True
-        self._reader.close()
-        self._folder.cleanup()
+        self._held.close()
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Tell what sqlite3 does not like of the file, with its name."""
+        try:
+            yield
+        except (sqlite3.Error, OSError, OverflowError) as error:
+            if isinstance(error, SourceError):
+                raise
+            self.require_open()
+            msg = (
+                f'{self.path} cannot be read as a bag in sqlite3: {error}; agv bag recover saves '
+                'what can be read'
+            )
+            raise SourceError(msg) from error
+
+    def _columns(self, table: str) -> set[str]:
+        return {row[1] for row in self._base.execute(f'pragma table_info({table})')}
+
+    def _topics(self) -> dict[int, Connection]:
+        """Return the topics by number; those that are none are a problem."""
+        there = self._columns('topics')
+        if not (there >= set(_TOPIC) and self._columns('messages') >= {'topic_id', 'timestamp'}):
+            msg = f'{self.path} is a database, but no bag: it lacks the tables topics or messages'
+            raise SourceError(msg)
+        names = [*_TOPIC, *(name for name in _LATER if name in there)]
+        kinds = self._definitions()
+        found: dict[int, Connection] = {}
+        for row in self._base.execute(f'select {", ".join(names)} from topics order by id'):  # noqa: S608 - names of ours
+            told = dict(zip(names, row, strict=True))
+            if all(isinstance(told[name], str) for name in _TOPIC[1:]):
+                found[told['id']] = _connection(told, *kinds.get(told['type'], ('', '')))
+        return found
+
+    def _definitions(self) -> dict[str, tuple[str, str]]:
+        """Return text and encoding of the types that the file defines."""
+        names = 'topic_type', 'encoded_message_definition', 'encoding'
+        if not self._columns('message_definitions') >= set(names):
+            return {}
+        rows = self._base.execute(f'select {", ".join(names)} from message_definitions')  # noqa: S608 - names of ours
+        return {kind: (str(text or ''), str(encoding or '')) for kind, text, encoding in rows}
+
+    def _counted(self) -> dict[int, tuple[int, int, int]]:
+        """Return number, first and last time [ns] of the messages of each topic."""
+        counts = dict.fromkeys(self.channels, (0, 0, 0))
+        rows = self._base.execute(
+            'select topic_id, count(*), min(timestamp), max(timestamp) from messages '  # noqa: S608 - words of ours
+            f'where {_WHOLE} group by topic_id'
+        )
+        counts |= {number: tuple(others) for number, *others in rows if number in counts}
+        (every,) = self._base.execute('select count(*) from messages').fetchone()
+        lost = every - sum(count for count, *_ in counts.values())
+        if lost:
+            self.problems.append(SourceError(
+                f'{self.path}, table messages: {lost} of {every} rows are no messages: they lack '
+                'a topic, a time or their data; the others are read'
+            ))  # fmt: skip
+        return counts
 
 
-def _connection(found: Any) -> Connection:
-    text, encoding = (
-        found.msgdef.data,
-        'ros2msg' if found.msgdef.format.name == 'MSG' else 'ros2idl',
-    )
-    if not text:
+def _text(data: bytes) -> str:
+    return data.decode(errors='replace')
+
+
+def _connection(told: dict[str, Any], definition: str, encoding: str) -> Connection:
+    kind, digest = told['type'], told.get('type_description_hash') or ''
+    if not definition:
         encoding = ''
         try:
-            text, encoding = definitions.installed(found.msgtype).text, 'ros2msg'
+            definition, encoding = definitions.installed(kind).text, 'ros2msg'
         except ConfigurationError:
-            text = ''
-    profiles = tuple(_profile(profile) for profile in found.ext.offered_qos_profiles)
-    form = found.ext.serialization_format
-    return Connection(found.topic, found.msgtype, text, encoding, form, found.digest, profiles)
-
-
-def _profile(qos: Any) -> OfferedQos:
-    """Return a profile of rosbags in our words."""
-    times = (qos.deadline, qos.lifespan, qos.liveliness_lease_duration)
-    limits = [nanoseconds({'sec': t.sec, 'nsec': t.nsec}) for t in times]
-    words = (qos.reliability, qos.durability, qos.history, qos.liveliness)
-    return OfferedQos(qos.depth, *(word.name.lower() for word in words), *limits)
+            definition = ''
+    profiles = OfferedQos.from_yaml(str(told.get('offered_qos_profiles') or ''))
+    form = told['serialization_format']
+    return Connection(told['name'], kind, definition, encoding, form, digest, profiles)

@@ -57,7 +57,7 @@ def echo(
     wanted = predicate(filter_expr)
     with opened(bag) as reader:
         reader.require([topic_name])
-        decoders = {c: decoder(c) for c in reader.connections if c.topic == topic_name}
+        decoders = {c: decoder(c, bag) for c in reader.connections if c.topic == topic_name}
         messages = reader.messages([topic_name], *span(reader, start_offset, duration))
         pairs = ((m, part_of(decoders[m.connection](m), field)) for m in messages)
         chosen = (pair for pair in pairs if wanted(pair[1]))

@@ -9,6 +9,7 @@ from agv_motion.bag.message_type import NOTHING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.reader import BagReader
@@ -17,14 +18,14 @@ _ROS_NAMES = {'float32': 'float', 'float64': 'double', 'bool': 'boolean', 'byte'
 _BASE, _NAME, _ARRAY = 1, 2, 3
 
 
-def decoder(connection: Connection) -> MessageDecoder:
-    """Return what decodes the messages of a topic into objects like those of rclpy.
+def decoder(connection: Connection, bag: Path) -> MessageDecoder:
+    """Return what decodes the messages of a topic of a bag into objects like those of rclpy.
 
     Raises:
         ConfigurationError: The bag has no definition of the type, or one that cannot be read.
 
     """
-    decode = MessageDecoder(connection)
+    decode = MessageDecoder(connection, bag)
     for name, kind in decode.store.types.items():
         fields = decode.store.fielddefs[name][1]
         types = {field: _type(found) for field, found in fields if field != NOTHING}
@@ -47,7 +48,7 @@ def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Message, An
         connection = message.connection
         key = connection.topic, connection.type, connection.definition
         if key not in decoders:
-            decoders[key] = MessageDecoder(connection)
+            decoders[key] = MessageDecoder(connection, bag.path)
         yield message, decoders[key](message)
 
 

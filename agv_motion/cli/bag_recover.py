@@ -50,8 +50,8 @@ def recover(
         typer.echo(f'found: {problem}', err=True)
     if len(recovery.problems) > MOST_PROBLEMS:
         typer.echo(f'found: {len(recovery.problems) - MOST_PROBLEMS} more', err=True)
-    lost = f'; at least {recovery.missing} are lost' if recovery.missing else ''
+    lost = f'; at least {recovery.missing} of {damaged} are lost' if recovery.missing else ''
     typer.echo(f'Saved {recovery.messages} messages in {saved}{lost}')
     harmless = all(getattr(problem, 'harmless', False) for problem in recovery.problems)
-    if not (recovery.messages and harmless) or recovery.missing:
+    if not harmless or recovery.missing:
         raise typer.Exit(1)

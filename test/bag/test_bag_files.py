@@ -196,3 +196,26 @@ def test_names_that_mean_something_in_a_uri(tmp_path, name):
         recovery = Recovery(writer)
         recovery.save(file)
     assert recovery.messages == 10
+
+
+def test_a_file_that_is_named_twice_is_read_once(tmp_path):
+    bag = split_bag(tmp_path / 'bag', files=3)
+    path = bag / 'metadata.yaml'
+    description = yaml.safe_load(path.read_text())
+    description['rosbag2_bagfile_information']['relative_file_paths'].insert(1, 'bag_0.mcap')
+    path.write_text(yaml.safe_dump(description))
+    assert told(bag) == ([0, 1, 2], '', False)
+
+
+def test_a_compressed_file_is_named_as_the_user_knows_it(tmp_path):
+    bag = split_bag(tmp_path / 'bag', files=1)
+    data = (bag / 'bag_0.mcap').read_bytes()
+    packed = tmp_path / 'walk.mcap.zstd'
+    packed.write_bytes(zstandard.compress(data[:250]))
+    with BagReader(packed) as reader:
+        assert [file.path for file in reader.files] == [packed]
+        assert all('walk.mcap.zstd, byte' in str(problem) for problem in reader.problems)
+        assert reader.lossy
+    packed.write_bytes(zstandard.compress(data)[:20])
+    with pytest.raises(SourceError, match=r'walk\.mcap\.zstd, byte 20: the file ends before'):
+        BagReader(packed)

@@ -72,6 +72,13 @@ def test_file_names_stay_as_they_are_where_they_can():
     assert all(name.isascii() and '/' not in name and name.strip('.') for name in odd.values())
 
 
+def test_an_error_about_a_topic_names_the_bag(mixed):
+    for topic in ('/json', '/wide'):
+        status, out = run('echo', mixed, topic)
+        assert status == 1
+        assert f'bag {mixed}, topic {topic}: messages of' in out
+
+
 def test_what_is_not_of_ros_ends_neither_check_nor_diff(mixed):
     status, out = run('check', mixed)
     assert "encoded in 'json': values were not looked at" in out
