@@ -148,7 +148,7 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
         rclpy.try_shutdown()
     console.print(str(player.playing.lag))
     for topic, reason in player.unplayed.items():
-        typer.echo(f'error: {topic} was not played: {reason}', err=True)
+        typer.echo(f'error: {given["bag"]}, {topic} was not played: {reason}', err=True)
     if player.playing.failure:
         typer.echo(f'error: {player.playing.failure}', err=True)
     if player.playing.failure or player.unplayed or player.lossy:
