@@ -6,6 +6,7 @@ The core checks its own values against the row; the nodes make ROS parameters of
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, is_dataclass
+from functools import cache
 from math import isfinite
 from typing import TYPE_CHECKING, Any, get_type_hints
 
@@ -34,13 +35,22 @@ class Spec:
 
 
 def rows(kind: type[DataclassInstance]) -> Iterator[tuple[str, Any, Spec]]:
-    """Yield name, type and :class:`Spec` of each annotated field of a parameter dataclass."""
-    hints = get_type_hints(kind, include_extras=True)
-    for field in fields(kind):
-        annotation = hints[field.name]
-        for spec in getattr(annotation, '__metadata__', ()):
-            if isinstance(spec, Spec):
-                yield field.name, annotation.__origin__, spec
+    """Yield name, type and :class:`Spec` of each annotated field of a parameter dataclass.
+
+    A subclass that gives another default repeats name and type alone: ``rate: float = 20.0``.
+    """
+    yield from _rows(kind)
+
+
+@cache
+def _rows(kind: type[DataclassInstance]) -> tuple[tuple[str, Any, Spec], ...]:
+    told = {}
+    for base in reversed(kind.__mro__):
+        for name, annotation in get_type_hints(base, include_extras=True).items():
+            for spec in getattr(annotation, '__metadata__', ()):
+                if isinstance(spec, Spec):
+                    told[name] = annotation.__origin__, spec
+    return tuple((field.name, *told[field.name]) for field in fields(kind) if field.name in told)
 
 
 def check(values: DataclassInstance) -> None:

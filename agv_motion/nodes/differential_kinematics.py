@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
 from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
-from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
+from agv_motion.nodes.wheels import WheelsNode
+from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.base import DifferentialBase
 from agv_motion.odometry.wheel_odometry import WheelOdometry
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
@@ -49,8 +50,8 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop and of silence."""
-        silence, stopped = self.silence(), self.why_stopped()
-        values = {'cmd_vel': silence.value, 'odometry': self.last_step.value}
+        silence, stopped = self.guard.command.silence(), self.why_stopped()
+        values = {'cmd_vel': silence.value, 'odometry': self.states.last_step.value}
         if stopped:
             return Diagnosis(ERROR, stopped, values)
         if self.standing:

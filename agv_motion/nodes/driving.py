@@ -11,9 +11,10 @@ from std_msgs.msg import String
 
 from agv_motion.blocked import BlockedGuard, BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.nodes.input_parameters import CommandParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
-from agv_motion.ros.input_watch import Freshness, InputWatch
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
@@ -40,7 +41,7 @@ OLDEST_POSE = 0.3
 
 
 @dataclass(frozen=True)
-class DrivingParameters:
+class DrivingParameters(CommandParameters):
     """How often to command, and whom to believe where the robot is."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 20.0
@@ -48,13 +49,6 @@ class DrivingParameters:
         str, Spec('where the pose comes from: topic odom, or topic pose', choices=('odom', 'pose'))
     ] = 'odom'
     frame: Annotated[str, Spec('frame of the pose, and of all that is to be driven')] = 'odom'
-    base_frame: Annotated[str, Spec('frame of the twist')] = 'base_link'
-    report_after: Annotated[float, Spec('silence of the pose to report', 's', (0.01, 3600.0))] = 0.5
-    stop_after: Annotated[float, Spec('silence of the pose to stop', 's', (0.01, 3600.0))] = 1.0
-    max_age: Annotated[
-        float, Spec('how far the stamp of the pose may lie from now', 's', (0.01, 1e10))
-    ] = 1.0
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     blocked: BlockedParameters = field(default_factory=BlockedParameters)
 
     def __post_init__(self) -> None:
@@ -89,8 +83,7 @@ class DrivingNode(PlainNode[P]):
         self._twist = REST
         self.told = ''
         """The state told last"""
-        limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._pose_watch = InputWatch(port, given.position, limits)
+        self._pose_watch = InputWatch(port, given.position, given.freshness())
         self._last_cycle: float | None = None
         self._farewell = 0.0
         arm = 0.5 * self.limits().track

@@ -53,7 +53,7 @@ WORDS = {
 class GhostTrajectoryParameters(DrivingParameters):
     """How the Ghost goes to a goal, and how the robot follows it."""
 
-    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 50.0
+    rate: float = 50.0
     cruising_speed: Annotated[float, Spec('of the Ghost', 'm/s', (0.001, 100.0), dynamic=True)] = (
         0.4
     )

@@ -25,7 +25,7 @@ from agv_motion.nodes.reservation_exchange import ReservationExchange
 from agv_motion.planar import REST, Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
-from agv_motion.ros.input_watch import Freshness, InputWatch
+from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -82,7 +82,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._guard = BlockedGuard(given.blocked, self._rim, RELEASE)
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
-        limits = Freshness(given.report_after, given.stop_after, given.max_age)
+        limits = given.freshness()
         self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._path_publisher = port.publisher(Path, 'path', LATCHED, sole=True)

@@ -17,11 +17,12 @@ from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.limits import LimitParameters
 from agv_motion.motion.command.polar import LINEAR_SPEED
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.nodes.input_parameters import CommandParameters
 from agv_motion.parameters import Spec
 
 
 @dataclass(frozen=True)
-class MotionGeneratorParameters(Outline):
+class MotionGeneratorParameters(CommandParameters, Outline):
     """How sap flow becomes motion."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0
@@ -32,18 +33,10 @@ class MotionGeneratorParameters(Outline):
         tuple[float, ...],
         Spec('where to go with the strategy fixed, x and y in the map; RViz may set another', 'm'),
     ] = (10.0, 7.5)
-    report_after: Annotated[
-        float, Spec('silence of sap flow or pose to report', 's', (0.01, 3600))
-    ] = 3.0
-    stop_after: Annotated[float, Spec('silence of sap flow or pose to stop', 's', (0.01, 3600))] = (
-        5.0
-    )
-    max_age: Annotated[
-        float, Spec('how far stamps of sap flow and pose may lie from now', 's', (0.01, 1e10))
-    ] = 5.0
+    report_after: float = 3.0
+    stop_after: float = 5.0
+    max_age: float = 5.0
     map_frame: Annotated[str, Spec('frame of pose and goal')] = 'map'
-    base_frame: Annotated[str, Spec('frame of the twist and of the sap flow')] = 'base_link'
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
     zone_file: Annotated[
         str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
     ] = ''

@@ -9,7 +9,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from agv_motion.nodes.omni_parameters import OmniBaseParameters
-from agv_motion.nodes.wheels import WheelsNode, WheelsParameters
+from agv_motion.nodes.wheels import WheelsNode
+from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.wheel_monitor import SOUND, WheelMonitor
 from agv_motion.parameters import Spec
@@ -70,10 +71,10 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of slip and of wheels that odometry does without."""
-        silence, stopped = self.silence(), self.why_stopped()
+        silence, stopped = self.guard.command.silence(), self.why_stopped()
         values = {
             'cmd_vel': silence.value,
-            'odometry': self.last_step.value,
+            'odometry': self.states.last_step.value,
             'residual [m/s]': f'{self._odometry.reckoning.residual:.5f}',
             'wheels left out': ', '.join(self._names(self._odometry.left_out)) or 'none',
         }

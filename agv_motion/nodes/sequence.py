@@ -39,7 +39,7 @@ TOLD_EVERY = 0.2
 class SequenceParameters(DrivingParameters):
     """Which sequence, and how the robot follows Ghosts and routes."""
 
-    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 50.0
+    rate: float = 50.0
     file: Annotated[
         str, Spec('the sequence: a path, or a file of config/; read at each start', dynamic=True)
     ] = ''

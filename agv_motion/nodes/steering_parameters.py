@@ -9,11 +9,12 @@ from typing import Annotated
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.nodes.input_parameters import DrivenParameters
 from agv_motion.parameters import Spec
 
 
 @dataclass(frozen=True)
-class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
+class WheelKinematicsParameters(DrivenParameters, PlatformParameters, SteeringLimits):
     """The platform, its limits, and what makes it stop."""
 
     rate: Annotated[float, Spec('commands per second, at least', 'Hz', (1.0, 1000.0))] = 20.0
@@ -41,20 +42,15 @@ class WheelKinematicsParameters(PlatformParameters, SteeringLimits):
         float,
         Spec('rest after which turned cables are unwound; 0: never by itself', 's', (0.0, 1e6)),
     ] = 60.0
-    report_after: Annotated[float, Spec('silence of cmd_vel to report', 's', (0.01, 3600))] = 3.0
-    stop_after: Annotated[float, Spec('silence of cmd_vel to stop', 's', (0.01, 3600))] = 5.0
-    max_age: Annotated[
-        float, Spec('how far stamps of cmd_vel, turrets/state may lie from now', 's', (0.01, 1e10))
-    ] = 5.0
+    report_after: float = 3.0
+    stop_after: float = 5.0
+    max_age: float = 5.0
     residual_warning: Annotated[
         float, Spec('turrets fight: warn above', 'm/s', (0.0, 10.0), dynamic=True)
     ] = 0.005
     residual_stop: Annotated[
         float, Spec('turrets fight: stop above', 'm/s', (0.0, 10.0), dynamic=True)
     ] = 0.02
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
-    base_frame: Annotated[str, Spec('frame of the twist and of the turret centres')] = 'base_link'
-    odom_frame: Annotated[str, Spec('frame in which the wheels carry the platform')] = 'odom'
 
     def __post_init__(self) -> None:
         """Check every row, and that the warning comes before the stop."""

@@ -6,22 +6,19 @@ from array import array
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from geometry_msgs.msg import Twist as TwistMessage
 from std_msgs.msg import Float64MultiArray, String
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering import Limiter, SteeringController
+from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.nodes.turret_states import TurretStates
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
-from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.ros.messages import (
     TurretJoints,
-    require_frame,
     stamp_of,
-    twist_of,
 )
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED
@@ -49,6 +46,8 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
     explicit zero speed with the steering angles held.
     """
 
+    standing = False
+    """Nobody may leave this node without commands: unwinding and turrets need it."""
     name = 'wheel_kinematics'
     takes = WheelKinematicsParameters
 
@@ -60,12 +59,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         self._zero = given.zeros()
         self._period = 1.0 / given.rate
         self._driving = SteeringController(turrets, given, self._period, given.unwind_after)
-        limits = Freshness(given.report_after, given.stop_after, given.max_age)
-        self._command_watch = InputWatch(port, 'cmd_vel', limits)
-        self._state_watch = InputWatch(port, 'turrets/state', limits, 'look at the encoders')
-        self._blind = False
         self._joints = TurretJoints(len(turrets))
-        self._stopped_by = ''
         self._residual = 0.0
         self._arrays_wanted = False
         self._limiter = Limiter.NONE
@@ -73,24 +67,19 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         """for which the last command was planned [ns]"""
         rows = TurretRows(self._joints, len(turrets), given.base_frame)
         self._command = port.row_publisher(rows, 'turrets/command', COMMAND, sole=True)
-        twists = TwistRows(given.base_frame)
-        self._limited = port.row_publisher(twists, 'cmd_vel/limited', COMMAND)
+        self._limited = port.row_publisher(TwistRows(given.base_frame), 'cmd_vel/limited', COMMAND)
         self._steering = port.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
         self._wheels = port.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
         self._limits = port.publisher(String, 'turrets/limiter', LATCHED)
-        if given.stamped:
-            port.listen_to_rows(twists, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
-        else:
-            port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
-        TurretStates(port, given, self._joints, self, self._state_watch)
-        port.serve(SetBool, '~/stop', self._on_stop)
+        self._guard = CommandGuard(port, given, 'turrets/state', self)
+        TurretStates(port, given, self._joints, self, self._guard.state)
         port.serve(Trigger, '~/unwind', self._on_unwind)
         port.every(self._period, self._go_on)
         port.watch_inputs(given.stop_after, self._watch)
 
     def halt(self) -> None:
         """Send the last word: no wheel turns."""
-        self._stand_still()
+        self.stand()
 
     def accept(self, parameters: WheelKinematicsParameters) -> None:
         """Take over new limits; the next step holds them."""
@@ -98,7 +87,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell of a stop, of silence, of turrets that fight, and of what limits the motion."""
-        silence = self._command_watch.silence()
+        silence = self._guard.command.silence()
         values = {
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
@@ -119,39 +108,52 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
 
     def _why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""
-        if self._stopped_by:
-            return f'stopped: {self._stopped_by}'
-        return 'stopped: turrets/state is lost' if self._blind else self._driving.unbelievable
+        reason = self._guard.reason
+        return f'stopped: {reason}' if reason else self._driving.unbelievable
 
-    def _on_stamped_twist(self, twist: Twist, frame: str, stamp: int) -> None:
-        """Drive as a twist says that is news; obey a stop however old it is."""
-        if twist == REST:
-            self._driving.set_target(twist)
-        require_frame(frame, self.parameters.base_frame)
-        if self._command_watch.is_new(stamp):
-            self._drive(twist)
+    # cmd_vel -> turrets/command
 
-    def _on_twist(self, message: TwistMessage) -> None:
-        self._drive(twist_of(message))
+    @property
+    def unwinding(self) -> bool:
+        """Whether cables are being unwound, for which nobody needs to command."""
+        return self._driving.unwinding
 
-    def _drive(self, twist: Twist) -> None:
-        """Answer a twist with a command at once, while the clock can be believed."""
-        if self.port.clock.fault:
-            return
+    def aim_at_rest(self) -> None:
+        """Come to rest, step by step."""
+        self._driving.set_target(REST)
+
+    def drive(self, twist: Twist) -> None:
+        """Answer a twist with a command at once."""
         self._driving.set_target(twist)
         setpoints = self._driving.setpoints
-        self._command_watch.note()
-        if self._stopped_by or self._blind or setpoints is None:
-            self._stand_still()
+        if self._guard.reason or setpoints is None:
+            self.stand()
             return
         self._step(SOONEST * setpoints.period)
         self._send()
 
+    def start_anew(self) -> None:
+        """Go on from where the turrets are."""
+        self._driving.start_anew()
+
+    def stand(self) -> None:
+        """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
+        self._driving.stop()
+        self._instant = self.port.nanoseconds()
+        if self._driving.setpoints is None:
+            message = self._joints.standstill()
+            message.header.frame_id = self.parameters.base_frame
+            message.header.stamp = stamp_of(self._instant)
+            self._command.publish_message(message)
+            self._tell_limited()
+        else:
+            self._send()
+
     def _go_on(self) -> None:
         """Bring the wheels nearer to the wanted twist, also between two messages."""
-        if self._driving.setpoints is None or self._stopped_by or self._blind:
+        if self._driving.setpoints is None or self._guard.reason:
             return
-        lost = self._command_watch.silence() is Silence.LOST
+        lost = self._guard.command.silence() is Silence.LOST
         if lost and not self._driving.unwinding:
             return  # _watch has stopped the wheels
         if self._step(0.5 * self._period):
@@ -195,38 +197,14 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         self._limited.publish(twist, self._instant)
 
     def _watch(self) -> None:
-        """Stop when `cmd_vel` falls silent; say so before."""
+        """Look at the inputs, and at who listens."""
         listeners = self._steering.get_subscription_count() + self._wheels.get_subscription_count()
         self._arrays_wanted = listeners > 0
-        self._blind = self._state_watch.tell() is Silence.LOST and self._state_watch.spoken
-        lost = self._command_watch.tell() is Silence.LOST
-        if self._blind or self.port.clock.fault or (lost and not self._driving.unwinding):
-            self._stand_still()
-
-    def _stand_still(self) -> None:
-        """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
-        self._driving.stop()
-        self._instant = self.port.nanoseconds()
-        if self._driving.setpoints is None:
-            message = self._joints.standstill()
-            message.header.frame_id = self.parameters.base_frame
-            message.header.stamp = stamp_of(self._instant)
-            self._command.publish_message(message)
-            self._tell_limited()
-        else:
-            self._send()
-
-    def _on_stop(self, request: Any) -> str:
-        self._stopped_by = 'by request' if request.data else ''
-        if request.data:
-            self._stand_still()
-            return 'stopped; call again with data: false to drive on'
-        self._driving.start_anew()
-        return 'free to drive'
+        self._guard.judge()
 
     def _on_unwind(self, _: Any) -> str:
-        if self._stopped_by or self._blind:
-            msg = f'stopped ({self._stopped_by or "turrets/state is lost"}): release it first'
+        if self._guard.reason:
+            msg = f'stopped ({self._guard.reason}): release it first'
             raise ConfigurationError(msg)
         return self._driving.unwind()
 
@@ -234,20 +212,20 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         """Take up the angles of the turrets."""
         first = self._driving.measured is None
         self._driving.set_measured(angles)
-        self._state_watch.note()
+        self._guard.state.note()
         if first and self._driving.overturned():
             self.port.warning(self._driving.overturned())
 
     def note_residual(self, residual: float) -> None:
         """Stop when the turrets fight too hard."""
         self._residual = residual
-        if residual > self.parameters.residual_stop and not self._stopped_by:
-            self._stopped_by = f'turrets fight by {residual:.4f} m/s'
+        if residual > self.parameters.residual_stop and not self._guard.stopped_by:
+            fight = f'turrets fight by {residual:.4f} m/s'
             self.port.error(
-                f'{self._stopped_by}, limit {self.parameters.residual_stop} m/s: stopped; '
+                f'{fight}, limit {self.parameters.residual_stop} m/s: stopped; '
                 'look at the turrets, then call ~/stop with data: false'
             )
-            self._stand_still()
+            self._guard.stop_for(fight)
 
 
 def main() -> None:

@@ -53,7 +53,7 @@ class Robot:
 
     def drive(self, **components):
         """Return the command that answers a twist: the first that is stamped no sooner."""
-        watch = self.node.plain.command_watch
+        watch = self.node.plain.guard.command
         before = watch.newest
         self.send(**components)
         self.tester.graph.spin_until(lambda: watch.newest > before)

@@ -1,0 +1,121 @@
+"""When driven wheels stand: a zero, silence of `cmd_vel` or of the encoders, and `~/stop`.
+
+What both kinds of kinematics do about their inputs is here, once. How wheels stop they know best.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from geometry_msgs.msg import Twist as TwistMessage
+from std_srvs.srv import SetBool
+
+from agv_motion.planar import REST, Twist
+from agv_motion.ros.input_watch import InputWatch
+from agv_motion.ros.messages import require_frame, twist_of
+from agv_motion.ros.qos import COMMAND
+from agv_motion.ros.twist_rows import TwistRows
+from agv_motion.watchdog import Silence
+
+if TYPE_CHECKING:
+    from agv_motion.nodes.input_parameters import DrivenParameters
+    from agv_motion.ros.port import Port
+
+
+class DrivenWheels(Protocol):
+    """What is guarded."""
+
+    @property
+    def standing(self) -> bool:
+        """Whether the last twist was zero, and silence is no more than a fact."""
+
+    @property
+    def unwinding(self) -> bool:
+        """Whether the wheels work though nobody commands them."""
+
+    def aim_at_rest(self) -> None:
+        """Come to rest as a zero commands it, which is obeyed however old it is."""
+
+    def drive(self, twist: Twist) -> None:
+        """Answer a twist with a command at once; with a standstill while the guard `holds`."""
+
+    def stand(self) -> None:
+        """Stop all wheels at once, for safety, with an explicit zero."""
+
+    def start_anew(self) -> None:
+        """Be free to drive again, after a stop."""
+
+
+class CommandGuard:
+    """Passes on the twists that are news, and stops the wheels where it must."""
+
+    def __init__(
+        self, port: Port, given: DrivenParameters, encoders: str, wheels: DrivenWheels
+    ) -> None:
+        """Listen to `cmd_vel`, and offer `~/stop`.
+
+        Args:
+            port: Of the node.
+            given: What the inputs are like, and how long they may be silent.
+            encoders: Topic of the encoders; who listens to it feeds `state`.
+            wheels: To guard.
+
+        """
+        self.command = InputWatch(port, 'cmd_vel', given.freshness())
+        self.state = InputWatch(port, encoders, given.freshness(), 'look at the encoders')
+        self.blind = ''
+        """Why nobody knows what the wheels do; empty if somebody does, or never did"""
+        self.stopped_by = ''
+        """Why the wheels stand until a person releases them; empty if they need not"""
+        self._port, self._wheels, self._frame = port, wheels, given.base_frame
+        self._lost = f'{encoders} is lost'
+        if given.stamped:
+            rows = TwistRows(given.base_frame)
+            port.listen_to_rows(rows, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
+        else:
+            port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        port.serve(SetBool, '~/stop', self._on_stop)
+
+    @property
+    def reason(self) -> str:
+        """Why the wheels are held; empty if they are not."""
+        return self.stopped_by or self.blind
+
+    def stop_for(self, reason: str) -> None:
+        """Hold the wheels until a person releases them by `~/stop`."""
+        self.stopped_by = reason
+        self._wheels.stand()
+
+    def judge(self) -> None:
+        """Stop where an input is lost, again and again; tell of silence before."""
+        lost = self.state.tell() is Silence.LOST and self.state.spoken
+        self.blind = self._lost if lost else ''
+        command, wheels = self.command, self._wheels
+        silence = command.silence() if wheels.standing else command.tell()
+        silent = silence is Silence.LOST and not wheels.unwinding
+        if lost or silent or self._port.clock.fault:
+            wheels.stand()
+
+    def _on_stamped_twist(self, twist: Twist, frame: str, stamp: int) -> None:
+        if twist == REST:
+            self._wheels.aim_at_rest()
+        require_frame(frame, self._frame)
+        if self.command.is_new(stamp):
+            self._take(twist)
+
+    def _on_twist(self, message: TwistMessage) -> None:
+        self._take(twist_of(message))
+
+    def _take(self, twist: Twist) -> None:
+        """Drive, while the clock can be believed; only what was of use feeds the watchdog."""
+        if not self._port.clock.fault:
+            self._wheels.drive(twist)
+            self.command.note()
+
+    def _on_stop(self, request: Any) -> str:
+        if request.data:
+            self.stop_for('by request')
+            return 'stopped; call again with data: false to drive on'
+        self.stopped_by = ''
+        self._wheels.start_anew()
+        return 'free to drive'
