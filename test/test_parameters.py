@@ -54,3 +54,17 @@ def test_what_keeps_to_its_row_passes():
 def test_what_does_not_is_told_with_value_and_limit(change, message):
     with pytest.raises(ConfigurationError, match=message):
         check(Robot(**change))
+
+
+@dataclass(frozen=True)
+class FastRobot(Robot):
+    """Another default; all else is told once, by the class that it comes from."""
+
+    speed: float = 1.5
+
+
+def test_another_default_keeps_unit_range_and_meaning():
+    assert list(rows(FastRobot)) == list(rows(Robot))
+    assert FastRobot().speed == 1.5
+    with pytest.raises(ConfigurationError, match=r'speed = 2\.5: must lie in \[0, 2\] m/s'):
+        check(FastRobot(speed=2.5))

@@ -44,6 +44,16 @@ def describe(kind: type[Any], prefix: str = '') -> Iterator[Description]:
         yield from describe(group, f'{prefix}{name}.')
 
 
+def markdown(kind: type[Any]) -> str:
+    """Return the parameters of a dataclass as a table of Markdown."""
+    lines = [f'| {" | ".join(COLUMNS)} |', f'|{"---|" * len(COLUMNS)}']
+    lines += [
+        f'| `{row.name}` | `{row.default}` | {row.allowed} | {row.meaning} |'
+        for row in describe(kind)
+    ]
+    return '\n'.join([*lines, ''])
+
+
 def _short(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
@@ -62,21 +72,21 @@ def parameters_of(node: str) -> type[Any]:
 def parameters(
     node: Annotated[str, typer.Argument(help='Name of the node, such as wheel_kinematics.')],
     *,
-    markdown: Annotated[bool, typer.Option('--markdown', help='As a table for a README.')] = False,
+    as_markdown: Annotated[
+        bool, typer.Option('--markdown', help='As a table for a README.')
+    ] = False,
 ) -> None:
     """Tell every parameter of a node: default, range, unit and meaning.
 
     Example: agv parameters granier_probe
     """
-    descriptions = list(describe(parameters_of(node)))
-    if markdown:
-        typer.echo(f'| {" | ".join(COLUMNS)} |\n|{"---|" * len(COLUMNS)}')
-        for row in descriptions:
-            typer.echo(f'| `{row.name}` | `{row.default}` | {row.allowed} | {row.meaning} |')
+    kind = parameters_of(node)
+    if as_markdown:
+        typer.echo(markdown(kind), nl=False)
         return
     table = Table(box=None, pad_edge=False)
     for column in COLUMNS:
         table.add_column(column, overflow='fold')
-    for row in descriptions:
+    for row in describe(kind):
         table.add_row(*row)
     terminal().print(table)

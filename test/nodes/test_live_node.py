@@ -12,6 +12,7 @@ from rcl_interfaces.msg import Log
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
+from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros.diagnosis import ERROR
 from agv_motion.ros.qos import SENSOR
@@ -97,7 +98,7 @@ def test_a_defect_in_the_diagnostics(robot):
 
 
 def test_a_defect_at_a_service_is_answered(robot, monkeypatch):
-    monkeypatch.setattr(DifferentialKinematics, '_on_stop', fail)
+    monkeypatch.setattr(CommandGuard, '_on_stop', fail)
     robot.node.trigger_deactivate()
     robot.node.trigger_cleanup()
     start(robot.node)
