@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from io import TextIOWrapper
 
 import typer
 
@@ -54,6 +55,9 @@ def main() -> None:
     SIGTERM and SIGHUP end it as Ctrl-C does, where the command has no end of its own.
     """
     interrupt()
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors='backslashreplace')  # names of files may be no UTF-8
     try:
         typer.main.get_command(app)()
     except AgvMotionError as error:
