@@ -60,7 +60,7 @@ def calibrate(
         str, typer.Option(help='Topic that tells places from outside; else fix or pose.')
     ] = '',
     wheel_noise: Annotated[
-        float, typer.Option(min=0.0, help='Slip of a wheel after 1 m [m]; 0: that of the file.')
+        float, typer.Option(min=0.0, help='Slip of a wheel after 1 m [m]; 0: as the drive shows.')
     ] = 0.0,
     output: Annotated[Path, typer.Option('--output', '-o', help='YAML to write.')] = Path(
         'calibrated.yaml'
@@ -93,6 +93,9 @@ def calibrate(
         for note in drive.notes:
             typer.echo(note, err=True)
         found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
+        if not wheel_noise:
+            typer.echo(f'slip of a wheel after 1 m: {1e3 * found.slip:.1f} mm')
+            found = fit(drawing.model, drive.recording, found.slip)
         _print(found, drive.topic)
         values = {unknown.name: unknown.value for unknown in found.unknowns}
         content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}

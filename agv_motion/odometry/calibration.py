@@ -34,6 +34,10 @@ CONVERGED = 1e-4
 """[-] Change of an unknown, as a share of its doubt, at which the iteration stops."""
 CUTTINGS = 3
 """Of the drive where the robot was carried: by the drawing, then by what was found."""
+SLIP_DOUBT = 3.0
+"""[-] The slip may well be this many times what was assumed, or that part of it."""
+SLIP_SHARES = np.geomspace(SLIP_DOUBT**-4, SLIP_DOUBT**4, 49)
+"""[-] of the variance assumed that are compared"""
 ITERATIONS = 10
 ROUNDS = 4
 """Of leaving out outliers."""
@@ -68,6 +72,9 @@ class Calibration(NamedTuple):
     """How many were left out"""
     carried: int
     """How often the robot was carried, and the drive cut there"""
+    slip: float
+    """[m] Standard deviation of the travel of a wheel after 1 m that explains the errors best: the
+    ``wheel_noise`` with which to fit again, where nothing better is known"""
 
 
 def calibrate(
@@ -132,7 +139,16 @@ def _fitted(
         sum(stretch.references for stretch in stretches),
         outliers,
         len(parts) - 1,
+        wheel_noise * _slip_share(stretches) ** 0.5,
     )
+
+
+def _slip_share(stretches: Sequence[Stretch]) -> float:
+    """Return the likeliest share of the variance of slip that was assumed."""
+    unlikely = (np.log(SLIP_SHARES) / (2.0 * np.log(SLIP_DOUBT))) ** 2
+    for stretch in stretches:
+        unlikely = unlikely + stretch.slip_unlikeliness(SLIP_SHARES)
+    return float(SLIP_SHARES[unlikely.argmin()])
 
 
 def _settle(

@@ -104,7 +104,8 @@ class OmniModel:
         radii, distances = np.split(values, 2)
         matrix = self._matrix.copy()
         matrix[:, 2] *= distances / self._distances
-        moved: Array = np.linalg.pinv(matrix) @ (radii[:, None] * turned)
+        fit = np.linalg.solve(matrix.T @ matrix, matrix.T)  # much less work than pinv for so few
+        moved: Array = (fit * radii) @ turned
         return moved
 
 

@@ -34,6 +34,10 @@ STEP = 1e-3
 """[-] Of the numeric derivative, as a share of the doubt about an unknown."""
 OUTLIER = 5.0
 """[-] Standard deviations beyond which a reference is left out."""
+FEWEST = 9
+"""Numbers of references that are left in any case."""
+MEDIAN = 0.6745
+"""[-] of the absolute value of a normal variable, in standard deviations"""
 
 
 class _Linear(NamedTuple):
@@ -120,30 +124,74 @@ class Stretch:
         on_base = np.einsum('mij,mi->jm', adjoint, after[first_after])
         self._slip = self._variance * (self._unit @ on_base)
 
+    def slip_unlikeliness(self, shares: Array) -> Array:
+        """Return how unlikely the errors were, had slip a share of the variance assumed.
+
+        Minus twice the logarithm of the likelihood of all that no start explains (restricted
+        maximum likelihood), about the path of the last :meth:`rows`.
+
+        Args:
+            shares: (s,) to compare.
+
+        """
+        assert self._last is not None
+        known = np.tile(self._noise, len(self._steps))[self._last.chosen]
+        slipped = self._last.root @ self._last.root.T / np.outer(known, known)
+        variances, axes = np.linalg.eigh(slipped)
+        left = np.column_stack([self._last.start, self._last.error]) / known[:, None]
+        left = axes.T @ left
+        found = []
+        for share in shares:
+            variance = 1.0 + share * np.maximum(variances - 1.0, 0.0)
+            white = left / np.sqrt(variance)[:, None]
+            factor = np.linalg.qr(white, mode='r')
+            by_start = np.log(np.abs(np.diag(factor)[:3])).sum()
+            found.append(np.log(variance).sum() + 2.0 * by_start + factor[3, 3] ** 2)
+        return np.array(found)
+
     def drop_outliers(self, values: Array) -> int:
-        """Leave out references that err beyond belief; return how many."""
+        """Leave out references that err beyond belief, the worst first; return how many.
+
+        Each is judged by what all others and the wheels predict of it, whatever the start: slip
+        that adds up on the way would hide it from a prediction by the wheels alone.
+        """
         linear = self._linear(values)
-        size = np.zeros(len(linear.chosen))
-        size[linear.chosen] = np.abs(linear.error) / np.linalg.norm(linear.root, axis=1)
-        size = size.reshape(-1, 3).max(axis=1)
-        usual = max(float(np.median(size[self._known[0]])), 1.0)
-        far = size > OUTLIER * usual
-        self._known &= ~far
-        return int(far.sum())
+        size = len(linear.error)
+        white = np.linalg.solve(
+            linear.root, np.column_stack([np.eye(size), linear.error, linear.start])
+        )
+        basis, _ = np.linalg.qr(white[:, -3:])
+        information = white[:, :size].T @ (white - basis @ (basis.T @ white))[:, : size + 1]
+        owner = np.flatnonzero(linear.chosen) // 3
+        left = np.ones(size, dtype=bool)
+        dropped = 0
+        while left.sum() > FEWEST:
+            own = np.maximum(np.diag(information), 1e-12)
+            far = np.where(left, np.abs(information[:, -1]) / np.sqrt(own), 0.0)
+            usual = max(float(np.median(far[left])) / MEDIAN, 1.0)
+            if far.max() <= OUTLIER * usual:
+                break
+            gone = owner == owner[far.argmax()]
+            gain = np.linalg.solve(information[:, :-1][np.ix_(gone, gone)], information[gone])
+            information = information - information[:, :-1][:, gone] @ gain
+            left &= ~gone
+            self._known[:, owner[far.argmax()]] = False
+            dropped += 1
+        return dropped
 
     def _linear(self, values: Array) -> _Linear:
         """Return errors and derivatives about the path that start, slip and values make."""
         poses = self._poses(values)
-        chosen = self._known.T.ravel()
+        chosen = self._known.T.flatten()
         levers, adjoint = self._levers(poses), adjoint_columns(poses)
-        slipped = np.cumsum(np.einsum('mij,jm->mi', adjoint, self._slip), axis=0)
-        slipped = np.concatenate([np.zeros((1, 3)), slipped])[self._steps]
-        error = self._errors(poses[:, self._steps]).T + np.einsum('kij,kj->ki', levers, slipped)
+        moved = np.concatenate([self._displaced(values), self._slip[None]])
+        slope = self._at_references(moved, levers, adjoint)
+        error = self._errors(poses[:, self._steps]).T.ravel() + slope[:, -1]
         root = np.linalg.cholesky(self._covariance(levers, adjoint)[np.ix_(chosen, chosen)])
         return _Linear(
-            self._slope(values)[chosen],
+            slope[chosen, :-1],
             levers.reshape(-1, 3)[chosen],
-            error.ravel()[chosen],
+            error[chosen],
             np.asarray(root, dtype=np.float64),
             levers,
             adjoint,
@@ -160,15 +208,24 @@ class Stretch:
         error[2] = (error[2] + np.pi) % (2.0 * np.pi) - np.pi
         return np.where(self._known, error, 0.0)
 
-    def _slope(self, values: Array) -> Array:
-        """Return (3 k, p) derivative of the predictions by the unknowns, start held."""
+    def _displaced(self, values: Array) -> Array:
+        """Return (p, 3, m) derivative of the displacements by the unknowns."""
         columns = []
         for i, unknown in enumerate(self._model.unknowns):
             step = np.zeros(len(values))
             step[i] = STEP * unknown.doubt
-            ahead, behind = self._poses(values + step), self._poses(values - step)
-            columns.append(((ahead - behind)[:, self._steps] / (2.0 * step[i])).T.ravel())
-        return np.array(columns).T
+            ahead, behind = (
+                self._model.displacement(near, self._turned, self._steering)
+                for near in (values + step, values - step)
+            )
+            columns.append((ahead - behind) / (2.0 * step[i]))
+        return np.array(columns)
+
+    def _at_references(self, moved: Array, levers: Array, adjoint: Array) -> Array:
+        """Return (3 k, q) what q small motions of the base, (q, 3, m), do to the predictions."""
+        world = np.cumsum(np.einsum('mij,qjm->qmi', adjoint, moved), axis=1)
+        world = np.concatenate([np.zeros((len(moved), 1, 3)), world], axis=1)[:, self._steps]
+        return np.einsum('kij,qkj->kiq', levers, world).reshape(-1, len(moved))
 
     def _levers(self, poses: Array) -> Array:
         """Return (k, 3, 3) what a small motion of the world does to each predicted pose."""

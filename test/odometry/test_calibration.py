@@ -14,6 +14,7 @@ from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.calibration import calibrate
 from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel, TurretModel
 from agv_motion.odometry.calibration_recording import Recording
+from agv_motion.odometry.calibration_stretch import Stretch
 from agv_motion.odometry.columns import pose_columns
 from agv_motion.simulation.calibration_trial import (
     ANGLES,
@@ -162,6 +163,29 @@ def test_outliers_among_the_references_are_left_out():
         for unknown, true in zip(found.unknowns, truth, strict=True)
     ]
     assert np.abs(errors).max() < 4.0
+
+
+def test_slip_that_adds_up_hides_no_outlier():
+    """20 deviations off, but less than wheels that slip so might be after a minute alone."""
+    model, truth, recording = simulate(OMNI, 3, Conditions(heading=False))
+    recording.reference[0, 25] += 0.4
+    stretch = Stretch(model, recording.stretches()[0], 0.05)
+    assert stretch.references == 60
+    assert stretch.drop_outliers(truth) == 1
+    assert stretch.references == 59
+    assert not stretch.drop_outliers(truth)
+
+
+@pytest.mark.parametrize(('slip', 'assumed'), [(0.005, 0.015), (0.015, 0.005)])
+def test_the_slip_is_found_from_the_drive(slip, assumed):
+    model, _, recording = simulate(OMNI, 1, Conditions(slip=slip))
+    found = calibrate(model, recording, assumed).slip
+    assert 0.6 * slip < found < 1.5 * slip
+
+
+def test_at_rest_the_slip_is_as_assumed():
+    model, _, recording = simulate(OMNI, 1, Conditions(way=np.zeros((3, 300))))
+    assert calibrate(model, recording, SLIP).slip == pytest.approx(SLIP)
 
 
 def test_noise_that_is_worse_than_told_widens_the_intervals():
