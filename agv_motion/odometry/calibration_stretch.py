@@ -144,7 +144,7 @@ class Stretch:
         for share in shares:
             variance = 1.0 + share * np.maximum(variances - 1.0, 0.0)
             white = left / np.sqrt(variance)[:, None]
-            factor = np.linalg.qr(white, mode='r')
+            _, factor = np.linalg.qr(white)
             by_start = np.log(np.abs(np.diag(factor)[:3])).sum()
             found.append(np.log(variance).sum() + 2.0 * by_start + factor[3, 3] ** 2)
         return np.array(found)
@@ -225,7 +225,8 @@ class Stretch:
         """Return (3 k, q) what q small motions of the base, (q, 3, m), do to the predictions."""
         world = np.cumsum(np.einsum('mij,qjm->qmi', adjoint, moved), axis=1)
         world = np.concatenate([np.zeros((len(moved), 1, 3)), world], axis=1)[:, self._steps]
-        return np.einsum('kij,qkj->kiq', levers, world).reshape(-1, len(moved))
+        predicted: Array = np.einsum('kij,qkj->kiq', levers, world)
+        return predicted.reshape(-1, len(moved))
 
     def _levers(self, poses: Array) -> Array:
         """Return (k, 3, 3) what a small motion of the world does to each predicted pose."""
