@@ -113,6 +113,8 @@ class Recording:
 
         """
         with self._lock:
+            if self.failure:
+                raise SourceError(self.failure)
             try:
                 handle = self._writer.add_topic(name, message_type, qos=qos)
             except OSError as error:

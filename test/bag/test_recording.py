@@ -281,6 +281,8 @@ def test_a_disk_that_is_full_at_a_new_topic_ends_a_recording_with_a_whole_bag(
         patch.setattr(McapWriter, 'add_channel', refuse)
         with pytest.raises(SourceError, match='No space left'):
             one.add_topic('/later', TEXT, VOLATILE)
+    with pytest.raises(SourceError, match='No space left'):
+        one.add_topic('/later', TEXT, VOLATILE)
     (report,) = one.close()
     assert 'No space left' in one.failure
     assert report.name == '/text'
