@@ -141,7 +141,7 @@ def choose_goals(chassis: Chassis, setpoints: Setpoints, wanted: Direction) -> G
         _, _, goal, sign_there = min(
             (s < 0.0 or turn > reversal, turn, goal, s)
             for s, first in ((1.0, forwards), (-1.0, forwards + pi))
-            for goal in (first - 2.0 * tau, first - tau, first, first + tau, first + 2.0 * tau)
+            for goal in (first - tau, first, first + tau)
             for turn in [abs(goal - angle)]
             if abs(goal) <= most
         )

@@ -231,3 +231,26 @@ def test_turrets_that_are_seen_to_have_turned_let_the_wheels_speed_up_no_faster_
         assert rolled <= speed <= rolled + LIMITS.wheel_acceleration * 0.1 + 1e-9
         rolled = speed
     assert rolled == pytest.approx(0.3)
+
+
+def test_turrets_that_stand_as_they_should_take_nothing_off_the_speed():
+    """Also at the step in which the wheels gain exactly what they may."""
+    one, now = drive(), 0.0
+    one.set_measured([0.0, 0.0])
+    one.set_target(Twist(0.5, 0.0, 0.0))
+    for _ in range(6):
+        now = steps(one, 1, now)
+        one.set_measured(list(one.setpoints.angles))
+        assert one.share() == 1.0
+    assert one.setpoints.speeds == pytest.approx([0.5, 0.5])
+
+
+def test_turrets_that_turn_are_not_astray():
+    one = drive()
+    one.set_measured([0.0, 0.0])
+    one.set_target(Twist(0.0, 0.3, 0.0))
+    now = steps(one, 2)
+    one.set_measured([LOST_TURRET + 0.1, 0.0])
+    before = one.setpoints.angles[1]
+    steps(one, 1, now)
+    assert one.setpoints.angles[1] > before > 0.0

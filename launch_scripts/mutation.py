@@ -1,0 +1,213 @@
+"""Mutation testing: one seeded change at a time in the core; the tests must notice each.
+
+    python launch_scripts/mutation.py                                   # 100 over the core
+    python launch_scripts/mutation.py agv_motion/kinematics/steering --count 20
+
+A change is a sign, an operator, a comparison, a condition or a number. No file is touched: the
+changed module is compiled as it is imported, in a process of its own, so that a run can be stopped
+at any time. Asked are the test file that mirrors the module, then its folder, then its room. Exits
+with 1 when more than `--most` survive.
+
+Why not mutmut or cosmic-ray: they write the changes into a tree and start Python anew for each,
+which here takes several times as long, and neither draws a seeded sample of a given size.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import sys
+import time
+from importlib.machinery import SourceFileLoader
+from importlib.util import spec_from_loader
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pytest
+from hypothesis import Phase, settings
+from mutants import Site, mutated, sites
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import Progress
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+ROOT = Path(__file__).parents[1]
+CORE = (
+    'planar.py', 'probe', 'motion', 'kinematics', 'odometry', 'trajectory', 'route', 'sequence',
+    'simulation', 'bag',
+)  # fmt: skip
+SURVIVED, KILLED, BROKEN = 0, 1, 2
+PATIENCE = 120
+"""[s] A test that takes longer hangs, which is noticed too."""
+
+
+class Mutant(NamedTuple):
+    """One change of one file."""
+
+    path: Path
+    site: Site
+
+    @property
+    def module(self) -> str:
+        """Its name, as it is imported."""
+        parts = self.path.relative_to(ROOT).with_suffix('').parts
+        return '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
+
+    def tests(self) -> Iterator[list[str]]:
+        """Yield the tests to ask, the nearest first: the mirrored file, the folder, the room."""
+        inside = self.path.relative_to(ROOT / 'agv_motion')
+        folder = ROOT / 'test' / inside.parent
+        near = [folder / f'test_{inside.name}', folder / 'test_golden.py']
+        room = ROOT / 'test' / inside.parts[0]
+        asked: list[list[Path]] = [near, sorted(folder.glob('test_*.py'))]
+        if len(inside.parts) > 1:
+            asked.append([room])
+        for paths in asked:
+            if existing := [str(path) for path in paths if path.exists()]:
+                yield existing
+
+
+class Loader(SourceFileLoader):
+    """Loads one module with its change."""
+
+    def __init__(self, mutant: Mutant) -> None:
+        """Change the code of ``mutant``."""
+        super().__init__(mutant.module, str(mutant.path))
+        self._code = compile(mutated(mutant.path.read_text(), mutant.site), mutant.path, 'exec')
+
+    def get_code(self, fullname: str) -> Any:
+        """Return the changed code."""
+        return self._code if fullname == self.name else super().get_code(fullname)
+
+
+class Finder:
+    """Finds one module with its change."""
+
+    def __init__(self, mutant: Mutant) -> None:
+        """Look for ``mutant`` alone."""
+        self._mutant = mutant
+
+    def find_spec(self, name: str, _path: Any = None, _target: Any = None) -> Any:
+        """Return how to load it."""
+        if name != self._mutant.module:
+            return None
+        package = self._mutant.path.name == '__init__.py'
+        return spec_from_loader(name, Loader(self._mutant), is_package=package)
+
+
+class Hurry:
+    """A plugin of pytest: a failure is enough, nobody wants the smallest example."""
+
+    def pytest_sessionstart(self) -> None:
+        """Change the profile that conftest.py has loaded."""
+        phases = (Phase.explicit, Phase.generate)
+        settings.register_profile('mutation', settings(), phases=phases)
+        settings.load_profile('mutation')
+
+
+def ask(mutant: Mutant | None, tests: list[str]) -> int:
+    """Run ``tests`` with the change in this process; return what pytest returns."""
+    if mutant is not None:
+        sys.meta_path.insert(0, Finder(mutant))
+    given = ['-q', '-x', '-p', 'no:cacheprovider', '-p', 'no:xdist', f'--timeout={PATIENCE}']
+    early = ['-W', 'ignore::pytest.PytestAssertRewriteWarning']  # hypothesis is here already
+    return int(pytest.main([*given, *early, *tests], plugins=[Hurry()]))
+
+
+def verdict_of(mutant: Mutant | None, stages: list[list[str]]) -> int:
+    """Return whether a test of some stage notices the change."""
+    for tests in stages:
+        if ask(mutant, tests) not in {pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED}:
+            return KILLED
+    return SURVIVED
+
+
+def child(mutant: Mutant | None, stages: list[list[str]]) -> int:
+    """Start a process that asks the tests, stage by stage; return its number."""
+    pid = os.fork()
+    if pid:
+        return pid
+    verdict = BROKEN
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 1)
+        os.dup2(nowhere, 2)
+        verdict = verdict_of(mutant, stages)
+    finally:
+        os._exit(verdict)
+
+
+def draw(paths: list[Path], count: int, seed: int) -> list[Mutant]:
+    """Return a seeded sample of all changes of the files in ``paths``."""
+    files = [
+        file for path in paths for file in (sorted(path.rglob('*.py')) if path.is_dir() else [path])
+    ]
+    every = [Mutant(file, site) for file in files for site in sites(file.read_text())]
+    chosen = random.Random(seed).sample(every, min(count, len(every)))  # noqa: S311 - no secret
+    print(f'{len(chosen)} of {len(every)} changes in {len(files)} files, seed {seed}')
+    return chosen
+
+
+def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> list[Mutant]:
+    """Return the mutants that no test of the first ``stages`` notices."""
+    left, running, survivors = list(reversed(mutants)), {}, []
+    with Progress(console=Console(stderr=True), disable=not sys.stderr.isatty()) as progress:
+        bar = progress.add_task('Mutants', total=len(mutants))
+        while left or running:
+            while left and len(running) < jobs:
+                mutant = left.pop()
+                running[child(mutant, list(mutant.tests())[:stages])] = mutant
+            pid, status = os.wait()
+            verdict = os.waitstatus_to_exitcode(status)
+            if pid in running and verdict == BROKEN:
+                sys.exit(f'could not ask the tests of {running[pid]}: run it alone')
+            if pid in running and verdict == SURVIVED:
+                survivors.append(running[pid])
+            progress.advance(bar, pid in running)
+            running.pop(pid, None)
+    return survivors
+
+
+def passes_as_it_is(mutants: list[Mutant]) -> bool:
+    """Return whether all tests that are asked pass where nothing is changed."""
+    asked = sorted({test for mutant in mutants for tests in mutant.tests() for test in tests})
+    _, status = os.waitpid(child(None, [asked]), 0)
+    return os.waitstatus_to_exitcode(status) == SURVIVED
+
+
+def main() -> None:
+    """Draw, break, ask, and print what nobody noticed."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument('paths', nargs='*', type=Path, help='files or folders; default: the core')
+    parser.add_argument('--count', type=int, default=100)
+    parser.add_argument('--seed', type=int, default=0)
+    parser.add_argument('--most', type=int, default=0, help='survivors that are accepted')
+    parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='processes at a time')
+    parser.add_argument('--near', action='store_true', help='ask only the mirrored test file')
+    parser.add_argument('--trust', action='store_true', help='do not run the tests unchanged first')
+    given = parser.parse_args()
+    sys.path.insert(0, str(ROOT))
+    os.chdir(ROOT)
+    paths = [path.resolve() for path in given.paths]
+    mutants = draw(paths or [ROOT / 'agv_motion' / name for name in CORE], given.count, given.seed)
+    if not given.trust and not passes_as_it_is(mutants):
+        sys.exit('the tests fail as they are: launch_scripts/test says which')
+    begin = time.monotonic()
+    survivors = judge(mutants, given.jobs, 1 if given.near else None)
+    table = Table('where', 'what', 'was', title='No test notices', title_justify='left')
+    for path, site in sorted(survivors, key=lambda each: (each.path, each.site.line)):
+        table.add_row(f'{path.relative_to(ROOT)}:{site.line}', site.what, escape(site.source))
+    if survivors:
+        Console(width=None if sys.stdout.isatty() else 160).print(table)
+    print(f'{len(survivors)} of {len(mutants)} survived, {time.monotonic() - begin:.0f} s')
+    sys.exit(len(survivors) > given.most)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,110 @@
+"""How fast the direction of the twist may turn. Hand calculations: translations turn all alike."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt, tan
+
+import pytest
+
+from agv_motion.kinematics.steering import AtRest, Limiter, Rolling, SteeringLimits
+from agv_motion.kinematics.steering.chassis import measure
+from agv_motion.kinematics.steering.move import HERE, TOO_FAR, is_slow, plan_move
+from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.turrets import Turrets
+
+PAIR = Turrets([(0.5, 0.0), (-0.5, 0.0)])
+AHEAD = (1.0, 0.0, 0.0)
+FAST = {'steering_rate': 2.0, 'steering_acceleration': 1000.0, 'wheel_acceleration': 100.0}
+
+
+def plan(wanted, period=0.1, direction=AHEAD, speed=0.1, angles=(0.0, 0.0), **limits):
+    chassis = measure(PAIR, SteeringLimits(**(FAST | limits)))
+    rolling = Rolling(AtRest.at(angles).setpoints, Stance(direction, [1.0, 1.0]))
+    rolling.speed = speed
+    return plan_move(chassis, rolling, wanted, period)
+
+
+def left(angle):
+    return cos(angle), sin(angle), 0.0
+
+
+def test_nothing_is_to_be_done_where_the_direction_is_the_wanted_one():
+    assert plan(AHEAD) is HERE
+    assert plan((-1.0, 0.0, 0.0)) is TOO_FAR
+
+
+@pytest.mark.parametrize('side', [1.0, -1.0])
+def test_the_turrets_turn_as_fast_as_they_may(side):
+    move = plan(left(side))
+    assert move.velocity == pytest.approx((0.0, 2.0 * side, 0.0))
+    assert (move.arrives, move.limiter, move.free) == (False, Limiter.STEERING_RATE, ())
+
+
+def test_the_last_step_ends_at_the_wanted_direction():
+    move = plan(left(0.1))
+    assert move.velocity == pytest.approx((0.0, tan(0.1) / 0.1, 0.0))
+    assert (move.arrives, move.limiter) == (True, Limiter.NONE)
+
+
+def test_the_acceleration_limits_the_rate():
+    """An eighth of it over one radian: 1 rad/s at 8 rad/s2."""
+    move = plan(left(1.4), steering_acceleration=8.0)
+    assert move.velocity == pytest.approx((0.0, 1.0, 0.0))
+    assert move.limiter is Limiter.STEERING_ACCELERATION
+
+
+def test_it_brakes_in_time():
+    """Half of 8 rad/s2 over 0.05 rad in steps of 0.02 s: 4 (sqrt(0.01**2 + 0.1 / 4) - 0.01)."""
+    move = plan(left(0.05), period=0.02, steering_acceleration=8.0)
+    assert move.velocity[1] == pytest.approx(4.0 * (sqrt(1e-4 + 0.025) - 0.01))
+    assert move.limiter is Limiter.STEERING_ACCELERATION
+    assert not move.arrives
+
+
+def test_wheels_that_speed_up_limit_it():
+    """From forward into a turn about a point 0.5 m aside one wheel gains all that the other loses.
+
+    At 1 m/s and a wheel acceleration of 1 m/s2, of which 0.4 are for turning.
+    """
+    move = plan(
+        (0.0, cos(0.5), sin(0.5)), direction=(0.0, 1.0, 0.0), speed=1.0, wheel_acceleration=1.0,
+        angles=(pi / 2, pi / 2),
+    )  # fmt: skip
+    assert move.velocity == pytest.approx((0.0, 0.0, 0.4))
+    assert move.limiter is Limiter.WHEEL_ACCELERATION
+
+
+@pytest.mark.parametrize(('angle', 'far'), [(1.7, False), (1.8, True), (-1.7, False), (-1.8, True)])
+def test_a_turret_that_would_turn_further_had_better_be_reversed(angle, far):
+    """A quarter turn and the hysteresis of 0.2 rad are 1.77 rad; a stop once begun goes by less."""
+    assert (plan(left(angle)) is TOO_FAR) == far
+
+
+def test_a_stop_once_begun_is_reconsidered_within_the_reversal_angle_only():
+    chassis = measure(PAIR, SteeringLimits(**FAST))
+    rolling = Rolling(AtRest.at([0.0, 0.0]).setpoints, Stance(AHEAD, [1.0, 1.0]))
+    rolling.stopping = True
+    assert plan_move(chassis, rolling, left(1.6), 0.1) is TOO_FAR
+    assert plan_move(chassis, rolling, left(1.5), 0.1) is not TOO_FAR
+
+
+@pytest.mark.parametrize(('angle', 'far'), [(9.3, True), (9.2, False), (-9.3, False)])
+def test_no_turret_leaves_its_cables(angle, far):
+    move = plan(left(0.17), angles=(angle, 0.0), direction=AHEAD)
+    assert (move is TOO_FAR) == far
+
+
+def test_a_turret_at_the_centre_of_rotation_is_named_with_its_line():
+    half = sqrt(0.5)
+    move = plan((0.0, -half, half), direction=(0.0, half, half), angles=(pi / 2, 0.0))
+    assert move.free == ((1, pytest.approx(-pi / 2)),)
+
+
+@pytest.mark.parametrize(
+    ('rate', 'slow'), [(0.19, True), (-0.19, True), (0.21, False), (-0.21, False)]
+)
+def test_slow_is_what_stops_within_a_step(rate, slow):
+    """Half of 4 rad/s2 over 0.1 s."""
+    told = AtRest.at([0.0, 0.0]).setpoints
+    told.rates[1] = rate
+    assert is_slow(told, SteeringLimits(steering_acceleration=4.0), 1, 0.1) == slow
