@@ -18,7 +18,7 @@ import os
 import sys
 import time
 
-from agv_motion.simulation.traffic_episode import Episode, EpisodeParameters, Outcome
+from agv_motion.simulation.traffic_episode import Episode, EpisodeOutcome, EpisodeParameters
 
 MOST_STAND = 1800.0
 """[s]"""
@@ -30,13 +30,13 @@ def episode(seed: int) -> EpisodeParameters:
     return EpisodeParameters(seed=seed, seconds=5400.0 if calm else 1800.0, calm=calm)
 
 
-def play(seed: int) -> tuple[EpisodeParameters, Outcome]:
+def play(seed: int) -> tuple[EpisodeParameters, EpisodeOutcome]:
     """Return an episode and what came of it."""
     given = episode(seed)
     return given, Episode(given).run()
 
 
-def kept(given: EpisodeParameters, outcome: Outcome) -> bool:
+def kept(given: EpisodeParameters, outcome: EpisodeOutcome) -> bool:
     """Return whether all held that must."""
     walks = not given.calm or outcome.longest_stand <= MOST_STAND
     return outcome.least_gap >= 0.0 and walks

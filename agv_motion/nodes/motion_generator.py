@@ -12,7 +12,7 @@ from std_srvs.srv import SetBool, Trigger
 from agv_motion.blocked import BlockedGuard
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.sap_flow import SapFlow, checked_sap_flow
-from agv_motion.motion.command.limits import Limited, Limits
+from agv_motion.motion.command.limits import CommandLimits, Limited
 from agv_motion.motion.command.polar import to_twist
 from agv_motion.motion.navigation.navigator import StraightNavigator
 from agv_motion.motion.navigation.path_follower import PathFollower
@@ -66,7 +66,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._agent = Agent(planner, given.agent())
         self._pilot = Pilot(self._agent, PathFollower(planner) if planner else StraightNavigator())
         self._exchange = self._join(given) if given.share_zone else None
-        self._limits = Limits.of(given.limits)
+        self._limits = CommandLimits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
         self._valid = True

@@ -27,7 +27,7 @@ NARROW = 0.2
 """[m] margin indoors"""
 
 
-class Plan(NamedTuple):
+class ZonePlan(NamedTuple):
     """What a zone is made of."""
 
     boundary: Ring
@@ -40,12 +40,12 @@ class Plan(NamedTuple):
         return Zone(self.boundary, self.holes, margin=self.margin, home=home, rim=PLATFORM_RADIUS)
 
 
-def square(_: random.Random) -> Plan:
+def square(_: random.Random) -> ZonePlan:
     """Return the outdoor zone: 300 m2 of beaten earth, nothing on it."""
-    return Plan(_box(0.0, 0.0, 20.0, 15.0), [])
+    return ZonePlan(_box(0.0, 0.0, 20.0, 15.0), [])
 
 
-def garden(chance: random.Random) -> Plan:
+def garden(chance: random.Random) -> ZonePlan:
     """Return 300 m2 with a pond and two benches somewhere on it."""
     width = chance.uniform(15.0, 22.0)
     depth = 300.0 / width
@@ -54,36 +54,36 @@ def garden(chance: random.Random) -> Plan:
         x = chance.uniform(2.5, width - 2.5 - size)
         y = chance.uniform(2.5, depth - 2.5 - size)
         holes.append(_box(x, y, x + size, y + size * chance.uniform(0.3, 1.0)))
-    return Plan(_box(0.0, 0.0, width, depth), holes)
+    return ZonePlan(_box(0.0, 0.0, width, depth), holes)
 
 
-def hall(chance: random.Random) -> Plan:
+def hall(chance: random.Random) -> ZonePlan:
     """Return the indoor zone: 50 m2 of concrete with a column near a wall."""
     x, y = chance.uniform(4.0, 5.4), chance.uniform(3.2, 4.0)
-    return Plan(_box(0.0, 0.0, 10.0, 5.0), [_box(x, y, x + 0.6, y + 0.6)], NARROW)
+    return ZonePlan(_box(0.0, 0.0, 10.0, 5.0), [_box(x, y, x + 0.6, y + 0.6)], NARROW)
 
 
-def rooms(chance: random.Random) -> Plan:
+def rooms(chance: random.Random) -> ZonePlan:
     """Return two rooms of 7 m and 8 m, joined by a door of the least width."""
     door = chance.uniform(0.3, 6.7 - DOOR)
     wall = [
         _box(7.0, 0.0, 7.0 + WALL, door),
         _box(7.0, door + DOOR, 7.0 + WALL, 7.0),
     ]
-    return Plan(_box(0.0, 0.0, 15.0, 7.0), wall, TIGHT)
+    return ZonePlan(_box(0.0, 0.0, 15.0, 7.0), wall, TIGHT)
 
 
-def house(chance: random.Random) -> Plan:
+def house(chance: random.Random) -> ZonePlan:
     """Return three rooms in a row, joined by two doors of the least width."""
     walls = []
     for x in (6.5, 13.0):
         door = chance.uniform(0.3, 7.7 - DOOR)
         walls.append(_box(x, 0.0, x + WALL, door))
         walls.append(_box(x, door + DOOR, x + WALL, 8.0))
-    return Plan(_box(0.0, 0.0, 20.0, 8.0), walls, TIGHT)
+    return ZonePlan(_box(0.0, 0.0, 20.0, 8.0), walls, TIGHT)
 
 
-ZONES: dict[str, Callable[[random.Random], Plan]] = {
+ZONES: dict[str, Callable[[random.Random], ZonePlan]] = {
     'square': square,
     'garden': garden,
     'hall': hall,
@@ -95,7 +95,7 @@ MOST_TREES = {'square': 5, 'garden': 3, 'hall': 2, 'rooms': 2, 'house': 2}
 """How many trees a zone of each kind gets at the most."""
 
 
-def plan_of(kind: str, seed: int) -> Plan:
+def plan_of(kind: str, seed: int) -> ZonePlan:
     """Return a plan of a kind of :data:`ZONES`, all of whose walkable floor hangs together.
 
     Raises:

@@ -49,7 +49,7 @@ class EpisodeParameters:
         check(self)
 
 
-class Outcome(NamedTuple):
+class EpisodeOutcome(NamedTuple):
     """What came of an episode."""
 
     least_gap: float
@@ -114,11 +114,11 @@ class Episode:
         self.least_gap = inf
         self.starts, self.parkings, self.wrong_fixes = count, 0, 0
 
-    def run(self) -> Outcome:
+    def run(self) -> EpisodeOutcome:
         """Let the time pass."""
         while self.now < self.parameters.seconds:
             self.step()
-        return Outcome(
+        return EpisodeOutcome(
             self.least_gap,
             max(tree.walker.longest_stand for tree in self.trees),
             sum(tree.walker.arrivals for tree in self.trees),

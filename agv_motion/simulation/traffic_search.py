@@ -70,7 +70,7 @@ _Act = Callable[[RightOfWay], object]
 SETTLES = 'settles'
 
 
-class Found(NamedTuple):
+class SearchOutcome(NamedTuple):
     """What a search came to."""
 
     states: int
@@ -128,7 +128,7 @@ class Search:
         self._start = start
         self._before = {tree.name: tree._number for tree in start.trees}  # noqa: SLF001
 
-    def run(self) -> Found:
+    def run(self) -> SearchOutcome:
         """Look at all states that can be reached, the nearest first."""
         queue: deque[tuple[_State, tuple[str, ...]]] = deque([(self._start, ())])
         seen = {self._start.key()}
@@ -136,15 +136,15 @@ class Search:
             state, past = queue.popleft()
             for event, following in self._steps(state):
                 if event.endswith(SETTLES) and _breached(following):
-                    return Found(len(seen), self._granted, (*past, event), complete=False)
+                    return SearchOutcome(len(seen), self._granted, (*past, event), complete=False)
                 key = following.key()
                 if key in seen:
                     continue
                 if len(seen) >= self.parameters.states:
-                    return Found(len(seen), self._granted, (), complete=False)
+                    return SearchOutcome(len(seen), self._granted, (), complete=False)
                 seen.add(key)
                 queue.append((following, (*past, event)))
-        return Found(len(seen), self._granted, (), complete=True)
+        return SearchOutcome(len(seen), self._granted, (), complete=True)
 
     # What may happen next
 

@@ -168,7 +168,8 @@ class Agent:
             return self._outside(here, flow, asleep=asleep)
         if self.memory is not None and not asleep:
             self.memory.update(time, *here, flow.s3)
-        if not self._homing.why and self._homing.is_due(time, here, hour.until):
+        closes = hour.until < inf and not self._homing.why
+        if closes and self._homing.is_due(time, here, hour.until):
             self.go_home(f'closing at {self._schedule.clock(hour.until)}')
         if self._homing.why:
             return self._go_home(here, flow)
@@ -275,7 +276,12 @@ class Agent:
 
     def _go(self, goal: Goal, speed: float, rotation: float) -> Decision:
         return Decision(
-            f'walking to {goal.reason}', goal, goal.place, speed, rotation, rules=self._rules
+            f'walking to {goal.reason}',
+            goal,
+            (goal.x, goal.y),
+            speed,
+            rotation,
+            rules=self._rules,
         )
 
     def _turn(self, flow: SapFlow, activity: str) -> Decision:

@@ -30,7 +30,7 @@ class HomeParameters:
     ] = 0.5
     arrival: Annotated[float, Spec('distance at which it is home', 'm', (0.02, 100.0))] = 0.3
     spare: Annotated[
-        float, Spec('how long before closing it wants to be there', 'min', (0.0, 600.0))
+        float, Spec('time before closing at which it wants to be there', 'min', (0.0, 600.0))
     ] = 10.0
     outside: Annotated[
         str,

@@ -44,12 +44,16 @@ class MemoryParameters:
     cell: Annotated[float, Spec('edge of a cell of the two maps', 'm', (0.05, 10.0))] = 0.25
     reach: Annotated[
         float,
-        Spec('cells so near to the trunk count as visited; 0: under the platform', 'm', (0, 100)),
+        Spec(
+            'distance from the trunk within which cells count as visited; 0: under the platform',
+            'm',
+            (0, 100),
+        ),
     ] = 0.0
     half_life: Annotated[
         float,
         Spec(
-            'remembered sap flow fades to the mean of all, half of it in so long; 0: never',
+            'time in which half of the remembered sap flow fades to the mean of all; 0: never',
             'h',
             (0.0, 1e5),
         ),

@@ -29,9 +29,14 @@ class ScheduleParameters:
     closes: Annotated[str, Spec('local time, HH:MM; before opens: on the next day')] = '18:00'
     days: Annotated[tuple[str, ...], Spec('on which it opens', choices=DAYS)] = DAYS[:6]
     night_start: Annotated[
-        float, Spec('the probes calibrate from here, local solar time', 'h', (0.0, 24.0))
+        float,
+        Spec(
+            'start of the hours in which the probes calibrate, local solar time', 'h', (0.0, 24.0)
+        ),
     ] = 2.0
-    night_end: Annotated[float, Spec('... to here; the tree rests', 'h', (0.0, 24.0))] = 7.0
+    night_end: Annotated[
+        float, Spec('end of these hours; the tree rests until then', 'h', (0.0, 24.0))
+    ] = 7.0
     solar_offset: Annotated[
         float, Spec('local solar time minus UTC, longitude / 15', 'h', (-14.0, 14.0))
     ] = 0.0

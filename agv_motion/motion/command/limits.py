@@ -58,7 +58,7 @@ class FloorRules(NamedTuple):
     """largest v"""
 
 
-class Limit(Protocol):
+class CommandLimit(Protocol):
     """One limit; it may remember the last command it has given."""
 
     name: str
@@ -81,18 +81,18 @@ class Limited(NamedTuple):
 STOP = Limited(STILL, ())
 
 
-class Limits:
+class CommandLimits:
     """All limits, in their order."""
 
-    def __init__(self, limits: Sequence[Limit]) -> None:
+    def __init__(self, limits: Sequence[CommandLimit]) -> None:
         """Start at rest."""
         self._limits = limits
         self._last = STILL
 
     @classmethod
-    def of(cls, given: LimitParameters) -> Limits:
+    def of(cls, given: LimitParameters) -> CommandLimits:
         """Return the limits that parameters ask for."""
-        limits: list[Limit] = [SlowPlace(), TranslationOnly()]
+        limits: list[CommandLimit] = [SlowPlace(), TranslationOnly()]
         if given.minimum:
             limits.insert(0, MinimumSpeed(given.minimum))
         if given.v_rate:

@@ -32,7 +32,7 @@ DEGREES = 1.0
 """No zone is so small in metres; one in degrees is smaller yet."""
 
 
-class Outline:
+class ZoneDrawing:
     """What a file says of a zone, each part with its place."""
 
     def __init__(self, file: Marked) -> None:
@@ -122,30 +122,30 @@ def load_zone(path: str | Path, rim: float = PLATFORM_RADIUS) -> Zone:
     """
     path = Path(path)
     if path.suffix.lower() in {'.json', '.geojson'}:
-        outline = _from_geojson(json_text.load(path, 'the zone'))
-        return outline.zone(rim, may_be_degrees=True)
+        drawing = _from_geojson(json_text.load(path, 'the zone'))
+        return drawing.zone(rim, may_be_degrees=True)
     return _from_yaml(yaml_text.load(path, 'the zone')).zone(rim, may_be_degrees=False)
 
 
-def _from_yaml(file: Marked) -> Outline:
+def _from_yaml(file: Marked) -> ZoneDrawing:
     content = file.value
     if not isinstance(content, dict) or 'boundary' not in content or set(content) - set(KEYS):
         _unknown(file)
-    outline = Outline(file)
+    drawing = ZoneDrawing(file)
     for key, (_, value) in file.mapping('the zone').items():
         if value.value is None and key in {'holes', 'translation_only', 'home'}:
             continue
         if key not in {'holes', 'translation_only'}:
-            setattr(outline, key, value)
+            setattr(drawing, key, value)
         else:
             try:
-                setattr(outline, key, value.items(key))
+                setattr(drawing, key, value.items(key))
             except ConfigurationError as error:
                 raise as_kind(error, GeometryError) from error
-    return outline
+    return drawing
 
 
-def _from_geojson(file: Marked) -> Outline:
+def _from_geojson(file: Marked) -> ZoneDrawing:
     """Return the features of a drawing.
 
     Raises:
@@ -154,7 +154,7 @@ def _from_geojson(file: Marked) -> Outline:
     """
     whole = file.mapping('the drawing')
     features = whole['features'][1].items('features') if 'features' in whole else [file]
-    outline = Outline(file)
+    drawing = ZoneDrawing(file)
     for number, feature in enumerate(features, 1):
         found = feature.mapping(f'feature {number}')
         properties = _inner(found, 'properties')
@@ -162,7 +162,7 @@ def _from_geojson(file: Marked) -> Outline:
         geometry = _inner(found, 'geometry') if 'geometry' in found else found
         form = geometry['type'][1].value if 'type' in geometry else None
         known = isinstance(kind, str) and kind in KINDS and form == KINDS[kind]
-        if not known or (kind == 'zone' and outline.boundary) or 'coordinates' not in geometry:
+        if not known or (kind == 'zone' and drawing.boundary) or 'coordinates' not in geometry:
             expected = (
                 'expected one Polygon of kind zone, Polygons of kind translation_only, a Point of '
                 'kind home, each with coordinates'
@@ -171,15 +171,15 @@ def _from_geojson(file: Marked) -> Outline:
             feature.refuse(f'{got}: {expected}', f'feature {number}: {expected}')
         coordinates = geometry['coordinates'][1]
         if kind == 'home':
-            outline.home = coordinates
+            drawing.home = coordinates
         elif kind == 'translation_only':
-            outline.translation_only += coordinates.items('coordinates')[:1]
+            drawing.translation_only += coordinates.items('coordinates')[:1]
         else:
             rings = coordinates.items('coordinates')
-            outline.boundary, outline.holes = (rings or [coordinates])[0], rings[1:]
+            drawing.boundary, drawing.holes = (rings or [coordinates])[0], rings[1:]
             for key in {'margin', 'clearance_from'} & set(properties):
-                setattr(outline, key, properties[key][1])
-    return outline
+                setattr(drawing, key, properties[key][1])
+    return drawing
 
 
 def _inner(found: Entries, key: str) -> Entries:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.command.limits import FloorRules, LimitParameters, Limits
+from agv_motion.motion.command.limits import CommandLimits, FloorRules, LimitParameters
 from agv_motion.motion.command.polar import STILL, PolarCommand, checked
 from agv_motion.planar import wrap
 
@@ -23,7 +23,7 @@ STEPS = st.lists(st.tuples(COMMANDS, st.floats(0.0, 3.0)), min_size=1, max_size=
 
 
 def limits(**parameters):
-    return Limits.of(LimitParameters(**parameters))
+    return CommandLimits.of(LimitParameters(**parameters))
 
 
 def test_no_limit_changes_nothing_and_none_is_named():
@@ -33,7 +33,7 @@ def test_no_limit_changes_nothing_and_none_is_named():
 
 @given(PARAMETERS, STEPS)
 def test_no_rate_is_ever_exceeded(given_, steps):
-    chain, last = Limits.of(given_), STILL
+    chain, last = CommandLimits.of(given_), STILL
     for wanted, dt in steps:
         command, _ = chain.apply(wanted, FREE, dt)
         checked(command)
@@ -49,7 +49,7 @@ def test_no_rate_is_ever_exceeded(given_, steps):
 
 @given(PARAMETERS, STEPS, COMMANDS.filter(lambda c: c.v > 0.0))
 def test_the_wanted_command_is_reached_and_kept(given_, steps, wanted):
-    chain = Limits.of(given_)
+    chain = CommandLimits.of(given_)
     for other, dt in steps:
         chain.apply(other, FREE, dt)
     for _ in range(800):
@@ -62,7 +62,7 @@ def test_the_wanted_command_is_reached_and_kept(given_, steps, wanted):
 
 @given(PARAMETERS, STEPS, st.floats(0.0, 1.0))
 def test_a_stop_passes_at_once(given_, steps, dt):
-    chain = Limits.of(given_)
+    chain = CommandLimits.of(given_)
     for wanted, step in steps:
         chain.apply(wanted, FREE, step)
     assert chain.apply(STILL, FREE, dt) == (STILL, ())

@@ -85,7 +85,7 @@ class Needs:
         return Blocked(piece, blocker)
 
     def step(self, piece: Path, spare: float) -> Blocked:
-        """Return how much of ``piece`` the tree may walk, whatever floor it was granted.
+        """Return how much of ``piece`` the tree may go, whatever floor it was granted.
 
         No step leads nearer to floor that another may hold, or to where it stands, than the
         clearance, unless it leads away. This is the last guard: it stops a tree where a promise

@@ -19,19 +19,21 @@ class TrafficParameters:
         0.2
     )
     tolerance: Annotated[
-        float, Spec('a tree may be off its way by so much: errors of position', 'm', (0.01, 10.0))
+        float,
+        Spec('largest distance of a tree from its path: errors of position', 'm', (0.01, 10.0)),
     ] = 0.3
     silent_after: Annotated[
-        float, Spec('a tree not heard for longer is silent: keep off its side', 's', (1.0, 3600.0))
+        float,
+        Spec('time after which a tree not heard is silent: keep off its side', 's', (1.0, 3600.0)),
     ] = 30.0
     listen: Annotated[
-        float, Spec('listen for so long who is there before the first move', 's', (0.0, 3600.0))
+        float, Spec('time to listen who is there before the first move', 's', (0.0, 3600.0))
     ] = 5.0
     expected: Annotated[
         tuple[str, ...], Spec('trees that must have been heard before the first move')
     ] = ()
     patience: Annotated[
-        float, Spec('blocked for longer, look for another goal', 's', (10.0, 1200.0))
+        float, Spec('time after which a blocked tree looks for another goal', 's', (10.0, 1200.0))
     ] = 120.0
 
     def __post_init__(self) -> None:

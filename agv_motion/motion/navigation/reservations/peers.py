@@ -18,7 +18,7 @@ from agv_motion.motion.navigation.reservations.reservation import (
     Answer,
     MessageId,
     Reservation,
-    Verdict,
+    Ruling,
 )
 from agv_motion.motion.navigation.reservations.separation import apart, keeps_away
 from agv_motion.motion.navigation.reservations.sides import Sides
@@ -138,7 +138,7 @@ class Peer:
 
     def objection(
         self, piece: Path, asked_in: int | None, clearance: float, precedence: tuple[int, str]
-    ) -> Verdict:
+    ) -> Ruling:
         """Return what it has against ``piece``, which this tree requests.
 
         Args:
@@ -156,11 +156,11 @@ class Peer:
         if self.silent:
             allowed = self.sides is not None and self.sides.allow(piece, clearance)
             silent = f'{reservation.name}, which is silent'
-            return GRANTED if allowed else Verdict(Answer.TAKEN, silent)
+            return GRANTED if allowed else Ruling(Answer.TAKEN, silent)
         if not clear or not (first or apart(line(piece), reservation.requested_line, clearance)):
-            return Verdict(Answer.TAKEN, reservation.name)
+            return Ruling(Answer.TAKEN, reservation.name)
         if asked_in is None or not self.answered(asked_in):
-            return Verdict(Answer.PENDING, reservation.name)
+            return Ruling(Answer.PENDING, reservation.name)
         return GRANTED
 
     def floors(self) -> list[Floor]:

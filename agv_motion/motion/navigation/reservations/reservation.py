@@ -167,7 +167,7 @@ class Answer(Enum):
     ALARM = 'stands:'
 
 
-class Verdict(NamedTuple):
+class Ruling(NamedTuple):
     """What came of a request, and through whom."""
 
     answer: Answer
@@ -178,7 +178,7 @@ class Verdict(NamedTuple):
         return f'{self.answer.value} {self.name}'.rstrip()
 
 
-GRANTED = Verdict(Answer.GRANTED)
+GRANTED = Ruling(Answer.GRANTED)
 
 UNHEARD = (
     'which has not spoken since this tree started: start it, or where it is gone for good take it '

@@ -47,7 +47,7 @@ import secrets
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line
+from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line, nearest
 from agv_motion.motion.navigation.reservations.doubt import jumped
 from agv_motion.motion.navigation.reservations.peers import Peer, Peers
 from agv_motion.motion.navigation.reservations.reservation import (
@@ -57,7 +57,7 @@ from agv_motion.motion.navigation.reservations.reservation import (
     Answer,
     MessageId,
     Reservation,
-    Verdict,
+    Ruling,
 )
 
 if TYPE_CHECKING:
@@ -66,7 +66,6 @@ if TYPE_CHECKING:
     from agv_motion.motion.navigation.polyline import Point
     from agv_motion.motion.navigation.reservations.doubt import Doubt
     from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-
 
 MOST_PEERS = 100
 """[1] other trees in one zone"""
@@ -187,10 +186,12 @@ class RightOfWay:
 
         """
         given, before = self.parameters, self.doubt
-        if before is None:
-            doubt = jumped(self.held, place, given.tolerance, now)
+        if before is not None:
+            doubt: Doubt | None = before.seen(place, given.tolerance, now)
+        elif nearest(self.held, place)[1] <= given.tolerance:
+            return True
         else:
-            doubt = before.seen(place, given.tolerance, now)
+            doubt = jumped(self.held, place, given.tolerance, now)
         if doubt is not None and not fresh:
             doubt = doubt._replace(since=now)
         if doubt is not None and now - doubt.since > given.silent_after:
@@ -255,7 +256,7 @@ class RightOfWay:
         """Length of the path it holds [m]."""
         return length(self.held)
 
-    def settle(self, now: float) -> Verdict:
+    def settle(self, now: float) -> Ruling:
         """Add what is asked for to what is held, if no other tree objects.
 
         Args:
@@ -266,25 +267,22 @@ class RightOfWay:
             return GRANTED
         self._begun = now if self._begun is None else self._begun
         if now - self._begun < self.parameters.listen:
-            return Verdict(Answer.LISTENING)
+            return Ruling(Answer.LISTENING)
         if why := self.obstacle(now):
-            return Verdict(Answer.ALARM, why)
+            return Ruling(Answer.ALARM, why)
         self.peers.judge(now, self._held_line, self._moved_since)
-        verdicts = [
+        rulings = [
             peer.objection(
                 self.requested, self._requested_since, self.clearance(peer), self.precedence
             )
             for peer in self.peers
         ]
-        verdicts += [
-            Verdict(Answer.PENDING, f'{name}, {UNHEARD}')
-            for name in self.awaited
-            if name not in self.peers
-        ]
+        unheard = [name for name in self.awaited if name not in self.peers]
+        rulings += [Ruling(Answer.PENDING, f'{name}, {UNHEARD}') for name in unheard]
         for answer in (Answer.TAKEN, Answer.PENDING):
-            for verdict in verdicts:
-                if verdict.answer is answer:
-                    return verdict
+            against = next((ruling for ruling in rulings if ruling.answer is answer), None)
+            if against is not None:
+                return against
         self._hold(joined(self.held, self.requested))
         self._set_request(())
         return GRANTED

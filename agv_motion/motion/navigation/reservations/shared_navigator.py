@@ -42,7 +42,7 @@ STUCK = 5.0
 """[s] without floor ahead after which another path is sought, and time between two searches."""
 
 LONG_WAY = 60.0
-"""[s] A detour of more than twice the length is taken only when stuck for so long."""
+"""[s] A detour of more than twice the length is taken only when stuck for this time."""
 
 CHECK_PERIOD = 1.0
 """[s] between two looks whether any path leads to the goal: the tree may have been carried."""
@@ -290,11 +290,11 @@ class SharedNavigator:
         right = self.right
         if not right.requested:
             return
-        verdict = right.settle(now)
-        if verdict.answer is Answer.GRANTED:
+        ruling = right.settle(now)
+        if ruling.answer is Answer.GRANTED:
             self._route = self._after_piece
             self._reason = ''
         else:
-            self._reason = str(verdict)
-            if verdict.answer is Answer.TAKEN:
+            self._reason = str(ruling)
+            if ruling.answer is Answer.TAKEN:
                 right.withdraw()

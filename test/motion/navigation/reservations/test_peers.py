@@ -65,16 +65,16 @@ def test_a_peer_not_heard_for_long_is_silent_and_sides_are_agreed_if_it_knew_of_
 def test_an_objection_is_that_floor_is_taken_or_that_no_answer_has_come():
     mine = (1, 'oak')
 
-    def verdict(message, asked_in=5, precedence=mine):
+    def ruling(message, asked_in=5, precedence=mine):
         return heard(message)[1].objection(AHEAD, asked_in, 1.2, precedence)
 
-    assert verdict(ash(1, knows=5)) == GRANTED
-    assert verdict(ash(1, knows=4)).answer is Answer.PENDING
-    assert verdict(ash(1, knows=5), asked_in=None).answer is Answer.PENDING
-    assert verdict(ash(1, knows=5, x=2.0)).answer is Answer.TAKEN
+    assert ruling(ash(1, knows=5)) == GRANTED
+    assert ruling(ash(1, knows=4)).answer is Answer.PENDING
+    assert ruling(ash(1, knows=5), asked_in=None).answer is Answer.PENDING
+    assert ruling(ash(1, knows=5, x=2.0)).answer is Answer.TAKEN
     crossing = {'requested': ((10.0, 0.0), (1.0, 0.0)), 'knows': 5}
-    assert verdict(ash(1, journey=2, **crossing)) == GRANTED
-    assert verdict(ash(1, journey=1, **crossing)).answer is Answer.TAKEN
+    assert ruling(ash(1, journey=2, **crossing)) == GRANTED
+    assert ruling(ash(1, journey=1, **crossing)).answer is Answer.TAKEN
 
 
 def test_who_is_parked_and_knows_of_this_tree_needs_no_answer():

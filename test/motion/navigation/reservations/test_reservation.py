@@ -13,7 +13,7 @@ from agv_motion.motion.navigation.reservations.reservation import (
     Answer,
     MessageId,
     Reservation,
-    Verdict,
+    Ruling,
 )
 
 
@@ -61,7 +61,7 @@ def test_what_it_may_hold_by_now_is_what_it_holds_and_requests():
     assert both.planned_line.is_empty
 
 
-def test_a_verdict_in_words():
+def test_a_ruling_in_words():
     assert str(GRANTED) == 'granted'
-    assert str(Verdict(Answer.TAKEN, 'ash')) == 'waits for ash'
-    assert str(Verdict(Answer.LISTENING)) == 'listens who else is there'
+    assert str(Ruling(Answer.TAKEN, 'ash')) == 'waits for ash'
+    assert str(Ruling(Answer.LISTENING)) == 'listens who else is there'
