@@ -33,5 +33,5 @@ def test_each_has_a_comment_where_a_user_chooses_it(name):
 
 
 def test_another_name_is_refused():
-    with pytest.raises(ConfigurationError, match='choose one of fixed, memory, straight'):
+    with pytest.raises(ConfigurationError, match=f'choose one of {", ".join(STRATEGIES)}'):
         GoalParameters(strategy='best')
