@@ -193,7 +193,7 @@ def process_rows() -> list[Row]:
     code = (
         'import time; begin = time.perf_counter()\n'
         'from pathlib import Path; import tempfile\n'
-        'from agv_motion.cli.demo_graph import DemoGraph\n'
+        'from agv_motion.demo.tree import DemoGraph\n'
         'folder = Path(tempfile.mkdtemp()) / "bag"\n'
         'graph = DemoGraph({}, "", 1, 1.0, folder)\n'
         'print(*graph.idle(begin, 20.0))\n'

@@ -26,12 +26,12 @@ from sensor_msgs.msg import JointState
 from agv_motion.bag.playback import Playback, PlaybackParameters
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.cli.recorded import parameters
-from agv_motion.cli.reprocess_bag import Plan, Transcript, reprocess
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.reprocess.one_bag import Plan, Transcript, reprocess
+from agv_motion.reprocess.recorded import parameters
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode

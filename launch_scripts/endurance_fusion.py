@@ -13,7 +13,7 @@ import sys
 from math import hypot, sqrt
 
 from agv_motion.odometry.fusion_report import State, Verdict
-from agv_motion.simulation.omni_trial import OmniTrial, TrialParameters
+from agv_motion.simulation.trials.omni import OmniTrial, TrialParameters
 from agv_motion.simulation.uwb import UwbParameters
 
 BOUND = 5.0

@@ -24,8 +24,8 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from agv_motion.simulation.season import Season, SeasonParameters, Tally
-from agv_motion.simulation.season_zones import MOST_TREES
+from agv_motion.simulation.trials.season import Season, SeasonParameters, Tally
+from agv_motion.simulation.trials.season_zones import MOST_TREES
 
 MOST_STAND = 1800.0
 """[s]"""

@@ -14,7 +14,7 @@ import sys
 
 from rich.progress import track
 
-from agv_motion.simulation.steering_trial import SteeringTrial, Worst
+from agv_motion.simulation.trials.steering import SteeringTrial, Worst
 
 STEPS = 1000
 """Of each trial, then it must settle."""

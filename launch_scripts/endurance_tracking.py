@@ -12,7 +12,7 @@ import sys
 
 from rich.progress import track
 
-from agv_motion.simulation.tracking_trial import TrackingTrial, TrackingTrialParameters
+from agv_motion.simulation.trials.tracking import TrackingTrial, TrackingTrialParameters
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 from agv_motion.trajectory.following import Following
 

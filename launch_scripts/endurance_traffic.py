@@ -18,7 +18,11 @@ import os
 import sys
 import time
 
-from agv_motion.simulation.traffic_episode import Episode, EpisodeOutcome, EpisodeParameters
+from agv_motion.simulation.trials.traffic_episode import (
+    Episode,
+    EpisodeOutcome,
+    EpisodeParameters,
+)
 
 MOST_STAND = 1800.0
 """[s]"""

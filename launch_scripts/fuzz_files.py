@@ -13,7 +13,6 @@ import numpy as np
 
 from agv_motion.bag.bag_files import find
 from agv_motion.bag.quality_of_service import OfferedQos
-from agv_motion.cli.parameter_file import load_parameters
 from agv_motion.motion.behavior.memory import Memory, MemoryParameters
 from agv_motion.motion.behavior.memory_file import restore as recall
 from agv_motion.motion.behavior.memory_file import save
@@ -24,6 +23,7 @@ from agv_motion.probe.probe import Probe, ProbeParameters
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.state_file import restore
+from agv_motion.ros.parameter_file import load_parameters
 from agv_motion.route.route_file import load_route
 from agv_motion.sequence.sequence_file import load_sequence
 

@@ -19,7 +19,7 @@ import traceback
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import agv_motion.cli
@@ -222,7 +222,7 @@ def _spawn(command: Command, folder: Path, log: Path, limit: int | None, _: Any)
 @cache
 def _imported() -> Callable[[], None]:
     """Import what any command does, so that no fork has to, and return the command."""
-    for module in iter_modules(agv_motion.cli.__path__, 'agv_motion.cli.'):
+    for module in walk_packages(agv_motion.cli.__path__, 'agv_motion.cli.'):
         importlib.import_module(module.name)
     for name in ('mcap.reader', 'rosbags.rosbag2', 'matplotlib.pyplot', 'rich.progress'):
         importlib.import_module(name)

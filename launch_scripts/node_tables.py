@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from agv_motion.cli.nodes import available
-from agv_motion.cli.parameters import markdown, parameters_of
+from agv_motion.cli.nodes.parameters import markdown
+from agv_motion.nodes.catalogue import available, parameters_of
 
 PAGE = Path(__file__).parents[1] / 'agv_motion' / 'nodes' / 'README.md'
 

@@ -13,7 +13,7 @@ import argparse
 import sys
 import time
 
-from agv_motion.simulation.traffic_search import EVENTS, Search, SearchParameters
+from agv_motion.simulation.trials.traffic_search import EVENTS, Search, SearchParameters
 
 BEGINNINGS = {
     'two, anything happens': {'cells': (0, 3), 'events': EVENTS},

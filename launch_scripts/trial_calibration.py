@@ -12,7 +12,7 @@ import argparse
 import sys
 from itertools import product
 
-from agv_motion.simulation.calibration_trial import BASES, coverage
+from agv_motion.simulation.trials.calibration import BASES, coverage
 
 LEAST, MOST = 0.93, 0.97
 

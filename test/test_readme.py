@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from agv_motion.cli.nodes import available
+from agv_motion.nodes.catalogue import available
 
 ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT / 'launch_scripts'))

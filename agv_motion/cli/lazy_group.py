@@ -71,8 +71,9 @@ def lazy_group(places: dict[str, str]) -> type[TyperGroup]:
     """Return a class of groups, for ``typer.Typer(cls=...)``, with these commands.
 
     Args:
-        places: Of each name where its function, or its ``Typer``, is: ``'module:attribute'`` in
-            this package. They are listed in this order, before those that the group has itself.
+        places: Of each name where its function, or its ``Typer``, is: ``'room.module:attribute'``
+            in `agv_motion.cli`. They are listed in this order, before those that the group has
+            itself.
 
     """
 

@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from agv_motion.cli.demo_parameters import configured
+from agv_motion.demo.configured import configured
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator

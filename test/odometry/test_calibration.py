@@ -16,7 +16,7 @@ from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel,
 from agv_motion.odometry.calibration_recording import Recording
 from agv_motion.odometry.calibration_stretch import Stretch
 from agv_motion.odometry.columns import pose_columns
-from agv_motion.simulation.calibration_trial import (
+from agv_motion.simulation.trials.calibration import (
     ANGLES,
     BASES,
     DIFFERENTIAL,

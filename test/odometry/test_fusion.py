@@ -14,7 +14,7 @@ from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_parameters import FusionParameters
 from agv_motion.odometry.fusion_report import State, Verdict
 from agv_motion.planar import Pose, compose, inverse, wrap
-from agv_motion.simulation.omni_trial import OmniTrial, TrialParameters
+from agv_motion.simulation.trials.omni import OmniTrial, TrialParameters
 from agv_motion.simulation.uwb import UwbParameters
 
 KNOWN = Covariance(0.01, 0.0, 0.0, 0.01, 0.0, 0.001)

@@ -13,7 +13,7 @@ from rcl_interfaces.msg import Parameter, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from rclpy.experimental import EventsExecutor
 
-from agv_motion.cli.nodes import available
+from agv_motion.nodes.catalogue import available
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.plain_node import PlainNode

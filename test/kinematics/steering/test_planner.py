@@ -13,7 +13,7 @@ from agv_motion.errors import SignalError
 from agv_motion.kinematics.steering import AtRest, Limiter, Rolling, SteeringLimits, SteeringPlanner
 from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
 from agv_motion.planar import REST, Twist
-from agv_motion.simulation.steering_trial import SteeringTrial
+from agv_motion.simulation.trials.steering import SteeringTrial
 
 TREE = Turrets([(1.18 * cos(a), 1.18 * sin(a)) for a in (-pi / 4, pi / 4, pi)])
 LIMITS = SteeringLimits()

@@ -23,7 +23,7 @@ from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.motion.pilot import Pilot
 from agv_motion.planar import Pose, integrate
-from agv_motion.simulation.season_zones import plan_of
+from agv_motion.simulation.trials.season_zones import plan_of
 
 NOON = 1434369600.0
 """2015-06-15, a Monday, 12:00 UTC"""

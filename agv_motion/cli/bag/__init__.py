@@ -1,0 +1,1 @@
+"""`agv bag`: parsing and printing of what looks into bags."""

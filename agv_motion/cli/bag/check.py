@@ -1,0 +1,68 @@
+"""`agv bag check`: what is wrong with a bag."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from agv_motion.cli.bag.options import Bag
+from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
+
+
+def check(
+    bag: Bag,
+    *,
+    rate: Annotated[
+        list[str] | None,
+        typer.Option(help='What a topic should have, such as /odom=50 [Hz]; one per option.'),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(min=0.0, help='Share by which a rate may be off.')
+    ] = 0.1,
+    gap: Annotated[
+        float, typer.Option(min=1.0, help='A silence is so many times the usual interval.')
+    ] = 5.0,
+    strict: Annotated[bool, typer.Option('--strict', help='Warnings are errors.')] = False,
+) -> None:
+    """Look for damage, CRC errors, NaN, stamps that go back, gaps, wrong rates, changed types.
+
+    The exit status is 1 if there is an error. Silences, log times that go back and rates that
+    change are warnings; a rate other than --rate says is an error. Examples:
+
+    agv bag check walk
+
+    agv bag check walk --rate /odom=50 --rate /cmd_vel=10 --strict
+    """
+    from agv_motion.bag.check import Limits
+    from agv_motion.bag.check import check as findings
+    from agv_motion.bag.reader import BagReader
+
+    limits = Limits(_rates(rate or []), tolerance, gap)
+    counts = {'error': 0, 'warning': 0}
+    with BagReader(bag) as reader, terminal(stderr=True).status('Looking') as status:
+        for found in findings(reader, limits, lambda what: status.update(f'Looking at {what}')):
+            counts[found.severity] += 1
+            typer.echo(f'{found.severity}: {found.where}: {found.text}')
+        total = reader.message_count
+    typer.echo(
+        f'{counts["error"]} errors and {counts["warning"]} warnings in {total} messages of '
+        f'{len(reader.topics)} topics'
+    )
+    if counts['error'] or (strict and counts['warning']):
+        raise typer.Exit(1)
+
+
+def _rates(texts: list[str]) -> dict[str, float]:
+    rates = {}
+    for text in texts:
+        topic, _, number = text.rpartition('=')
+        try:
+            rates[topic] = float(number)
+        except ValueError:
+            rates[topic] = -1.0
+        if not (topic and 0.0 < rates[topic] < float('inf')):
+            msg = f"--rate '{text}': give a topic and its rate in Hz, such as /odom=50"
+            raise ConfigurationError(msg)
+    return rates

@@ -1,0 +1,29 @@
+"""`agv bag`: look into bags."""
+
+from __future__ import annotations
+
+import typer
+
+from agv_motion.cli.lazy_group import lazy_group
+
+app = typer.Typer(
+    cls=lazy_group(
+        {
+            'info': 'bag.info:info',
+            'echo': 'bag.echo:echo',
+            'hz': 'bag.rates:hz',
+            'gaps': 'bag.rates:gaps',
+            'check': 'bag.check:check',
+            'plot': 'bag.plot:plot',
+            'export': 'bag.export:export',
+            'recover': 'bag.recover:recover',
+            'diff': 'bag.diff:diff',
+        }
+    ),
+    no_args_is_help=True,
+)
+
+
+@app.callback()
+def bag() -> None:
+    """Look into bags."""

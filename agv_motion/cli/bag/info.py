@@ -1,0 +1,79 @@
+"""`agv bag info`: what is in a bag, in the form of `ros2 bag info`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from agv_motion.cli.bag.options import Bag, moment, opened
+
+if TYPE_CHECKING:
+    from agv_motion.bag.reader import BagReader
+
+_UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
+
+
+def info(
+    bag: Bag,
+    *,
+    topic_name: Annotated[
+        bool, typer.Option('-t', '--topic-name', help='Only the names of the topics.')
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option('-v', '--verbose', help='Quality of service and rates as well.')
+    ] = False,
+) -> None:
+    """Tell what is in a bag: files, times, topics with their types and counts.
+
+    Example: agv bag info walk
+    """
+    with opened(bag, validate=False) as reader:
+        if topic_name:
+            typer.echo('\n'.join(sorted(reader.topics)))
+            return
+        _head(reader)
+        _topics(reader, verbose=verbose)
+
+
+def _head(bag: BagReader) -> None:
+    files = [file.path for file in bag.files]
+    length = (bag.end - bag.start) * 1e-9
+    rows = {
+        'Files': '\n                   '.join(path.name for path in files),
+        'Bag size': _size(sum(path.stat().st_size for path in files)),
+        'Storage id': 'sqlite3' if files[0].suffix == '.db3' else 'mcap',
+        'Duration': f'{length:.9f}s',
+        'Start': moment(bag.start),
+        'End': moment(bag.end),
+        'Messages': str(bag.message_count),
+    }
+    for title, text in rows.items():
+        typer.echo(f'{title + ":":<19}{text}')
+
+
+def _topics(bag: BagReader, *, verbose: bool) -> None:
+    length = (bag.end - bag.start) * 1e-9
+    title = 'Topic information:'
+    for topic, connection in sorted(bag.topics.items()):
+        count = bag.counts[topic]
+        row = (
+            f'{title:<19}Topic: {topic} | Type: {connection.type} | Count: {count} | '
+            f'Serialization Format: {connection.encoding}'
+        )
+        if verbose:
+            row += f' | {count / length if length else 0.0:.2f} Hz'
+            row += ''.join(
+                f' | QoS: {qos.reliability}, {qos.durability}, depth {qos.depth}'
+                for qos in connection.qos
+            )
+        typer.echo(row)
+        title = ''
+
+
+def _size(size: float) -> str:
+    for unit in _UNITS:
+        if size < 1024 or unit == _UNITS[-1]:
+            break
+        size /= 1024
+    return f'{size:.0f} {unit}' if unit == 'B' else f'{size:.1f} {unit}'

@@ -1,0 +1,1 @@
+"""`agv demo`: one command a demo."""

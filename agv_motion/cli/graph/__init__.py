@@ -1,0 +1,1 @@
+"""Join the ROS graph for a moment, as the commands that look at it do."""

@@ -1,0 +1,1 @@
+"""`agv nodes`, `agv run` and `agv parameters`: the nodes of this package."""

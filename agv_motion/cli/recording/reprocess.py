@@ -1,0 +1,170 @@
+"""`agv reprocess`: the nodes of a vehicle over recorded bags, as fast as it goes."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.progress import Progress
+from rich.table import Table
+
+from agv_motion.cli.bag.options import tell
+from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from agv_motion.reprocess.one_bag import Outcome
+
+NODES = ('granier_probe', 'motion_generator', 'wheel_kinematics')
+
+
+def reprocess(
+    bags: Annotated[
+        list[Path], typer.Argument(metavar='IN... OUT', help='Bags, or folders of them; results.')
+    ],
+    *,
+    config: Annotated[
+        str, typer.Option('-c', '--config', help='Parameter file: a path, or one of config/.')
+    ] = 'tree.yaml',
+    nodes: Annotated[
+        str, typer.Option('-n', '--nodes', help='Which nodes, separated by commas.')
+    ] = ','.join(NODES),
+    namespace: Annotated[
+        str, typer.Option('--namespace', help='Of the robot, such as oak for /oak/cmd_vel.')
+    ] = '',
+    remap: Annotated[
+        list[str] | None,
+        typer.Option('-m', '--remap', help='Name in the node:=name in the bag; one per option.'),
+    ] = None,
+    compression: Annotated[str, typer.Option(help='zstd, lz4 or none.')] = 'zstd',
+    workers: Annotated[
+        int, typer.Option('-j', '--workers', min=1, help='Bags at the same time, on this machine.')
+    ] = 1,
+    scheduler: Annotated[
+        str, typer.Option(help='... or on the Dask cluster of this scheduler, as tcp://host:8786.')
+    ] = '',
+) -> None:
+    """Let the nodes decide again on what was recorded: without middleware, the same to the bit.
+
+    Nodes hear from the bag what no other node says; everything that they say goes into a new bag,
+    stamped with the time of the recording. A result appears only when it is whole, and a rerun of
+    the same makes only what is not there yet. Examples:
+    agv reprocess demo_output/bag before
+    agv reprocess demo_output/bag after --config tuned.yaml
+    agv bag diff before after
+    agv reprocess recordings/2015 results/2015 --workers 8
+    agv reprocess walk again --nodes wheel_kinematics
+    """
+    from agv_motion.reprocess.many_bags import outcomes
+    from agv_motion.reprocess.one_bag import Plan
+    from agv_motion.reprocess.recorded import node_class, parameters
+
+    *sources, target = bags
+    if not sources:
+        msg = f'give at least one bag and where to write: agv reprocess {target} RESULT'
+        raise ConfigurationError(msg)
+    chosen = tuple(name.strip() for name in nodes.split(',') if name.strip())
+    if not chosen:
+        msg = f'--nodes {nodes!r}: give at least one node; the default is {",".join(NODES)}'
+        raise ConfigurationError(msg)
+    robot = '/' + namespace.strip('/')
+    plan = Plan(config, chosen, tuple(_pair(one) for one in remap or ()), compression, robot)
+    for name in chosen:
+        node_class(name)
+        if not parameters(config, name, robot) and config:
+            typer.echo(f'note: {config} has nothing for {name}, which takes its defaults', err=True)
+    jobs = _jobs(sources, target)
+    found: list[Outcome] = []
+    with Progress(console=terminal(stderr=True), transient=True) as progress:
+        bar = progress.add_task('Reprocessing', total=len(jobs))
+
+        def show(share: float) -> None:
+            progress.update(bar, completed=len(found) + share)
+
+        with closing(outcomes(jobs, plan, workers, scheduler, show)) as coming:
+            for outcome in coming:
+                found.append(outcome)
+                show(0.0)
+    _tell(sorted(found))
+    if any(one.failure or one.lossy for one in found):
+        raise typer.Exit(1)
+
+
+def _pair(remap: str) -> tuple[str, str]:
+    """Return both names of a remapping."""
+    name, mark, other = remap.partition(':=')
+    if not (name and mark and other):
+        msg = f"remap '{remap}': give NAME:=OTHER, such as pose:=fix"
+        raise ConfigurationError(msg)
+    return name, other
+
+
+def _jobs(sources: list[Path], target: Path) -> list[tuple[Path, Path]]:
+    """Return each bag with where its result goes: in ``target``, or there itself if it is one.
+
+    Raises:
+        ConfigurationError: There is no bag, or two of the same name.
+
+    """
+    if len(sources) == 1 and (_is_bag(sources[0]) or not sources[0].is_dir()):
+        return [(sources[0], target)]
+    found = [
+        bag
+        for source in sources
+        for bag in ([source] if _is_bag(source) else sorted(filter(_is_bag, source.iterdir())))
+    ]
+    results = {target / bag.stem for bag in found}
+    if not found or len(results) < len(found):
+        what = 'two bags of the same name' if found else 'no bag'
+        msg = f'{what} in {", ".join(map(str, sources))}: give bags, or folders of bags'
+        raise ConfigurationError(msg)
+    return [(bag, target / bag.stem) for bag in found]
+
+
+def _is_bag(path: Path) -> bool:
+    if path.is_dir():
+        return any(path.glob('*.mcap*')) or any(path.glob('*.db3*'))
+    return path.suffix in {'.mcap', '.db3'}
+
+
+def _tell(found: list[Outcome]) -> None:
+    """Print what came of each bag, then what the nodes warned of."""
+    table = Table(box=None, pad_edge=False)
+    for title in ('bag', 'in', 'out', 'of time', 'took'):
+        table.add_column(title, justify='left' if title == 'bag' else 'right')
+    for one in found:
+        tell(one.problems)
+        if one.failure:
+            typer.echo(f'error: {one.source}: {one.failure}', err=True)
+            continue
+        if one.made_before:
+            table.add_row(one.source, '', 'there already', '', '')
+            continue
+        table.add_row(
+            one.source, str(one.messages_in), str(one.messages_out), f'{one.seconds:.0f} s',
+            f'{one.took:.1f} s',
+        )  # fmt: skip
+    if table.row_count:
+        terminal().print(table)
+    if any(one.simulated for one in found):
+        typer.echo('note: the time is that of /clock in the bag')
+    for missing in sorted({topic for one in found for topic in one.missing}):
+        typer.echo(
+            f'note: {missing} is not in the bag; if it has another name there, remap with -m'
+        )
+    _tell_complaints(found)
+
+
+def _tell_complaints(found: list[Outcome]) -> None:
+    complaints: dict[str, int] = {}
+    for one in found:
+        for text, count in one.complaints.items():
+            complaints[text] = complaints.get(text, 0) + count
+    for text, count in sorted(complaints.items(), key=lambda item: -item[1])[:MOST_COMPLAINTS]:
+        typer.echo(f'warning: {text}' + (f' ({count} times)' if count > 1 else ''))
+
+
+MOST_COMPLAINTS = 10
+"""that are told"""

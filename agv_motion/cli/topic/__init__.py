@@ -1,0 +1,1 @@
+"""`agv topic`: the words, options and output of `ros2 topic`."""

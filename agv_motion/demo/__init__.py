@@ -1,0 +1,1 @@
+"""The demos: whole robots on one executor, from their configuration to a bag."""

@@ -1,0 +1,96 @@
+"""Which columns of a recording the demo plays, when nobody says."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.probe.sources.csv_file import CsvParameters, load, start_of
+from agv_motion.probe.sources.csv_table import rows_of
+from agv_motion.probe.sources.recorded_time import iso
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from agv_motion.probe.sources.csv_file import Recording
+
+DAY = 86400.0
+PROBE_WORDS = ('probe', 'delta', 'dt', 'granier', 'sap', 'mv', 'volt')
+TIME_WORDS = ('time', 'date', 'stamp')
+
+
+class Excerpt(NamedTuple):
+    """Which part of a recording is played, and in what time."""
+
+    start: str
+    """ISO 8601; empty: the first stretch in which all probes are there"""
+    days: float
+    """how much is played [d]"""
+    seconds: float
+    """simulated time in which it is played [s]"""
+
+
+def recorded(path: Path, columns: list[str], unit: str, excerpt: Excerpt) -> dict[str, Any]:
+    """Return the parameters of `granier_probe` that play a part of a file.
+
+    Args:
+        path: The CSV file.
+        columns: Of the three probes, or fewer; empty: those whose names sound like probes.
+        unit: Of the columns; empty: as their names say, or mV.
+        excerpt: Which part.
+
+    Raises:
+        SourceError: The file cannot be read, or the start is not in it.
+        ConfigurationError: No column can be taken for a probe.
+
+    """
+    header = [name.strip() for row in islice(rows_of(path), 1) for name in row.cells]
+    time_column = next((n for n in header if any(w in n.lower() for w in TIME_WORDS)), '')
+    columns = columns or [
+        n for n in header if n != time_column and any(w in n.lower() for w in PROBE_WORDS)
+    ]
+    if not time_column or not columns:
+        msg = f'{path} has the columns {", ".join(header)}: name those of the probes by --columns'
+        raise ConfigurationError(msg)
+    chosen = (columns * 3)[:3]
+    given = CsvParameters(
+        file=str(path),
+        time_column=time_column,
+        columns=tuple(chosen),
+        unit=unit or _unit(chosen[0]),
+        day_offsets=tuple(float(i) if len(columns) < 3 else 0.0 for i in range(3)),
+        start=excerpt.start,
+        speed=excerpt.days * DAY / excerpt.seconds,
+    )
+    recording = load(given)
+    if not given.start:
+        given = replace(given, start=_first_complete(recording, excerpt.days))
+    start_of(given.start, recording, given.file)
+    values = {f'csv__{name}': value for name, value in asdict(given).items()}
+    return {'source': 'csv'} | {
+        name: list(value) if isinstance(value, tuple) else value for name, value in values.items()
+    }
+
+
+def _unit(column: str) -> str:
+    """Return the unit that the name of a column ends on."""
+    word = column.lower().replace('[', '_').replace(']', '').rsplit('_', 1)[-1]
+    return {'uv': 'uV', 'v': 'V', 'k': 'K', 'c': 'K', 'degc': 'K'}.get(word, 'mV')
+
+
+def _first_complete(recording: Recording, days: float) -> str:
+    """Return the first midnight from which on all probes are there, with a week before it."""
+    good = np.asarray((recording.values > 1.0).all(axis=1))
+    stamps = np.array(recording.times)
+    step = float(np.median(np.diff(stamps))) if len(stamps) > 1 else 900.0
+    midnights = np.arange(np.ceil(stamps[0] / DAY) + 1, np.floor(stamps[-1] / DAY)) * DAY
+    for history in (8.0, 2.0):
+        for midnight in midnights:
+            inside = (stamps >= midnight - history * DAY) & (stamps < midnight + days * DAY)
+            if good[inside].sum() >= 0.97 * (history + days) * DAY / step:
+                return iso(float(midnight))
+    return iso(float(stamps[0]))

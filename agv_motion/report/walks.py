@@ -1,0 +1,186 @@
+"""What several trees have done, read back from their bag: numbers, and one figure."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from rich.table import Table
+
+from agv_motion.bag.message_objects import decoded
+from agv_motion.report.figure import figure
+from agv_motion.report.stamped_columns import pose_columns
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.reader import BagReader
+    from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+    from agv_motion.motion.navigation.zone import Zone
+
+    Array = NDArray[np.float64]
+
+DOINGS = {'walks': 'tab:green', 'gives way': 'tab:orange', 'waits': 'tab:red', 'rests': '0.8'}
+"""What a tree may do, and the colour of it."""
+
+
+class Walk(NamedTuple):
+    """The walk of one tree; times in seconds since the start of the bag."""
+
+    name: str
+    time: Array
+    """(n,) of the path"""
+    path: Array
+    """(2, n) true place [m]"""
+    goals: list[tuple[float, float, float]]
+    """time, x and y [m] of each"""
+    doings: list[tuple[float, str]]
+    """from when on the tree did what, of `DOINGS`"""
+
+    def distance(self) -> float:
+        """Return the length of the way [m]."""
+        return float(np.hypot(*np.diff(self.path)).sum())
+
+    def spans(self) -> list[tuple[float, float, str]]:
+        """Return beginning, length and what, of all that the tree did."""
+        ends = [*(begin for begin, _ in self.doings[1:]), float(self.time[-1])]
+        return [
+            (begin, end - begin, what)
+            for (begin, what), end in zip(self.doings, ends, strict=False)
+        ]
+
+    def share(self, doing: str) -> float:
+        """Return the share of the time that the tree spent on ``doing``."""
+        spent = sum(length for _, length, what in self.spans() if what == doing)
+        return spent / max(float(self.time[-1]), 1e-9)
+
+
+def doing_of(state: str) -> str:
+    """Return which of `DOINGS` the state of a tree, in words, is."""
+    if ': gives way' in state:
+        return 'gives way'
+    if ': waits' in state or ': listens' in state:
+        return 'waits'
+    return 'walks' if state.startswith(('walking', 'turning', 'returning')) else 'rests'
+
+
+def read_walks(bag: BagReader, names: Sequence[str]) -> list[Walk]:
+    """Read the bag back."""
+    truths = pose_columns(bag, [f'/{name}/ground_truth' for name in names])
+    goals: dict[str, list[tuple[float, float, float]]] = {name: [] for name in names}
+    doings: dict[str, list[tuple[float, str]]] = {name: [] for name in names}
+    told = {f'/{name}/{topic}' for name in names for topic in ('goal', 'state')}
+    for message, content in decoded(bag, [topic for topic in bag.topics if topic in told]):
+        _, name, topic = message.connection.topic.split('/')
+        time = (message.stamp - bag.start) * 1e-9
+        if topic == 'goal':
+            goals[name].append((time, content.pose.position.x, content.pose.position.y))
+        else:
+            doings[name].append((time, doing_of(content.data)))
+    return [
+        Walk(name, truth.stamp - bag.start * 1e-9, truth.pose[:2], goals[name], doings[name])
+        for name, truth in zip(names, truths, strict=True)
+    ]
+
+
+def gaps(walks: Sequence[Walk], body: float) -> tuple[Array, dict[str, Array]]:
+    """Return times [s], and between each two trees the distance from rim to rim then [m].
+
+    Args:
+        walks: Of all trees.
+        body: Rim of a tree from its centre [m].
+
+    """
+    begin, end = max(w.time[0] for w in walks), min(w.time[-1] for w in walks)
+    times = np.arange(begin, end, 0.5)
+    there = {
+        walk.name: np.array([np.interp(times, walk.time, line) for line in walk.path])
+        for walk in walks
+    }
+    return times, {
+        f'{a} and {b}': np.hypot(*(there[a] - there[b])) - 2.0 * body
+        for a, b in combinations(there, 2)
+    }
+
+
+def summary(walks: Sequence[Walk]) -> Table:
+    """Return the figures of all walks as a table."""
+    table = Table(title='The walks', title_justify='left', box=None)
+    for column in ('tree', 'walked', 'goals', *DOINGS):
+        table.add_column(column, justify='left' if column == 'tree' else 'right')
+    for walk in walks:
+        shares = [f'{100.0 * walk.share(doing):.0f} %' for doing in DOINGS]
+        table.add_row(walk.name, f'{walk.distance():.1f} m', str(len(walk.goals)), *shares)
+    return table
+
+
+def nearest(walks: Sequence[Walk], traffic: TrafficParameters) -> str:
+    """Return in words which two trees came nearest to each other, and how near."""
+    _, between = gaps(walks, traffic.body)
+    pair = min(between, key=lambda pair: between[pair].min())
+    return (
+        f'{pair} came nearest: {between[pair].min():.2f} m from rim to rim; '
+        f'{traffic.margin:.2f} m are allowed'
+    )
+
+
+def draw(walks: Sequence[Walk], zone: Zone, traffic: TrafficParameters, path: Path) -> None:
+    """Draw the walks, the gaps between the trees, and what each did when, into one picture.
+
+    Raises:
+        ConfigurationError: matplotlib is not installed.
+        SourceError: The file cannot be written.
+
+    """
+    mosaic = [['map', 'gaps'], ['map', 'doings']]
+    with figure(path, mosaic, figsize=(13, 6), width_ratios=[1.25, 1]) as axes:
+        _draw_map(axes['map'], walks, zone, traffic.body)
+        _draw_gaps(axes['gaps'], walks, traffic)
+        _draw_doings(axes['doings'], walks)
+
+
+def _draw_map(axes: Any, walks: Sequence[Walk], zone: Zone, body: float) -> None:
+    """Draw the floor, the trails with the goals, and the trees where they are at the end."""
+    from matplotlib.patches import Circle
+
+    for part, style in ((zone.floor, 'k-'), *((p, 'k:') for p in zone.parts)):
+        for ring in (part.exterior, *part.interiors):
+            axes.plot(*np.array(ring.coords).T, style, lw=1)
+    for i, walk in enumerate(walks):
+        colour = f'C{i}'
+        axes.plot(*walk.path, lw=1.2, color=colour, label=walk.name)
+        axes.plot(*walk.path[:, 0], 'o', color=colour)
+        axes.add_patch(Circle(tuple(walk.path[:, -1]), body, color=colour, alpha=0.3))
+        for _, x, y in walk.goals:
+            axes.plot(x, y, 'x', color=colour)
+    west, south, east, north = zone.bounds
+    axes.set(
+        aspect='equal', xlabel='x [m]', ylabel='y [m]',
+        xlim=(west - 0.5, east + 0.5), ylim=(south - 0.5, north + 0.5),
+    )  # fmt: skip
+    axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='small', ncols=len(walks))
+
+
+def _draw_gaps(axes: Any, walks: Sequence[Walk], traffic: TrafficParameters) -> None:
+    times, between = gaps(walks, traffic.body)
+    for pair, gap in between.items():
+        axes.plot(times / 60.0, gap, lw=1.0, label=pair)
+    axes.axhline(traffic.margin, color='k', ls='--', lw=1.0, label='least allowed')
+    axes.set(ylabel='rim to rim [m]', ylim=(0.0, None), xlim=(0.0, times[-1] / 60.0))
+    axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='x-small', ncols=4)
+
+
+def _draw_doings(axes: Any, walks: Sequence[Walk]) -> None:
+    for i, walk in enumerate(walks):
+        for begin, length, what in walk.spans():
+            axes.barh(i, length / 60.0, left=begin / 60.0, color=DOINGS[what], height=0.7)
+    for what, colour in DOINGS.items():
+        axes.barh(0, 0.0, color=colour, label=what)
+    axes.set(xlabel='simulated time [min]', xlim=(0.0, max(w.time[-1] for w in walks) / 60.0))
+    axes.set_yticks(range(len(walks)), [walk.name for walk in walks])
+    axes.invert_yaxis()
+    axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), fontsize='small', ncols=len(DOINGS))

@@ -1,0 +1,194 @@
+"""Many bags at once: processes of this machine, or the workers of a Dask cluster.
+
+Whatever ends this process, no worker outlives it: at a signal they are killed at once and what they
+had begun is removed; each watches its parent, which may be killed too. A worker that dies takes one
+bag with it, and no other.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections import deque
+from contextlib import suppress
+from multiprocessing.connection import wait
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.files.unfinished import sweep
+from agv_motion.reprocess.one_bag import Abandoned, Outcome, Plan, reprocess
+from agv_motion.ros.stop import SIGNALS, end_no_more
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Iterator, Sequence
+    from multiprocessing.connection import Connection
+    from pathlib import Path
+
+    Job = tuple[Path, Path]
+
+FRESH = multiprocessing.get_context('spawn')
+
+
+def outcomes(
+    jobs: Sequence[Job],
+    plan: Plan,
+    workers: int,
+    scheduler: str,
+    tell: Callable[[float], None] | None = None,
+) -> Generator[Outcome, None, None]:
+    """Yield what came of each bag, as soon as it is known; close it, so that all workers end.
+
+    Args:
+        jobs: Each bag, and where its result goes; a cluster must see the same paths.
+        plan: What to run.
+        workers: Number of processes.
+        scheduler: Address of a Dask scheduler; empty: none.
+        tell: Called with the share of the present bag that is done, where there is one at a time.
+
+    Raises:
+        ConfigurationError: There is no ``dask.distributed``.
+        SourceError: The scheduler does not answer.
+
+    """
+    if scheduler:
+        yield from _on_cluster(jobs, plan, scheduler)
+    elif workers == 1 or len(jobs) == 1:
+        for source, target in jobs:
+            yield reprocess(source, target, plan, tell)
+    else:
+        yield from _in_processes(jobs, plan, min(workers, len(jobs)))
+
+
+class _Worker(NamedTuple):
+    """A process, and the line on which it takes bags and answers."""
+
+    process: Any
+    line: Connection
+
+
+def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Outcome]:
+    waiting = deque(jobs)
+    busy: dict[Any, tuple[_Worker, Job]] = {}
+    free: list[_Worker] = []
+    staff: list[_Worker] = []
+    try:
+        while waiting or busy:
+            while waiting and len(busy) < workers:
+                worker = free.pop() if free else _start(plan, staff)
+                job = waiting.popleft()
+                busy[worker.line] = worker, job
+                with suppress(OSError):  # it is dead: found when it does not answer
+                    worker.line.send(job)
+            for line in wait(list(busy)):
+                worker, job = busy.pop(line)
+                try:
+                    outcome = worker.line.recv()
+                except (EOFError, OSError):
+                    worker.process.join()
+                    sweep(job[1])
+                    outcome = _lost(job, f'exit status {worker.process.exitcode}')
+                else:
+                    free.append(worker)
+                yield outcome
+    except BaseException:
+        end_no_more()  # a second signal must not leave half of them
+        raise
+    finally:
+        for worker in staff:
+            worker.process.kill()
+        for worker in staff:
+            worker.process.join()
+        for _, (_, target) in busy.values():
+            sweep(target)
+
+
+def _start(plan: Plan, staff: list[_Worker]) -> _Worker:
+    """Start a process and add it to ``staff``, both or none, whatever signal comes meanwhile."""
+    line, end = FRESH.Pipe()
+    process = FRESH.Process(target=_work, args=(end, plan), daemon=True)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        process.start()
+        staff.append(_Worker(process, line))
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    end.close()
+    return staff[-1]
+
+
+def _work(line: Connection, plan: Plan) -> None:
+    """Reprocess what comes on the line, until its other end is gone.
+
+    Born with all signals blocked: Ctrl-C reaches all processes of a terminal, and is the parent's
+    to heed.
+    """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with suppress(EOFError, OSError):
+        while True:
+            source, target = line.recv()
+            line.send(reprocess(source, target, plan))
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
+
+
+def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Outcome]:
+    try:
+        import distributed
+    except ImportError as error:
+        msg = f"a cluster needs dask.distributed: pip install 'agv_motion[cluster]' ({error})"
+        raise ConfigurationError(msg) from error
+    try:
+        client = distributed.Client(scheduler, timeout='10s')
+    except (OSError, ValueError) as error:
+        msg = f'the Dask scheduler {scheduler} does not answer: {error}; start dask scheduler there'
+        raise SourceError(msg) from error
+    with client:
+        waiting = {
+            client.submit(_on_worker, source.resolve(), target.absolute(), plan, pure=False): (
+                source,
+                target,
+            )
+            for source, target in jobs
+        }
+        try:
+            for future in distributed.as_completed(waiting):
+                death = future.exception()
+                if death is None:
+                    outcome = future.result()
+                else:
+                    sweep(waiting[future][1])
+                    outcome = _lost(waiting[future], death)
+                yield outcome._replace(source=str(waiting[future][0]))
+        finally:
+            client.cancel([future for future in waiting if not future.done()], force=True)
+
+
+def _on_worker(source: Path, target: Path, plan: Plan) -> Outcome:
+    """Reprocess a bag on a worker of the cluster, as long as somebody waits for it."""
+    from distributed import get_worker
+
+    worker = get_worker()
+    key = worker.get_current_task()
+
+    def look(_: float) -> None:
+        task = worker.state.tasks.get(key)
+        if task is None or task.state == 'cancelled':
+            raise Abandoned
+
+    return reprocess(source, target, plan, look)
+
+
+def _lost(job: Job, reason: object) -> Outcome:
+    """Return the outcome of a bag whose worker died."""
+    if isinstance(reason, BaseException):
+        reason = f'{type(reason).__name__} {reason}'
+    return Outcome(str(job[0]), failure=f'its worker ended: {reason}; run again to complete')

@@ -1,0 +1,233 @@
+"""The nodes of a vehicle over one recorded bag, without middleware."""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+from itertools import islice
+from math import inf
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.errors import AgvMotionError
+from agv_motion.files.unfinished import beside
+from agv_motion.reprocess import provenance
+from agv_motion.reprocess.bag_clock import BagClock
+from agv_motion.reprocess.recorded import node_class, parameters
+from agv_motion.ros.config import find_config
+from agv_motion.ros.endpoints import offer
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
+from agv_motion.ros.in_process_port import full_name
+from agv_motion.ros.in_process_topic import InProcessEnd, InProcessRowPublisher
+from agv_motion.ros.messages import type_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+    from pathlib import Path
+
+    from agv_motion.bag.connection import Message
+
+
+NONE: dict[str, int] = {}
+
+
+class Plan(NamedTuple):
+    """What to run over each bag."""
+
+    config: str
+    """YAML file of parameters, as the nodes take it live"""
+    nodes: tuple[str, ...]
+    """in the order in which they start"""
+    remap: tuple[tuple[str, str], ...]
+    """names of topics, relative ones in the namespace: as a node has it, as the bag has it"""
+    compression: str
+    namespace: str = '/'
+    """of the nodes, such as ``/oak``"""
+
+    def names(self) -> dict[str, str]:
+        """Return the remapping by full names."""
+        return {full_name(a, self.namespace): full_name(b, self.namespace) for a, b in self.remap}
+
+
+class Outcome(NamedTuple):
+    """What came of one bag."""
+
+    source: str
+    messages_in: int = 0
+    messages_out: int = 0
+    seconds: float = 0.0
+    """time that passed in the bag [s]"""
+    took: float = 0.0
+    """time that it took [s]"""
+    missing: tuple[str, ...] = ()
+    """inputs that the bag does not have"""
+    complaints: Mapping[str, int] = NONE
+    """warnings of the nodes, and how often"""
+    failure: str = ''
+    """why there is no result; empty if there is"""
+    made_before: bool = False
+    """whether an earlier run has made the same"""
+    simulated: bool = False
+    """whether the time was that of `/clock` in the bag"""
+    problems: tuple[str, ...] = ()
+    """what is amiss in the bag"""
+    lossy: bool = False
+    """whether something that the bag should hold could not be read"""
+
+
+class Abandoned(BaseException):
+    """Nobody waits for the result any more; like KeyboardInterrupt, no error of the bag."""
+
+
+class Transcript:
+    """What the nodes of a graph say, in a bag; each topic begins with its first message.
+
+    Messages are written many together: `flush` when the last has come.
+    """
+
+    def __init__(self, writer: BagWriter) -> None:
+        """Start with no topic."""
+        self.messages = 0
+        self._writer = writer
+        self._topics: dict[str, int] = {}
+        self._waiting: list[tuple[InProcessEnd, int, Any]] = []
+
+    def record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
+        """Take a message, or a row, of time ``stamp`` [ns]."""
+        self._waiting.append((publisher, stamp, data))
+        if len(self._waiting) >= TOGETHER:
+            self.flush()
+
+    def flush(self) -> None:
+        """Hand what has come to the writer."""
+        if not self._waiting:
+            return
+        publishers, stamps, found = zip(*self._waiting, strict=True)
+        topics = {publisher: self._topic(publisher) for publisher in dict.fromkeys(publishers)}
+        rows: dict[InProcessEnd, list[int]] = {}
+        for i, (publisher, data) in enumerate(zip(publishers, found, strict=True)):
+            if type(data) is not bytes:
+                rows.setdefault(publisher, []).append(i)
+        messages = list(found)
+        for publisher, places in rows.items():
+            assert isinstance(publisher, InProcessRowPublisher)
+            times = np.array([stamps[i] for i in places], np.int64)
+            made = publisher.table.messages(times, [found[i].row for i in places])
+            for i, message in zip(places, made, strict=True):
+                messages[i] = message
+        self._writer.write_several([topics[one] for one in publishers], stamps, messages)
+        self.messages += len(messages)
+        self._waiting.clear()
+
+    def _topic(self, publisher: InProcessEnd) -> int:
+        if publisher.topic not in self._topics:
+            self._topics[publisher.topic] = self._add(publisher)
+        return self._topics[publisher.topic]
+
+    def _add(self, publisher: InProcessEnd) -> int:
+        kind, qos = type_name(publisher.kind), [offer(publisher.qos)]
+        return self._writer.add_topic(publisher.topic, kind, qos=qos)
+
+
+TOGETHER = 1024
+"""Messages that are looked at, and written, together."""
+
+
+def reprocess(
+    source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None = None
+) -> Outcome:
+    """Run nodes over a bag; a failure is part of the outcome.
+
+    Args:
+        source: The bag.
+        target: Where the result goes.
+        plan: What to run.
+        tell: Called now and then with the share of the recording that is done.
+
+    """
+    begin = time.perf_counter()
+    try:
+        return _run(source, target, plan, tell)._replace(took=time.perf_counter() - begin)
+    except (AgvMotionError, OSError) as error:
+        failure = str(error)
+    except Exception as error:  # noqa: BLE001 - a defect in one bag must not stop the others
+        failure = f'{type(error).__name__}: {error}'
+    return Outcome(str(source), took=time.perf_counter() - begin, failure=failure)
+
+
+def _run(source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None) -> Outcome:
+    given = {name: parameters(plan.config, name, plan.namespace) for name in plan.nodes}
+    made_by = given, plan._replace(config=''), _contents(given)
+    digest = provenance.fingerprint(source, made_by)
+    with BagReader(source) as bag:
+        if provenance.is_made(target, digest):
+            outcome = Outcome(str(source), made_before=True)
+        else:
+            with beside(target) as made:
+                outcome = _played(bag, made, plan, given, tell)
+                provenance.note(made, source, digest)
+        return outcome._replace(problems=tuple(map(str, bag.problems)), lossy=bag.lossy)
+
+
+def _played(
+    bag: BagReader,
+    made: Path,
+    plan: Plan,
+    given: Mapping[str, Mapping[str, Any]],
+    tell: Callable[[float], None] | None,
+) -> Outcome:
+    """Run the nodes, with the parameters given to each, over an open bag."""
+    with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
+        transcript = Transcript(writer)
+        clock = BagClock(bag)
+        graph = InProcessGraph(transcript.record, clock.start)
+        graph.recorded, graph.takes_rows = bag.topics, True
+        for name in plan.nodes:
+            InProcessNode(graph, node_class(name), given[name], plan.names(), plan.namespace)
+        graph.start()
+        inputs, heard = graph.inputs(), 0
+        wanted = sorted((inputs | clock.topics) & set(bag.topics))
+        for count, now in _feed(graph, bag.messages(wanted), clock):
+            heard += count
+            if tell is not None:
+                tell((now - bag.start) / max(bag.end - bag.start, 1))
+        graph.run(clock.end())
+        graph.stop()
+        transcript.flush()
+    missing = tuple(sorted(inputs - set(bag.topics)))
+    span = (clock.end() - clock.start) * 1e-9
+    counts = heard, transcript.messages
+    return Outcome(
+        str(bag.path), *counts, span, 0.0, missing, graph.complaints, simulated=bool(clock.topics)
+    )
+
+
+def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]:
+    """Return the content of every file that is named in parameters."""
+    found = []
+    for value in (value for values in given.values() for value in values.values()):
+        if isinstance(value, str) and value:
+            with suppress(AgvMotionError, OSError, ValueError):
+                found.append((value, find_config(value).read_bytes()))
+    return found
+
+
+def _feed(
+    graph: InProcessGraph, messages: Iterator[Message], clock: BagClock
+) -> Iterator[tuple[int, int]]:
+    """Let messages be heard, many shown beforehand; yield how many, and the log time [ns]."""
+    feed = graph.feed
+    while together := list(islice(messages, TOGETHER)):
+        times = [clock.time_of(message) for message in together]
+        topics: dict[str, list[int]] = {}
+        for i, message in enumerate(together):
+            topics.setdefault(message.connection.topic, []).append(i)
+        for topic, places in topics.items():
+            graph.look_ahead(topic, [together[i].data for i in places], [times[i] for i in places])
+        for message, now in zip(together, times, strict=True):
+            feed(message.connection.topic, now, message.data)
+        yield len(together), together[-1].stamp

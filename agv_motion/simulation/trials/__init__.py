@@ -1,0 +1,1 @@
+"""Rigs of the long runs: what tries the package for days of simulated time."""

@@ -1,0 +1,90 @@
+"""`agv demo`: a short walk, its bag and its figure; on recorded probes too."""
+
+from __future__ import annotations
+
+import signal
+
+import numpy as np
+import pytest
+
+pytest.importorskip('rclpy')
+
+from mcap.reader import make_reader
+from rosbags.highlevel import AnyReader
+
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.motion.navigation.zone import Zone
+from agv_motion.report.walk import Outcome, read_run, summary
+from agv_motion.report.walk_figure import draw
+
+
+def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
+    status, out, errors = alone('demo', '--minutes', 3, '--output', tmp_path, timeout=120.0)
+    assert status == 0, errors
+    for word in ('distance', 'inside the zone', '100.0 %', 'probe to turrets', 'p99'):
+        assert word in out
+    assert (tmp_path / 'walk.png').stat().st_size > 10_000
+    (mcap,) = (tmp_path / 'bag').glob('*.mcap')
+    with mcap.open('rb') as file:
+        summary = make_reader(file, validate_crcs=True).get_summary()
+    assert summary.statistics.message_count > 5000
+    with AnyReader([tmp_path / 'bag']) as reader:
+        topics = {connection.topic for connection in reader.connections}
+        assert {'/turrets/command', '/cmd_vel', '/granier/sap_flow', '/odom'} <= topics
+        assert reader.duration == pytest.approx(180e9, rel=0.1)
+
+
+def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
+    status, out, errors = alone(
+        'demo', '--minutes', 3, '--output', tmp_path, '--probes', spruce, '--days', 2, timeout=120.0
+    )
+    assert status == 0, errors
+    assert 'delta_v_mv' in out
+    assert 'top wheel speed' in out
+
+
+def test_a_start_outside_the_recording_is_refused(alone, tmp_path):
+    path = tmp_path / 'probes.csv'
+    path.write_text('time,probe\n2013-06-10,0.5\n2013-06-11,0.5\n')
+    asked = '--output', tmp_path / 'walk', '--start', '2014-06-10'
+    status, _, errors = alone('demo', '--probes', path, *asked)
+    assert status == 1
+    assert 'ends at 2013-06-11T00:00:00+00:00 (line 3), before the start' in errors.replace(
+        '\n', ''
+    )
+    status, _, errors = alone('demo', *asked)
+    assert status == 1
+    assert 'give its file by --probes' in errors
+    assert not (tmp_path / 'walk').exists()
+
+
+def test_a_recording_without_probes_is_refused(alone, tmp_path):
+    path = tmp_path / 'weather.csv'
+    path.write_text('time,rain\n0,1\n')
+    status, _, errors = alone('demo', '--probes', path, '--output', tmp_path)
+    assert status == 1
+    assert 'has the columns time, rain: name those of the probes by --columns' in errors
+
+
+def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path, wait_until):
+    process = alone.start('demo', '--output', tmp_path)
+    files = (tmp_path / 'bag').glob  # the walk has begun when its bag holds a chunk
+    wait_until(lambda: any(file.stat().st_size > 1000 for file in files('*.mcap')))
+    process.send_signal(signal.SIGINT)
+    out, errors = process.communicate(timeout=60.0)
+    assert process.returncode == 0, errors
+    assert 'distance' in out
+
+
+def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp_path):
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/goal', 'geometry_msgs/msg/PoseStamped')
+    with BagReader(tmp_path / 'bag') as bag:
+        run = read_run(bag, 0.1)
+    zone = Zone([[0, 0], [4, 0], [4, 3], [0, 3]])
+    assert run.distance() == 0.0
+    outcome = Outcome(0.0, 0.0, np.empty(0), {})
+    assert summary(run, outcome, zone, 0.02).row_count > 4
+    draw(run, zone, 0.02, tmp_path / 'walk.png')
+    assert (tmp_path / 'walk.png').stat().st_size > 10_000
