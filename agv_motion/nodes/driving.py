@@ -9,8 +9,9 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
-from agv_motion.blocked import BlockedGuard, BlockedParameters
+from agv_motion.blocked import BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.input_parameters import CommandParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate
@@ -87,7 +88,7 @@ class DrivingNode(PlainNode[P]):
         self._last_cycle: float | None = None
         self._farewell = 0.0
         arm = 0.5 * self.limits().track
-        self.guard = BlockedGuard(given.blocked, arm, f'clear its way, then {self.release}')
+        self.guard = BlockedReport(port, given.blocked, arm, f'clear its way, then {self.release}')
         """Watches that the robot moves when told to"""
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._state = port.publisher(String, self.state_topic, LATCHED, sole=True)
@@ -197,13 +198,8 @@ class DrivingNode(PlainNode[P]):
 
     def _look_for_block(self, dt: float) -> None:
         """Find out whether the robot has moved as it was told, by its pose as measured."""
-        guard = self.guard
-        guard.watch.parameters = self.parameters.blocked
-        before = guard.reason
-        if guard.update(None if self.lost else self.pose, self._twist, dt):
-            self.port.error(guard.reason)
-        elif before and not guard.reason:
-            self.port.info('blocked before: trying again')
+        pose = None if self.lost else self.pose
+        self.guard.look(self.parameters.blocked, pose, self._twist, dt)
 
     def _watch(self) -> None:
         """Stop where the pose is lost; again and again where no cycle will, as the clock stands."""

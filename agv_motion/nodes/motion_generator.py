@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
-from nav_msgs.msg import Path
-from std_msgs.msg import Bool, String
+from std_msgs.msg import Bool
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.blocked import BlockedGuard
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.sap_flow import SapFlow, checked_sap_flow
 from agv_motion.motion.command.limits import CommandLimits, Limited
@@ -19,14 +17,16 @@ from agv_motion.motion.navigation.path_follower import PathFollower
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.motion.pilot import Pilot
+from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.memory_store import MemoryStore
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
+from agv_motion.nodes.motion_report import MotionReport
 from agv_motion.nodes.reservation_exchange import ReservationExchange
 from agv_motion.planar import REST, Pose
 from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import InputWatch
-from agv_motion.ros.messages import fill_path, fill_pose, pose_of, require_frame
+from agv_motion.ros.messages import pose_of, require_frame
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
@@ -34,8 +34,6 @@ from agv_motion.ros.twist_rows import twist_publisher
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
-    from agv_motion.motion.behavior.goals.goal import Goal
-    from agv_motion.motion.navigation.polyline import Path as Corners
     from agv_motion.motion.pilot import MotionCommand
     from agv_motion.ros.port import Port
 
@@ -73,21 +71,16 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._paused = False
         self._motion: MotionCommand | None = None
         self._decided_at = 0.0
-        self._published_state = ''
-        self._published_goal: Goal | None = None
-        self._published_path: Corners = ()
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = port.seconds()
         self._twist = REST
-        self._guard = BlockedGuard(given.blocked, self._rim, RELEASE)
+        self._guard = BlockedReport(port, given.blocked, self._rim, RELEASE)
         self._lost = 'sap flow'
         self._obstacle = 'resting: no input'
         limits = given.freshness()
         self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
-        self._path_publisher = port.publisher(Path, 'path', LATCHED, sole=True)
-        self._goal_publisher = port.publisher(PoseStamped, 'goal', LATCHED)
-        self._state = port.publisher(String, 'state', LATCHED, sole=True)
+        self._report = MotionReport(port, given.map_frame)
         self._store = (
             None if self._agent.memory is None else MemoryStore(port, self._agent.memory, given)
         )
@@ -112,7 +105,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._guard.release()
         self._lost = 'sap flow'
         self._judge()
-        self._publish_goal(self._agent.goal)
+        self._report.publish_goal(self._agent.goal, self._agent.refusals)
         if self._store is not None:
             self._store.begin()
 
@@ -140,8 +133,8 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
             values |= self._exchange.report()
         alarmed = self._exchange is not None and self._exchange.alarm
         if self._guard.reason:
-            return Diagnosis(ERROR, self._published_state, values)
-        return Diagnosis(WARN if self._lost or alarmed else OK, self._published_state, values)
+            return Diagnosis(ERROR, self._report.state, values)
+        return Diagnosis(WARN if self._lost or alarmed else OK, self._report.state, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector, watch = message.vector, self._watches['sap flow']
@@ -179,7 +172,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._guard.release()
         self._judge()
         self._motion = None
-        self._publish_goal(self._agent.goal)
+        self._report.publish_goal(self._agent.goal, self._agent.refusals)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data
@@ -196,7 +189,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._motion = None
         self._move()
         goal = self._agent.goal
-        return goal.reason if goal else f'chosen later; {self._published_state}'
+        return goal.reason if goal else f'chosen later; {self._report.state}'
 
     def _on_go_home(self, _: Any) -> str:
         self._agent.go_home()
@@ -204,7 +197,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._judge()
         self._motion = None
         self._move()
-        return self._published_state
+        return self._report.state
 
     def _tick(self) -> None:
         """Keep the command alive."""
@@ -214,15 +207,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
 
     def _look_for_block(self) -> None:
         """Find out whether the tree has moved as it was told."""
-        given, guard, now = self.parameters, self._guard, self.port.seconds()
-        guard.watch.parameters = given.blocked
+        given, now = self.parameters, self.port.seconds()
         dt = min(max(now - self._looked_at, 0.0), 2.0 / given.rate)
         self._looked_at = now
-        before = guard.reason
-        if guard.update(None if self._lost else self._pose, self._twist, dt):
-            self.port.error(guard.reason)
-        elif before and not guard.reason:
-            self.port.info('blocked before: trying again')
+        self._guard.look(given.blocked, None if self._lost else self._pose, self._twist, dt)
 
     def _watch(self) -> None:
         """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
@@ -264,10 +252,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
         self._publish(self._limits.apply(motion.wanted, motion.rules, dt), motion.activity)
-        if motion.goal is not self._published_goal:
-            self._publish_goal(motion.goal)
-        if motion.path[1:] != self._published_path[1:]:
-            self._publish_path(motion.path)
+        self._report.update(motion.goal, self._agent.refusals, motion.path)
 
     def _update(self, now: float, pose: Pose, flow: SapFlow) -> MotionCommand:
         """Decide when something is new; also now and then, and always where others walk."""
@@ -284,31 +269,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._command(self._twist)
         if 'translation only' in limited.by:
             state = f'{state}; not turning: delicate floor'
-        if state != self._published_state:
-            self._published_state = state
-            self._state.publish(String(data=state))
-
-    def _publish_goal(self, goal: Goal | None) -> None:
-        """Publish and log a new goal with its reason, and why others were not taken."""
-        self._published_goal = goal
-        for refusal in self._agent.refusals:
-            self.port.info(f'no goal: {refusal}')
-        if goal is None:
-            return
-        self.port.info(f'goal: {goal.reason}')
-        message = PoseStamped()
-        self.port.stamp(message)
-        message.header.frame_id = self.parameters.map_frame
-        fill_pose(message.pose, Pose(*goal.place, 0.0))
-        self._goal_publisher.publish(message)
-
-    def _publish_path(self, path: Corners) -> None:
-        self._published_path = path
-        message = Path()
-        message.header.frame_id = self.parameters.map_frame
-        self.port.stamp(message)
-        fill_path(message, [Pose(x, y, 0.0) for x, y in path])
-        self._path_publisher.publish(message)
+        self._report.publish_state(state)
 
 
 def main() -> None:

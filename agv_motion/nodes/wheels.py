@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from agv_motion.blocked import BlockedGuard
 from agv_motion.kinematics.twist_ramp import TwistRamp
+from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.wheel_states import WheelStates
 from agv_motion.nodes.wheels_parameters import WheelsParameters
@@ -95,7 +95,7 @@ class WheelsNode(PlainNode[P]):
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
         self._extras_wanted = False
-        self._blocked = BlockedGuard(given.blocked, ARM, RELEASE)
+        self._blocked = BlockedReport(port, given.blocked, ARM, RELEASE)
         self._sent, self._looked_at = REST, port.seconds()
         self._command = port.publisher(JointState, 'wheels/command', COMMAND, sole=True)
         self._rates = port.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
@@ -192,9 +192,7 @@ class WheelsNode(PlainNode[P]):
 
     def note_motion(self) -> None:
         """Stop wheels that do not turn though told to, by their encoders."""
-        guard, now = self._blocked, self.port.seconds()
+        now = self.port.seconds()
         dt, self._looked_at = min(max(now - self._looked_at, 0.0), LONGEST_STEP), now
-        guard.watch.parameters = self.parameters.blocked
-        if guard.update(self.reckoning.pose, self._sent, dt):
-            self.port.error(guard.reason)
+        if self._blocked.look(self.parameters.blocked, self.reckoning.pose, self._sent, dt):
             self.stand()

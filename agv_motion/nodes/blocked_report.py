@@ -1,0 +1,42 @@
+"""What a node does about a robot that is blocked: it looks, and says in the log what it found."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from agv_motion.blocked import BlockedGuard
+
+if TYPE_CHECKING:
+    from agv_motion.blocked import BlockedParameters
+    from agv_motion.planar import Pose, Twist
+    from agv_motion.ros.port import Port
+
+
+class BlockedReport(BlockedGuard):
+    """A guard that tells when it stops the robot, and when it lets it try again."""
+
+    def __init__(self, port: Port, parameters: BlockedParameters, arm: float, remedy: str) -> None:
+        """Let the robot move.
+
+        Args:
+            port: Of the node.
+            parameters: When it is blocked, and what then.
+            arm: Distance from the centre at which a turn is measured as a motion [m].
+            remedy: What a person can do, for the reason.
+
+        """
+        super().__init__(parameters, arm, remedy)
+        self._port = port
+
+    def look(
+        self, parameters: BlockedParameters, pose: Pose | None, twist: Twist, dt: float
+    ) -> bool:
+        """Return whether the robot has been found blocked just now; see `BlockedGuard.update`."""
+        self.watch.parameters = parameters
+        before = self.reason
+        found = self.update(pose, twist, dt)
+        if found:
+            self._port.error(self.reason)
+        elif before and not self.reason:
+            self._port.info('blocked before: trying again')
+        return found

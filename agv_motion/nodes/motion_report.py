@@ -1,0 +1,76 @@
+"""What `motion_generator` tells of a tree: `state`, `goal` and `path`, where they have changed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Path
+from std_msgs.msg import String
+
+from agv_motion.planar import Pose
+from agv_motion.ros.messages import fill_path, fill_pose
+from agv_motion.ros.qos import LATCHED
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.motion.behavior.goals.goal import Goal
+    from agv_motion.motion.navigation.polyline import Path as Corners
+    from agv_motion.ros.port import Port
+
+
+class MotionReport:
+    """The latched topics of one tree."""
+
+    def __init__(self, port: Port, frame: str) -> None:
+        """Open the topics.
+
+        Args:
+            port: Of the node.
+            frame: Of the map.
+
+        """
+        self.state = ''
+        """as it was told last"""
+        self._port, self._frame = port, frame
+        self._goal: Goal | None = None
+        self._path: Corners = ()
+        self._paths = port.publisher(Path, 'path', LATCHED, sole=True)
+        self._goals = port.publisher(PoseStamped, 'goal', LATCHED)
+        self._states = port.publisher(String, 'state', LATCHED, sole=True)
+
+    def publish_state(self, state: str) -> None:
+        """Tell what the tree does, if that is new."""
+        if state != self.state:
+            self.state = state
+            self._states.publish(String(data=state))
+
+    def update(self, goal: Goal | None, refusals: Sequence[str], path: Corners) -> None:
+        """Tell goal and path, each if it is new."""
+        if goal is not self._goal:
+            self.publish_goal(goal, refusals)
+        if path[1:] != self._path[1:]:
+            self._publish_path(path)
+
+    def publish_goal(self, goal: Goal | None, refusals: Sequence[str]) -> None:
+        """Publish and log a goal with its reason, and why others were not taken."""
+        self._goal = goal
+        for refusal in refusals:
+            self._port.info(f'no goal: {refusal}')
+        if goal is None:
+            return
+        self._port.info(f'goal: {goal.reason}')
+        message = PoseStamped()
+        self._port.stamp(message)
+        message.header.frame_id = self._frame
+        fill_pose(message.pose, Pose(*goal.place, 0.0))
+        self._goals.publish(message)
+
+    def _publish_path(self, path: Corners) -> None:
+        self._path = path
+        message = Path()
+        message.header.frame_id = self._frame
+        self._port.stamp(message)
+        fill_path(message, [Pose(x, y, 0.0) for x, y in path])
+        self._paths.publish(message)
