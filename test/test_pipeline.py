@@ -17,6 +17,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.probe.sources.recorded_time import parse_time
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.qos import COMMAND
 from agv_motion.ros.run import overrides, spin, start
@@ -40,17 +41,17 @@ class Walk:
             probe__solar_offset=0.5,
         )  # fmt: skip
         nodes = [
-            GranierProbe(context=context, parameter_overrides=probes),
-            MotionGenerator(**common, cli_args=['--ros-args', '-r', 'pose:=fix']),
-            WheelKinematics(**common),
-            Simulator(context=context, parameter_overrides=overrides(time_factor=FACTOR)),
+            LiveNode(GranierProbe, context=context, parameter_overrides=probes),
+            LiveNode(MotionGenerator, **common, cli_args=['--ros-args', '-r', 'pose:=fix']),
+            LiveNode(WheelKinematics, **common),
+            LiveNode(Simulator, context=context, parameter_overrides=overrides(time_factor=FACTOR)),
         ]
         watcher = rclpy.lifecycle.LifecycleNode('watcher', context=context)
         watcher.create_subscription(TwistStamped, 'cmd_vel', self.twists.append, COMMAND)
         watcher.create_subscription(JointState, 'turrets/command', self.rates.append, COMMAND)
         for node in nodes:
             start(node)
-        simulator, steps = nodes[-1], int(seconds * FACTOR * 10)
+        simulator, steps = nodes[-1].plain, int(seconds * FACTOR * 10)
         spin([*nodes, watcher], lambda: simulator.steps >= steps, context=context)
         self.speed = speed
         rclpy.shutdown(context=context)

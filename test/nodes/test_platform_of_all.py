@@ -13,6 +13,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.config import find_config
+from agv_motion.ros.live_node import LiveNode
 
 KINDS = {
     'granier_probe': GranierProbe, 'motion_generator': MotionGenerator,
@@ -24,7 +25,7 @@ KINDS = {
 def test_no_node_of_the_tree_refuses_what_is_told_to_all(graph, name):
     file = str(find_config('tree.yaml'))
     node = graph.add(
-        KINDS[name](context=graph.context, cli_args=['--ros-args', '--params-file', file])
+        LiveNode(KINDS[name], context=graph.context, cli_args=['--ros-args', '--params-file', file])
     )
     assert node.declared.unknown == ()
 
@@ -32,7 +33,9 @@ def test_no_node_of_the_tree_refuses_what_is_told_to_all(graph, name):
 def test_wheels_zone_and_traffic_have_the_same_outline(graph):
     change = {'platform_radius': 1.3}
     nodes = [
-        graph.add(KINDS[name](context=graph.context, **configured('tree.yaml', name, change)))
+        graph.add(
+            LiveNode(KINDS[name], context=graph.context, **configured('tree.yaml', name, change))
+        )
         for name in ('motion_generator', 'wheel_kinematics', 'simulator')
     ]
     assert {node.parameters.rim for node in nodes} == {1.3}
