@@ -8,15 +8,13 @@ knew is old.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from agv_motion.clock_watch import STANDS_AFTER, ClockWatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.ros.live_node import LiveNode
-    from agv_motion.ros.live_port import LivePort
     from agv_motion.watchdog import Watchdog
 
 LOOK_PERIOD = 0.1
@@ -31,10 +29,30 @@ PATIENCE = 2.0
 """[s] for which a node that has just begun waits for the first /clock without a word."""
 
 
+class Timed(Protocol):
+    """Whose clock is looked at."""
+
+    active: bool
+
+    def seconds(self) -> float:
+        """Return the time of the clock [s]."""
+
+    def steady_seconds(self) -> float:
+        """Return the time of a clock that never leaps [s]."""
+
+    @property
+    def info(self) -> Callable[..., Any]:
+        """What logs that all is well again."""
+
+    @property
+    def error(self) -> Callable[..., Any]:
+        """What logs that something is not."""
+
+
 class ClockGuard:
     """Looks at the clock of one node by the steady clock, and acts upon what it finds."""
 
-    def __init__(self, port: LivePort) -> None:
+    def __init__(self, port: Timed) -> None:
         """Look not yet."""
         self.watch = ClockWatch()
         self._port = port
@@ -101,15 +119,21 @@ class ClockGuard:
             port.info('the clock runs well: going on')
 
 
-def if_possible(node: LiveNode[Any], callback: Callable[[Any], None]) -> Callable[[Any], None]:
-    """Return ``callback`` of /clock for times that can be; a negative one raises in rclpy's own."""
+def if_possible(
+    callback: Callable[[Any], None], refuse: Callable[[str], None]
+) -> Callable[[Any], None]:
+    """Return ``callback`` of /clock for times that can be; a negative one raises in rclpy's own.
+
+    Args:
+        callback: Of rclpy, which takes the message.
+        refuse: Called with what is wrong with a time, in words.
+
+    """
 
     def guarded(message: Any) -> None:
         if message.clock.sec >= 0:
             callback(message)
-            return
-        fault = f'{CLOCK_TOPIC} told {message.clock.sec} s, and no time is negative'
-        node.port.clock.distrust(fault, node.port.steady_seconds())
-        node.port.refuse(f'{fault}: look at who publishes it')
+        else:
+            refuse(f'{CLOCK_TOPIC} told {message.clock.sec} s, and no time is negative')
 
     return guarded

@@ -6,7 +6,7 @@ runs only while its node is active, an error of the input is told, and a defect 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.qos import DurabilityPolicy
@@ -17,21 +17,46 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy.clock import Clock
+    from rclpy.lifecycle import LifecycleNode
     from rclpy.qos import QoSProfile
-
-    from agv_motion.ros.live_node import LiveNode
-    from agv_motion.ros.live_port import LivePort
 
 NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 """Destroying a publisher with event callbacks crashes the EventsExecutor."""
 
 
+class Owner(Protocol):
+    """For whom callbacks are guarded."""
+
+    active: bool
+
+    def wake(self) -> None:
+        """Judge the inputs first, where nothing has run for a while."""
+
+    def refuse(self, reason: str) -> None:
+        """Tell of an input that was not used."""
+
+    def inform(self, text: str) -> None:
+        """Log what was done; of repeats only some."""
+
+    def message_of(self, error: AgvMotionError) -> str:
+        """Return the message of an error, as it may be told."""
+
+    def stop_for(self, where: str, error: Exception) -> str:
+        """Deactivate the node for a defect; return it in words."""
+
+
 class Ends:
     """What one node has opened."""
 
-    def __init__(self, node: LiveNode[Any], port: LivePort) -> None:
-        """Have opened nothing yet."""
-        self._node, self._port = node, port
+    def __init__(self, node: LifecycleNode, owner: Owner) -> None:
+        """Have opened nothing yet.
+
+        Args:
+            node: Of rclpy.
+            owner: For whom callbacks are guarded.
+
+        """
+        self._node, self._owner = node, owner
         self._closers: list[Callable[[], Any]] = []
         self._unheard: dict[str, Callable[[], None]] = {}
         """Latched messages that came while inactive, by topic"""
@@ -54,7 +79,7 @@ class Ends:
 
     def hear(self) -> None:
         """Hear what latched messages came while inactive, as long as the node is active."""
-        while self._port.active and self._unheard:
+        while self._owner.active and self._unheard:
             self._unheard.popitem()[1]()
 
     def publisher(self, kind: type[Any], topic: str, qos: QoSProfile) -> Any:
@@ -68,21 +93,21 @@ class Ends:
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
     ) -> None:
         """Call ``callback`` with each message; what is latched is kept while inactive."""
-        node, port, unheard = self._node, self._port, self._unheard
+        node, owner, unheard = self._node, self._owner, self._unheard
         latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
         def guarded(message: Any) -> None:
-            if not port.active:
+            if not owner.active:
                 if latched:
                     unheard[topic] = lambda: guarded(message)
                 return
             try:
-                port.clock_guard.wake()
+                owner.wake()
                 callback(message)
             except AgvMotionError as error:
-                port.refuse(f'{topic}: {port.message_of(error)}')
+                owner.refuse(f'{topic}: {owner.message_of(error)}')
             except Exception as error:  # noqa: BLE001 - a defect
-                node.stop_for(topic, error)
+                owner.stop_for(topic, error)
 
         subscription = node.create_subscription(
             kind, topic, guarded, qos,
@@ -92,44 +117,43 @@ class Ends:
 
     def every(self, seconds: float, callback: Callable[[], None], clock: Clock | None) -> None:
         """Call ``callback`` periodically."""
-        node, port = self._node, self._port
+        node, owner = self._node, self._owner
 
         def guarded() -> None:
-            if port.active:
+            if owner.active:
                 try:
-                    port.clock_guard.wake()
+                    owner.wake()
                     callback()
                 except AgvMotionError as error:
-                    port.refuse(port.message_of(error))
+                    owner.refuse(owner.message_of(error))
                 except Exception as error:  # noqa: BLE001 - a defect
-                    node.stop_for('a timer', error)
+                    owner.stop_for('a timer', error)
 
         timer = node.create_timer(seconds, guarded, clock=clock)
         self.add(lambda: node.destroy_timer(timer))
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
         """Offer a service; it refuses while the node is inactive."""
-        node, port = self._node, self._port
+        node, owner = self._node, self._owner
 
         def guarded(request: Any, response: Any) -> Any:
             try:
                 self._require_active()
-                port.clock_guard.wake()
+                owner.wake()
                 message, response.success = act(request), True
             except AgvMotionError as error:
-                message = f'refused: {port.message_of(error)}'
+                message = f'refused: {owner.message_of(error)}'
             except Exception as error:  # noqa: BLE001 - a defect
-                node.stop_for(name, error)
-                message = f'refused: {node.defect}'
+                message = f'refused: {owner.stop_for(name, error)}'
             if hasattr(response, 'message'):
                 response.message = message.removeprefix('refused: ')
-            port.complaints.inform(f'{name}: {shortened(message)}')
+            owner.inform(f'{name}: {shortened(message)}')
             return response
 
         service = node.create_service(kind, name, guarded)
         self.add(lambda: node.destroy_service(service))
 
     def _require_active(self) -> None:
-        if not self._port.active:
-            msg = f'{self._port.name} is not active: activate it first'
+        if not self._owner.active:
+            msg = f'{self._node.get_name()} is not active: activate it first'
             raise ConfigurationError(msg)

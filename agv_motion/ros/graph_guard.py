@@ -11,19 +11,30 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.ros.graph_watch import GraphWatch
 
 if TYPE_CHECKING:
-    from rclpy.qos import QoSProfile
+    from collections.abc import Callable
 
-    from agv_motion.ros.live_node import LiveNode
+    from rclpy.lifecycle import LifecycleNode
+    from rclpy.qos import QoSProfile
 
 
 class GraphGuard:
     """Watches the topics of one node, and acts upon what it finds."""
 
-    def __init__(self, node: LiveNode[Any]) -> None:
-        """Watch nothing yet."""
+    def __init__(
+        self, node: LifecycleNode, is_active: Callable[[], bool], warn: Callable[[str], None]
+    ) -> None:
+        """Watch nothing yet.
+
+        Args:
+            node: Of rclpy.
+            is_active: Whether it acts.
+            warn: Tells of what is not as it should be.
+
+        """
         self.rivals = ''
         """Who publishes together what one node may alone; empty if it does."""
         self._node, self._watch = node, GraphWatch(node)
+        self._is_active, self._warn = is_active, warn
         self._rests = False
         self._told: frozenset[str] = frozenset()
 
@@ -42,7 +53,7 @@ class GraphGuard:
         """Look at the graph; deactivate the node beside a rival, activate it when that is gone."""
         node = self._node
         self.rivals = self._watch.look()
-        if self.rivals and node.active:
+        if self.rivals and self._is_active():
             node.get_logger().error(
                 f'stopped: {self.rivals}: stop all but one, or give each robot a namespace (one '
                 'that was killed stays on the graph for up to 20 s); then this node goes on'
@@ -72,5 +83,5 @@ class GraphGuard:
         }
         now_true = frozenset((*self.faults(), *crowds))
         for text in sorted(now_true - self._told):
-            self._node.port.complaints.warn(text)
+            self._warn(text)
         self._told = now_true

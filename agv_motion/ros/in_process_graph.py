@@ -8,22 +8,52 @@ from __future__ import annotations
 
 import heapq
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
-
-    from agv_motion.ros.in_process_node import InProcessNode
-    from agv_motion.ros.in_process_topic import InProcessEnd, InProcessListener
 
 MOST_COMPLAINTS = 1000
 """different ones that are kept"""
 
 
+class Sender(Protocol):
+    """What sends on a topic."""
+
+    topic: str
+    port: Any
+    """of its node"""
+
+
+class Hearer(Protocol):
+    """What hears on a topic."""
+
+    port: Any
+    """of its node"""
+    takes: type[Any] | None
+    """of which rows it takes as they are; None: of none"""
+
+    def look_ahead(self, messages: list[bytes], stamps: list[int]) -> None:
+        """Prepare what will be heard next."""
+
+    def hear(self, data: Any) -> None:
+        """Take a message."""
+
+
+class Member(Protocol):
+    """A node of the graph."""
+
+    def activate(self) -> None:
+        """Let it act."""
+
+    def deactivate(self) -> None:
+        """Let it leave its outputs safe."""
+
+
 class InProcessGraph:
     """Topics by name, timers by time, and the clock of all nodes in it."""
 
-    def __init__(self, record: Callable[[InProcessEnd, int, Any], None], now: int) -> None:
+    def __init__(self, record: Callable[[Any, int, Any], None], now: int) -> None:
         """Start at a time, with no node.
 
         Args:
@@ -37,14 +67,14 @@ class InProcessGraph:
         """topics that someone listens to beside the nodes"""
         self.takes_rows = False
         """whether ``record`` takes the rows of `InProcessRowPublisher` in place of messages"""
-        self.nodes: list[InProcessNode[Any]] = []
+        self.nodes: list[Member] = []
         self.complaints: dict[str, int] = {}
         """what the nodes warned of, and how often"""
-        self.listeners: dict[str, list[InProcessListener]] = {}
-        self.publishers: dict[str, list[InProcessEnd]] = {}
+        self.listeners: dict[str, list[Hearer]] = {}
+        self.publishers: dict[str, list[Sender]] = {}
         self._timers: list[tuple[int, int, int, Callable[[], None]]] = []
         """when each is due [ns], its number, its period [ns], and what it calls"""
-        self._waiting: deque[tuple[InProcessListener, Any]] = deque()
+        self._waiting: deque[tuple[Hearer, Any]] = deque()
         self._running = False
 
     def start(self) -> None:
@@ -116,7 +146,7 @@ class InProcessGraph:
         period = max(round(seconds * 1e9), 1)
         heapq.heappush(self._timers, (self.now + period, len(self._timers), period, callback))
 
-    def publish(self, publisher: InProcessEnd, data: Any) -> None:
+    def publish(self, publisher: Sender, data: Any) -> None:
         """Record a message in bytes, or a row, and let the other nodes hear it."""
         self.record(publisher, self.now, data)
         for listener in self.listeners.get(publisher.topic, ()):

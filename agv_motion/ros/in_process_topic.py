@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.cdr import codec
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSProfile
 
-    from agv_motion.ros.in_process_port import InProcessPort
+    from agv_motion.ros.in_process_graph import InProcessGraph
     from agv_motion.ros.port import Ahead
 
 
@@ -28,10 +28,22 @@ class SentRow(NamedTuple):
     frame: str
 
 
+class Participant(Protocol):
+    """A node's place in the graph."""
+
+    graph: InProcessGraph
+    active: bool
+    message_of: Callable[[AgvMotionError], str]
+    """returns the message of an error, as the node may tell it"""
+
+    def refuse(self, reason: str) -> None:
+        """Tell of an input that was not used."""
+
+
 class InProcessEnd:
     """The sending end."""
 
-    def __init__(self, port: InProcessPort, kind: Any, topic: str, qos: QoSProfile) -> None:
+    def __init__(self, port: Participant, kind: Any, topic: str, qos: QoSProfile) -> None:
         """Join the topic."""
         self.port, self.kind, self.topic, self.qos = port, kind, topic, qos
         self._encode = codec(kind).encode
@@ -57,7 +69,7 @@ class InProcessPublisher(InProcessEnd):
 class InProcessRowPublisher(InProcessEnd):
     """The sending end of rows; they go as they are where all who listen take rows."""
 
-    def __init__(self, port: InProcessPort, rows: Rows, topic: str, qos: QoSProfile) -> None:
+    def __init__(self, port: Participant, rows: Rows, topic: str, qos: QoSProfile) -> None:
         """Join the topic."""
         self._message = rows.message()
         super().__init__(port, type(self._message), topic, qos)
@@ -91,7 +103,7 @@ class InProcessListener:
     """of which rows it takes as they are; None: of none"""
 
     def __init__(
-        self, port: InProcessPort, kind: Any, topic: str, callback: Callable[..., None],
+        self, port: Participant, kind: Any, topic: str, callback: Callable[..., None],
         ahead: Ahead | None = None,
     ) -> None:  # fmt: skip
         """Pass the messages of one topic on to ``callback``, or to what is ``ahead``."""
@@ -127,7 +139,7 @@ class InProcessRowListener(InProcessListener):
     """The hearing end of rows, whether they come as they are or in messages."""
 
     def __init__(
-        self, port: InProcessPort, rows: Rows, topic: str, callback: Callable[..., None]
+        self, port: Participant, rows: Rows, topic: str, callback: Callable[..., None]
     ) -> None:
         """Pass row, frame and stamp on to ``callback``."""
         super().__init__(port, type(rows.message()), topic, callback)

@@ -17,6 +17,7 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 
 from agv_motion.errors import AgvMotionError, shortened
 from agv_motion.ros.clock_guard import CLOCK_TOPIC, LOOK_PERIOD, if_possible
+from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.diagnostics import Diagnostics
 from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.live_port import LivePort
@@ -54,14 +55,13 @@ class LiveNode(LifecycleNode, Generic[N]):
         super().__init__(kind.name, **kwargs)
         self._kind = kind
         self._made: N | None = None
-        self.now = self.get_clock().handle.get_now
         self.steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.defect = ''
         """What went wrong in a callback by a fault of ours: the node was deactivated for it."""
-        self.port = LivePort(self)
+        self.port = LivePort(self, self.message_of, self.stop_for)
         self.declared = DeclaredParameters(self, kind.takes, self._accept)
-        self._start_watch(Diagnostics(self))
-        answer_all(self)
+        self._start_watch(Diagnostics(self.port, self._condition))
+        answer_all(self, self.port.refuse)
         for text in self.declared.unknown:
             self.port.refuse(text)
 
@@ -103,11 +103,13 @@ class LiveNode(LifecycleNode, Generic[N]):
     ) -> Any:
         """Create a subscription; a time on /clock that rclpy could not bear ends no node."""
         if topic == CLOCK_TOPIC:
-            callback = if_possible(self, callback)
+            callback = if_possible(callback, self._distrust_clock)
         return super().create_subscription(msg_type, topic, callback, *args, **kwargs)
 
-    def stop_for(self, where: str, error: Exception) -> None:
-        """Deactivate the node for a defect: nobody knows what state its callback has left.
+    def stop_for(self, where: str, error: Exception) -> str:
+        """Deactivate the node for a defect, and return it in words.
+
+        Nobody knows what state its callback has left.
 
         So the outputs are left safe; and it is told, as what an executor raises may end unheard.
         """
@@ -119,6 +121,7 @@ class LiveNode(LifecycleNode, Generic[N]):
         )
         if self.port.active:
             self.trigger_deactivate()
+        return self.defect
 
     # Lifecycle
 
@@ -184,6 +187,23 @@ class LiveNode(LifecycleNode, Generic[N]):
         self.create_timer(LOOK_PERIOD, port.clock_guard.look, clock=self.steady)
         self.create_timer(GRAPH_PERIOD, port.graph.check, clock=self.steady)
         self.create_timer(1.0, diagnostics.publish, clock=self.steady)
+
+    def _condition(self) -> Diagnosis:
+        """Return what the node says of itself, or why it does not act."""
+        if self.port.active:
+            try:
+                return self.plain.diagnose()
+            except Exception as error:  # noqa: BLE001 - a defect
+                self.stop_for('the diagnostics', error)
+        if self.port.graph.rivals:
+            return Diagnosis(ERROR, f'stopped: {self.port.graph.rivals}', {})
+        if self.defect:
+            return Diagnosis(ERROR, f'stopped by {self.defect}', {})
+        return Diagnosis(WARN, 'not active', {})
+
+    def _distrust_clock(self, fault: str) -> None:
+        self.port.clock.distrust(fault, self.port.steady_seconds())
+        self.port.refuse(f'{fault}: look at who publishes it')
 
     def _attempt(self, transition: str, act: Callable[[], Any]) -> TransitionCallbackReturn:
         """Run one step of a transition; rclpy would swallow its exception without a word."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
+from rclpy.clock import Clock, ClockType
+
 from agv_motion.ros.clock_guard import ClockGuard
 from agv_motion.ros.complaints import Complaints
 from agv_motion.ros.ends import Ends
@@ -13,14 +15,16 @@ from agv_motion.ros.graph_guard import GraphGuard
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy.lifecycle import LifecycleNode
     from rclpy.qos import QoSProfile
 
     from agv_motion.clock_watch import ClockWatch
     from agv_motion.errors import AgvMotionError
-    from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.port import Ahead, RowPublisher
     from agv_motion.ros.rows import Rows
     from agv_motion.watchdog import Watchdog
+
+    StopFor = Callable[[str, Exception], str]
 
 SECOND = 1_000_000_000
 
@@ -28,20 +32,25 @@ SECOND = 1_000_000_000
 class LivePort:
     """A `Port` on rclpy; ``node`` is for those that are nothing without a graph."""
 
-    def __init__(self, node: LiveNode[Any]) -> None:
+    def __init__(
+        self, node: LifecycleNode, tell: Callable[[AgvMotionError], str], stop_for: StopFor
+    ) -> None:
         """Open nothing yet.
 
         Args:
             node: Of rclpy, which lives as long as the port.
+            tell: Returns the message of an error, as the node may tell it.
+            stop_for: Deactivates the node for a defect; returns it in words.
 
         """
-        self.node = node
+        self.node, self.message_of, self.stop_for = node, tell, stop_for
         self.active = False
+        self._now = node.get_clock().handle.get_now
         self._log = node.get_logger()
-        self.complaints = Complaints(self)
+        self.complaints = Complaints(self._log, time.monotonic)
         self.clock_guard = ClockGuard(self)
         self.clock: ClockWatch = self.clock_guard.watch
-        self.graph = GraphGuard(node)
+        self.graph = GraphGuard(node, lambda: self.active, self.complaints.warn)
         self.ends = Ends(node, self)
 
     @property
@@ -117,7 +126,9 @@ class LivePort:
 
     def every(self, seconds: float, callback: Callable[[], None], *, steady: bool = False) -> None:
         """Call ``callback`` periodically while active."""
-        self.ends.every(seconds, callback, self.node.steady if steady else None)
+        self.ends.every(
+            seconds, callback, Clock(clock_type=ClockType.STEADY_TIME) if steady else None
+        )
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
         """Offer a service."""
@@ -144,11 +155,11 @@ class LivePort:
 
     def nanoseconds(self) -> int:
         """Return the time of the node's clock [ns]."""
-        return int(self.node.now().nanoseconds)
+        return int(self._now().nanoseconds)
 
     def seconds(self) -> float:
         """Return the time of the node's clock [s]."""
-        return float(self.node.now().nanoseconds) * 1e-9
+        return float(self._now().nanoseconds) * 1e-9
 
     def steady_seconds(self) -> float:
         """Return the time of a clock that never leaps, stands or is simulated [s]."""
@@ -156,7 +167,7 @@ class LivePort:
 
     def stamp(self, message: Any) -> float:
         """Set the stamp of a message's header to now, without a new object; return now [s]."""
-        stamp, now = message.header.stamp, self.node.now().nanoseconds
+        stamp, now = message.header.stamp, self._now().nanoseconds
         stamp.sec, stamp.nanosec = divmod(now, SECOND)
         return float(now) * 1e-9
 
@@ -175,9 +186,15 @@ class LivePort:
         """Tell of an input that was not used, in the log and in the diagnostics."""
         self.complaints.refuse(reason)
 
-    def message_of(self, error: AgvMotionError) -> str:
-        """Return the message of an error, without a word of a file that is not for everyone."""
-        return self.node.message_of(error)
+    # What its ends need
+
+    def wake(self) -> None:
+        """Judge the inputs first, where nothing has run for a while."""
+        self.clock_guard.wake()
+
+    def inform(self, text: str) -> None:
+        """Log what was done; of repeats only some, with their number."""
+        self.complaints.inform(text)
 
 
 class _RowPublisher:

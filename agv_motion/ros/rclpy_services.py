@@ -15,32 +15,34 @@ from agv_motion.errors import shortened
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.ros.live_node import LiveNode
+    from rclpy.lifecycle import LifecycleNode
+
+    Refuse = Callable[[str], None]
 
 
-def answer_all(node: LiveNode[Any]) -> None:
-    """Let every service that ``node`` has by now answer all requests."""
+def answer_all(node: LifecycleNode, refuse: Refuse) -> None:
+    """Let every service that ``node`` has by now answer all requests; ``refuse`` tells why not."""
     for service in node.services:
         act = service.callback
         if service.srv_type is ChangeState:
-            act = _fitting(node, act)
-        service.callback = _answered(node, service.srv_name, act)
+            act = _fitting(node, act, refuse)
+        service.callback = _answered(service.srv_name, act, refuse)
 
 
-def _answered(node: LiveNode[Any], name: str, act: Callable[[Any, Any], Any]) -> Any:
+def _answered(name: str, act: Callable[[Any, Any], Any], refuse: Refuse) -> Any:
     """Return ``act``, which answers with an empty response where it raises."""
 
     def answer(request: Any, response: Any) -> Any:
         try:
             return act(request, response)
         except Exception as error:  # noqa: BLE001 - rclpy's own, of many kinds
-            node.port.refuse(f'a request to {name}: {type(error).__name__}: {error}')
+            refuse(f'a request to {name}: {type(error).__name__}: {error}')
             return type(response)()
 
     return answer
 
 
-def _fitting(node: LiveNode[Any], act: Callable[[Any, Any], Any]) -> Any:
+def _fitting(node: LifecycleNode, act: Callable[[Any, Any], Any], refuse: Refuse) -> Any:
     """Return ``act`` for the transitions that start from the present state; refuse the others."""
 
     def change(request: Any, response: Any) -> Any:
@@ -50,7 +52,7 @@ def _fitting(node: LiveNode[Any], act: Callable[[Any, Any], Any]) -> Any:
         if (asked.label or asked.id) in {*fitting, *fitting.values()}:
             return act(request, response)
         wanted = asked.label or NAMES.get(asked.id, f'transition {asked.id}')
-        node.port.refuse(
+        refuse(
             f"lifecycle: '{shortened(wanted)}' does not start from the state "
             f"'{machine.current_state[1]}'; from there start "
             f'{", ".join(sorted(set(fitting.values()))) or "none: start the node anew"}'

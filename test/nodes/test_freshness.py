@@ -11,6 +11,7 @@ rclpy = pytest.importorskip('rclpy')
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry, Path
+from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
@@ -33,6 +34,8 @@ DRIVES = [
     pytest.param(WheelKinematics, 'turrets/command', id='turrets'),
 ]
 LIMITS = {'report_after': 0.2, 'stop_after': 0.4}
+EVERY = QoSProfile(depth=1000)
+"""So that on a busy machine, too, no command is overwritten by the next before it is seen."""
 
 
 class Driver:
@@ -40,7 +43,7 @@ class Driver:
 
     def __init__(self, tester, kind, topic, **parameters):
         self.tester = tester
-        self.commands = tester.listen(JointState, topic)
+        self.commands = tester.listen(JointState, topic, EVERY)
         self.node = tester.start(kind, **(LIMITS | parameters))
         self.cmd_vel = tester.publisher(TwistStamped, 'cmd_vel')
         self.offset, self.frame, self.frozen = 0.0, '', None
