@@ -25,7 +25,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from sensor_msgs.msg import JointState
 
-from agv_motion.bag.columns import read
+from agv_motion.bag.columns.columns import read
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.ros.cdr import codec

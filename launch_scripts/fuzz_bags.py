@@ -14,10 +14,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from agv_motion.bag.check import Limits, check
-from agv_motion.bag.columns import read
+from agv_motion.bag.checks.check import Limits, check
+from agv_motion.bag.columns.columns import read
+from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
-from agv_motion.bag.recovery import Recovery
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError
 

@@ -9,8 +9,8 @@ from mcap.exceptions import McapError
 from mcap.reader import NonSeekingReader, SeekingReader
 from rosbags.rosbag2 import Reader, ReaderError
 
+from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
-from agv_motion.bag.recovery import Recovery
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import SourceError
 

@@ -13,7 +13,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from mcap.writer import CompressionType, IndexType, Writer
 from sensor_msgs.msg import JointState
 
-from agv_motion.bag.definitions import installed
+from agv_motion.bag.cdr.definitions import installed
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.writer import BagWriter
 from agv_motion.ros.cdr import codec

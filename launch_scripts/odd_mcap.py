@@ -13,8 +13,8 @@ import zstandard
 from mcap.writer import IndexType
 from odd_bags import Case, Sent, by_mcap, drive, file, small
 
-from agv_motion.bag import records
-from agv_motion.bag.record_parsing import walk
+from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap.record_parsing import walk
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -3,7 +3,7 @@
 launch_scripts/trial_recovery.py [ARCHIVE] [EVERY]: mcap_conformance.tar.gz (else that in the folder
 AGV_MOTION_DATA), all its files or every so-manieth. Ends with status 1 where a message, attachment
 or metadata are lost, or where nobody is told of it.
-test/bag/test_conformance.py is the short form.
+test/bag/mcap/test_conformance.py is the short form.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from agv_motion.bag import records
-from agv_motion.bag.recovery import Recovery
+from agv_motion.bag.editing.recovery import Recovery
+from agv_motion.bag.mcap import records
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from agv_motion.bag.quality_of_service import OfferedQos
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from agv_motion.bag.records import Channel, Schema
+    from agv_motion.bag.mcap.records import Channel, Schema
 
 
 class Connection(NamedTuple):

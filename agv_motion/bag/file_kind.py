@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from agv_motion.bag.records import MAGIC
+from agv_motion.bag.mcap.records import MAGIC
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from agv_motion.bag.message_decoder import MessageDecoder
-from agv_motion.bag.message_type import NOTHING
+from agv_motion.bag.cdr.message_decoder import MessageDecoder
+from agv_motion.bag.cdr.message_type import NOTHING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

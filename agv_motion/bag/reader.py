@@ -16,12 +16,12 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, SupportsIndex, final
 
 from agv_motion.bag.bag_files import find, unpack_file
-from agv_motion.bag.batch import unpack_message
+from agv_motion.bag.columns.batch import unpack_message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.file_kind import MCAP, SQLITE, ZSTD, kind
-from agv_motion.bag.mcap_file import McapFile
+from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.metadata import FILE_NAME
-from agv_motion.bag.sqlite_file import SqliteFile
+from agv_motion.bag.sqlite.file import SqliteFile
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING, NamedTuple, final
 
 import numpy as np
 
-from agv_motion.bag import definitions, metadata
-from agv_motion.bag.mcap_writer import McapWriter
+from agv_motion.bag import metadata
+from agv_motion.bag.cdr import definitions
+from agv_motion.bag.mcap.together import FEW, Together
+from agv_motion.bag.mcap.writer import McapWriter
 from agv_motion.bag.quality_of_service import OfferedQos
-from agv_motion.bag.together import FEW, Together
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import TracebackType
 
-    from agv_motion.bag.records import Attachment, Metadata
+    from agv_motion.bag.mcap.records import Attachment, Metadata
 
 DEFAULT_QOS = (OfferedQos(),)
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
-from agv_motion.bag.recording import Recording, TopicReport
+from agv_motion.bag.recording.recording import Recording, TopicReport
+from agv_motion.bag.recording.storage_parameters import StorageParameters
 from agv_motion.bag.selection import Selection
-from agv_motion.bag.storage import StorageParameters
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.parameters import Spec, check
 from agv_motion.ros.arrivals import TICK, Arrivals

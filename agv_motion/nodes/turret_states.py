@@ -13,7 +13,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
-from agv_motion.bag.message_rows import MessageRows
+from agv_motion.bag.cdr.message_rows import MessageRows
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.odometry.turret_odometry import TurretOdometry

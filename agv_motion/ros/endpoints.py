@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from agv_motion.bag.definitions import split
+from agv_motion.bag.cdr.definitions import split
 from agv_motion.bag.quality_of_service import FOREVER, OfferedQos, kept
 from agv_motion.errors import ConfigurationError
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from agv_motion.bag.message_rows import MessageRows
+from agv_motion.bag.cdr.message_rows import MessageRows
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.messages import type_name
 

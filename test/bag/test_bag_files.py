@@ -15,8 +15,8 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from agv_motion.bag.bag_files import find
+from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
-from agv_motion.bag.recovery import Recovery
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import SourceError
 

@@ -14,10 +14,10 @@ from struct import pack
 import pytest
 import zstandard
 
-from agv_motion.bag import chunk as chunk_module
-from agv_motion.bag import records
-from agv_motion.bag.columns import read
+from agv_motion.bag.columns.columns import read
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap import chunk as chunk_module
+from agv_motion.bag.mcap import records
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError, ConfigurationError

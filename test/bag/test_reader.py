@@ -11,8 +11,8 @@ from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.rosbag2.enums import CompressionFormat, CompressionMode
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag import records
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap import records
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter, OfferedQos
 from agv_motion.errors import ConfigurationError, SourceError

@@ -12,8 +12,8 @@ from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader, ReaderError
 from rosbags.typesys import Stores, get_typestore
 
+from agv_motion.bag.mcap.together import Together
 from agv_motion.bag.reader import BagReader
-from agv_motion.bag.together import Together
 from agv_motion.bag.writer import BagWriter, OfferedQos
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
 

@@ -14,7 +14,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Int32, String
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.bag.columns import read_topic
+from agv_motion.bag.columns.columns import read_topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.nodes.bag_recorder import BagRecorder
 from agv_motion.ros.run import StartError

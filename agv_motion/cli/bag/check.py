@@ -35,8 +35,8 @@ def check(
 
     agv bag check walk --rate /odom=50 --rate /cmd_vel=10 --strict
     """
-    from agv_motion.bag.check import Limits
-    from agv_motion.bag.check import check as findings
+    from agv_motion.bag.checks.check import Limits
+    from agv_motion.bag.checks.check import check as findings
     from agv_motion.bag.reader import BagReader
 
     limits = Limits(_rates(rate or []), tolerance, gap)

@@ -17,7 +17,7 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from agv_motion.bag.diff import Difference, TopicDiff
+    from agv_motion.bag.editing.diff import Difference, TopicDiff
 
 
 def diff(
@@ -55,8 +55,8 @@ def diff(
     agv bag diff before after --topics /cmd_vel -t 1e-9
     agv bag diff live reprocessed --common --within 0.05
     """
-    from agv_motion.bag import diff as comparison
-    from agv_motion.bag.pairing import Pairing
+    from agv_motion.bag.editing import diff as comparison
+    from agv_motion.bag.editing.pairing import Pairing
 
     for option, value in (('tolerance', tolerance), ('relative', relative), ('within', within)):
         if value is not None and not isfinite(value):
@@ -108,7 +108,7 @@ def _overview(found: list[TopicDiff]) -> Table:
 
 def _details(console: Console, topic: TopicDiff, start: int) -> None:
     """Print the fields of a topic that differ, the worst first."""
-    from agv_motion.bag.diff import distance
+    from agv_motion.bag.editing.diff import distance
 
     if topic.since is None:
         return

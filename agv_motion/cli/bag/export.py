@@ -24,8 +24,8 @@ from agv_motion.files.unfinished import hidden_folder, told
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from agv_motion.bag.column import Column
-    from agv_motion.bag.columns import Columns
+    from agv_motion.bag.columns.column import Column
+    from agv_motion.bag.columns.columns import Columns
 
 MOST_COLUMNS = 64
 """Longer arrays stay in one cell."""
@@ -59,7 +59,7 @@ def export(
 
     agv bag export walk tables --topics /odom --field header.stamp --field pose.pose -f parquet
     """
-    from agv_motion.bag.columns import read_topic
+    from agv_motion.bag.columns.columns import read_topic
 
     console = terminal(stderr=True)
     writers = {'csv': _csv, 'parquet': _parquet}

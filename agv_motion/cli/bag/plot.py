@@ -14,7 +14,7 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from agv_motion.bag.columns import Columns
+    from agv_motion.bag.columns.columns import Columns
     from agv_motion.bag.reader import BagReader
 
 MOST_LINES = 24
@@ -41,7 +41,7 @@ def plot(
 
     agv bag plot walk /cmd_vel/twist/linear/x,/odom/twist/twist/linear/x
     """
-    from agv_motion.bag.columns import read_topic
+    from agv_motion.bag.columns.columns import read_topic
     from agv_motion.report.figure import figure
 
     panels: list[list[tuple[str, Any, Any]]] = []

@@ -61,7 +61,7 @@ def gaps(
     The usual interval is the median; topics without one (few or irregular messages) are left out
     unless they are named. Example: agv bag gaps walk --longer 0.5
     """
-    from agv_motion.bag.silences import regular, silences
+    from agv_motion.bag.checks.silences import regular, silences
 
     table = _table('topic', 'after', 'silence', 'usual', 'missing')
     with opened(bag, validate=False) as reader:
@@ -91,9 +91,9 @@ def _times(
     bag: BagReader, topics: list[str] | None, *, header: bool
 ) -> tuple[dict[str, NDArray[np.int64]], int]:
     """Return the stamps of each topic, and the start of the bag [ns]."""
-    from agv_motion.bag.columns import read_topic
-    from agv_motion.bag.definitions import begins_with_header
-    from agv_motion.bag.stamps import stamps
+    from agv_motion.bag.cdr.definitions import begins_with_header
+    from agv_motion.bag.checks.stamps import stamps
+    from agv_motion.bag.columns.columns import read_topic
 
     if not header:
         return stamps(bag, topics), bag.start

@@ -32,7 +32,7 @@ def recover(
     agv bag recover walk/walk_0.mcap walk_saved
     """
     from agv_motion.bag.bag_files import find
-    from agv_motion.bag.recovery import Recovery
+    from agv_motion.bag.editing.recovery import Recovery
     from agv_motion.bag.writer import BagWriter
     from agv_motion.files.unfinished import beside, told
 

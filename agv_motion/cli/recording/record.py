@@ -14,7 +14,7 @@ from agv_motion.cli.terminal import terminal
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from agv_motion.bag.recording import TopicReport
+    from agv_motion.bag.recording.recording import TopicReport
     from agv_motion.nodes.bag_recorder import BagRecorder
 
 

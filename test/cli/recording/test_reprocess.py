@@ -19,7 +19,7 @@ from geometry_msgs.msg import TwistStamped
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
-from agv_motion.bag.diff import Tolerance, diff
+from agv_motion.bag.editing.diff import Tolerance, diff
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import ConfigurationError

@@ -1,0 +1,1 @@
+"""What is wrong in a bag: damage, silences, stamps that go back."""

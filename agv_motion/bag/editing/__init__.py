@@ -1,0 +1,1 @@
+"""Bags from bags: compare two, save a damaged one."""

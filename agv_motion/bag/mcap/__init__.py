@@ -1,0 +1,1 @@
+"""Files in MCAP: records, chunks and indexes, read and written."""

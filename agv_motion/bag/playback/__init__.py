@@ -1,0 +1,1 @@
+"""Play a bag: each message at its time."""

@@ -1,0 +1,1 @@
+"""Record a graph into a bag: splitting, deleting, and what was lost."""

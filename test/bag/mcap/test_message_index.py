@@ -1,0 +1,99 @@
+"""Message indexes that are not true: they have no CRC, so they are compared with the messages."""
+
+from __future__ import annotations
+
+import io
+import random
+from struct import pack_into, unpack_from
+
+import pytest
+from mcap.writer import CompressionType, Writer
+
+from agv_motion.bag.checks.stamps import stamps
+from agv_motion.bag.columns.columns import read_topic
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap.record_parsing import walk
+from agv_motion.bag.reader import BagReader
+
+
+def file_of(rows, **options):
+    """Return a file with messages of topics (0 or 1) and times [ns], a few in a chunk."""
+    stream = io.BytesIO()
+    writer = Writer(stream, 150, CompressionType.NONE, **options)
+    writer.start('ros2', '')
+    schema = writer.register_schema('a/msg/A', 'ros2msg', b'uint32 x')
+    topics = [writer.register_channel(name, 'cdr', schema) for name in ('/a', '/b')]
+    for topic, time in rows:
+        writer.add_message(topics[topic], time, b'\0\1\0\0\0\0\0\0', time, 0)
+    writer.finish()
+    return bytearray(stream.getvalue())
+
+
+def found(data, opcode):
+    """Return where the bodies of records of a kind begin and end."""
+    return [(at, end) for o, at, end in walk(data, len(records.MAGIC), len(data)) if o == opcode]
+
+
+def opened(tmp_path, data):
+    path = tmp_path / 'a.mcap'
+    path.write_bytes(data)
+    return BagReader(path)
+
+
+ROWS = [(i % 2, 1000 + 7 * i) for i in range(24)]
+
+
+def test_a_time_that_is_not_that_of_the_message(tmp_path):
+    data = file_of(ROWS)
+    at, _ = found(data, records.MESSAGE_INDEX)[0]
+    pack_into('<Q', data, at + 6, unpack_from('<Q', data, at + 6)[0] + 1)
+    with opened(tmp_path, data) as bag:
+        with pytest.raises(DamagedBagError, match='not those of its index'):
+            list(bag.messages())
+        with pytest.raises(DamagedBagError, match='not those of the index'):
+            read_topic(bag, '/a')
+        assert len(list(bag.messages(['/b']))) == 12
+
+
+def test_a_time_outside_of_its_chunk_is_seen_without_unpacking(tmp_path):
+    data = file_of(ROWS)
+    at, _ = found(data, records.MESSAGE_INDEX)[0]
+    data[at + 6 + 7] ^= 1
+    with opened(tmp_path, data) as bag, pytest.raises(DamagedBagError, match='times outside'):
+        stamps(bag)
+
+
+def test_an_index_that_tells_of_fewer_messages_than_it_has_room_for(tmp_path):
+    data = file_of(ROWS)
+    at, _ = found(data, records.MESSAGE_INDEX)[0]
+    pack_into('<I', data, at + 2, unpack_from('<I', data, at + 2)[0] - 16)
+    with opened(tmp_path, data) as bag, pytest.raises(DamagedBagError, match='in a record of'):
+        list(bag.messages(['/a']))
+
+
+def test_without_a_chunk_no_message_of_another_topic_is_given_out(tmp_path):
+    """The index of a chunk that is gone is taken for that of the one before."""
+    rng = random.Random(1)  # noqa: S311
+    data = file_of([(rng.randrange(2), 1000 + 7 * i) for i in range(24)])
+    at, end = found(data, records.CHUNK)[2]
+    del data[at - records.PREFIX.size : end]
+    with opened(tmp_path, data) as bag:
+        assert bag.lossy
+        for topic in ('/a', '/b'):
+            with pytest.raises(DamagedBagError):
+                list(bag.messages([topic]))
+
+
+@pytest.mark.parametrize('bit', range(8))
+def test_a_bit_outside_of_chunks_is_seen_by_the_crc_of_the_data(tmp_path, bit):
+    data = file_of(ROWS, use_chunking=False, enable_data_crcs=True)
+    with opened(tmp_path, data) as bag:
+        assert not bag.problems
+    at, _ = found(data, records.MESSAGE)[5]
+    data[at + 2 + 4 + 2 * bit] ^= 1 << bit
+    with opened(tmp_path, data) as bag:
+        (problem,) = bag.problems
+        assert bag.lossy
+    end, _ = found(data, records.DATA_END)[0]
+    assert f'byte {end - records.PREFIX.size}: all bytes before have CRC' in str(problem)
