@@ -75,6 +75,8 @@ class Calibration(NamedTuple):
     slip: float
     """[m] Standard deviation of the travel of a wheel after 1 m that explains the errors best: the
     ``wheel_noise`` with which to fit again, where nothing better is known"""
+    slip_is_open: bool
+    """Whether even more slip would explain them better: then something else is wrong"""
 
 
 def calibrate(
@@ -132,6 +134,7 @@ def _fitted(
     misfit = float(error @ error) / max(count, 1)
     spreads = _spread(slope, misfit), _spread(drawn, misfit)
     values = nominal + doubt * _without_illusions((values - nominal) / doubt, *spreads)
+    share = _slip_share(stretches)
     return Calibration(
         tuple(_calibrated(model.unknowns, values, *spreads)),
         tuple(_undetermined(model.unknowns, _open_directions(max(spreads, key=np.trace)))),
@@ -139,7 +142,8 @@ def _fitted(
         sum(stretch.references for stretch in stretches),
         outliers,
         len(parts) - 1,
-        wheel_noise * _slip_share(stretches) ** 0.5,
+        wheel_noise * share**0.5,
+        share == SLIP_SHARES[-1],
     )
 
 

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from agv_motion.cli.bag.options import opened
 from agv_motion.cli.terminal import terminal
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
@@ -95,6 +95,14 @@ def calibrate(
         found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
         if not wheel_noise:
             typer.echo(f'slip of a wheel after 1 m: {1e3 * found.slip:.1f} mm')
+            if found.slip_is_open:
+                msg = (
+                    f'{bag}: only wheels that slip by {1e2 * found.slip:.0f} cm a metre or more '
+                    f'would explain the places of {drive.topic}: wrong places (reflections), or '
+                    'another robot than the drawing; no parameters are written. Record a longer '
+                    'drive, or give the slip with --wheel-noise'
+                )
+                raise SignalError(msg)
             found = fit(drawing.model, drive.recording, found.slip)
         _print(found, drive.topic)
         values = {unknown.name: unknown.value for unknown in found.unknowns}

@@ -181,3 +181,16 @@ def test_a_place_that_cannot_be_written_is_told(alone, tmp_path):
     status, _, errors = alone('calibrate', tmp_path / 'bag', *asked)
     assert status == 1
     assert 'cannot be written (No such file or directory)' in ' '.join(errors.split())
+
+
+def test_places_that_wander_are_not_blamed_on_the_wheels(alone, tmp_path):
+    """Reflections move the places by decimetres for a while: no radius is made of that."""
+
+    def wander(_, poses):
+        poses[:2] += np.cumsum(np.random.default_rng(3).normal(0.0, 0.03, (2, 1201)), axis=1)
+
+    differential(tmp_path / 'bag', 0.8, wander)
+    status, _, errors = alone('calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml')
+    assert status == 1
+    assert 'no parameters are written' in ' '.join(errors.split())
+    assert not (tmp_path / 'new.yaml').exists()
