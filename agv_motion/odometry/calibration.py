@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 
 DETERMINED = 0.3
 """[-] The data determine what they make this much surer than the drawing was."""
+UNTOLD = 0.5
+"""[-] Variance, of that of the drawing, above which the data told less than the drawing did."""
 CONVERGED = 1e-4
 """[-] Change of an unknown, as a share of its doubt, at which the iteration stops."""
 CUTTINGS = 3
@@ -133,11 +135,13 @@ def _fitted(
     count = len(error) - 3 * len(stretches)
     misfit = float(error @ error) / max(count, 1)
     spreads = _spread(slope, misfit), _spread(drawn, misfit)
-    values = nominal + doubt * _without_illusions((values - nominal) / doubt, *spreads)
+    values = nominal + doubt * _as_told((values - nominal) / doubt, *spreads)
     share = _slip_share(stretches)
     return Calibration(
         tuple(_calibrated(model.unknowns, values, *spreads)),
-        tuple(_undetermined(model.unknowns, _open_directions(max(spreads, key=np.trace)))),
+        tuple(
+            _undetermined(model.unknowns, _directions(max(spreads, key=np.trace), DETERMINED**2))
+        ),
         misfit,
         sum(stretch.references for stretch in stretches),
         outliers,
@@ -191,7 +195,7 @@ def _calibrated(
     A common zero offset of all turrets only shortens turns, by its cosine: at the drawing that
     says nothing of it, and what it seems to say elsewhere is not to be trusted.
     """
-    shares, as_drawn = np.sqrt(np.diag(spread)), np.sqrt(np.diag(drawn))
+    shares, as_drawn = np.sqrt(np.diag(_opened(spread))), np.sqrt(np.diag(drawn))
     shares = np.where(as_drawn < DETERMINED, shares, np.maximum(shares, as_drawn))
     return [
         Calibrated(
@@ -206,25 +210,33 @@ def _calibrated(
     ]
 
 
-def _without_illusions(change: Array, spread: Array, drawn: Array) -> Array:
-    """Return a change, in units of the doubts, as drawn along what only seems to be known.
+def _as_told(change: Array, spread: Array, drawn: Array) -> Array:
+    """Return a change, in units of the doubts, without its part along what the motion left open.
 
-    A combination that the motion left open as drawn, and that it tells only where the estimate has
-    come to, is of the bend of the model, not of the data: see :func:`_calibrated`.
+    Where the motion told less than the drawing, that part is mostly noise. And a combination that
+    was open as drawn, and that the motion tells only where the estimate has come to, is of the bend
+    of the model: see :func:`_calibrated`.
     """
-    for direction in _open_directions(drawn):
-        if direction @ spread @ direction < DETERMINED**2:
-            change = change - direction * (direction @ change)
+    for direction in (*_directions(spread, UNTOLD), *_directions(drawn, DETERMINED**2)):
+        change = change - direction * (direction @ change)
     return change
 
 
-def _open_directions(spread: Array) -> Array:
-    """Return (k, p) unit vectors, in units of the doubts, along which little was learnt."""
+def _opened(spread: Array) -> Array:
+    """Return a covariance that is as doubtful as the drawing, 1, where that tells more."""
+    for direction in _directions(spread, UNTOLD):
+        left = 1.0 - direction @ spread @ direction
+        spread = spread + left * np.outer(direction, direction)
+    return spread
+
+
+def _directions(spread: Array, least: float) -> Array:
+    """Return (k, p) unit vectors, in units of the doubts, along which the variance is above one."""
     variances, directions = np.linalg.eigh(spread)
-    return np.asarray(directions.T[variances > DETERMINED**2], dtype=np.float64)
+    return np.asarray(directions.T[variances > least], dtype=np.float64)
 
 
-def _undetermined(unknowns: Sequence[Unknown], open_directions: Array) -> list[tuple[str, ...]]:
+def _undetermined(unknowns: Sequence[Unknown], spread: Array) -> list[tuple[str, ...]]:
     """Return the names that take part in each direction along which little was learnt."""
     return [
         tuple(
@@ -232,7 +244,7 @@ def _undetermined(unknowns: Sequence[Unknown], open_directions: Array) -> list[t
             for unknown, part in zip(unknowns, direction, strict=True)
             if abs(part) > DETERMINED
         )
-        for direction in open_directions
+        for direction in _directions(spread, DETERMINED**2)
     ]
 
 
