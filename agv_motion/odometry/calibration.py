@@ -139,9 +139,7 @@ def _fitted(
     share = _slip_share(stretches)
     return Calibration(
         tuple(_calibrated(model.unknowns, values, *spreads)),
-        tuple(
-            _undetermined(model.unknowns, _directions(max(spreads, key=np.trace), DETERMINED**2))
-        ),
+        tuple(_undetermined(model.unknowns, max(spreads, key=np.trace))),
         misfit,
         sum(stretch.references for stretch in stretches),
         outliers,
