@@ -5,6 +5,7 @@ The core checks its own values against the row; the nodes make ROS parameters of
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from math import isfinite
@@ -79,6 +80,19 @@ def _check_element(name: str, value: Any, spec: Spec) -> None:
         low, high = spec.between
         msg = f'{name} = {value}: must lie in [{low:g}, {high:g}] {spec.unit} ({spec.description})'
         raise ConfigurationError(msg)
+
+
+MOVED = ((r'(follow|tracking)\.leash\.(\w+)', r'\1.pace.\2'),)
+"""Old names of parameters, as patterns, and what each is called now."""
+
+
+def moved(name: str) -> str:
+    """Return what an old parameter is called now; empty if it is none of the old ones."""
+    for old, new in MOVED:
+        found = re.fullmatch(old, name)
+        if found:
+            return found.expand(new)
+    return ''
 
 
 def nested(kind: type[DataclassInstance]) -> Iterator[tuple[str, type[DataclassInstance]]]:

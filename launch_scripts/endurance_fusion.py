@@ -12,7 +12,7 @@ import argparse
 import sys
 from math import hypot, sqrt
 
-from agv_motion.odometry.fusion_report import State, Verdict
+from agv_motion.odometry.fusion_report import FixVerdict, FusionState
 from agv_motion.simulation.trials.omni import OmniTrial, TrialParameters
 from agv_motion.simulation.uwb import UwbParameters
 
@@ -41,13 +41,14 @@ def day(seed: int, hours: float, *, multipath: bool) -> bool:
         error = hypot(estimate.pose.x - pose.x, estimate.pose.y - pose.y)
         beyond += error > BOUND * health.position_deviation
         worst = max(worst, error)
-        if health.state is State.TRACKING:
+        if health.state is FusionState.TRACKING:
             squares, tracked = squares + error * error, tracked + 1
     verdicts = trial.fusion.health().verdicts
     print(
         f'seed {seed}: {hours:g} h, RMS error {sqrt(squares / tracked):.3f} m while tracking, '
         f'worst {worst:.2f} m in drop-outs, {beyond} s beyond {BOUND:g} sigma, '
-        f'{verdicts[Verdict.REJECTED]} fixes rejected, {verdicts[Verdict.KIDNAPPED]} new starts'
+        f'{verdicts[FixVerdict.REJECTED]} fixes rejected, '
+        f'{verdicts[FixVerdict.KIDNAPPED]} new starts'
     )
     return beyond < (0.02 if multipath else 0.001) * hours * 3600
 

@@ -14,7 +14,7 @@ from rich.progress import track
 
 from agv_motion.simulation.trials.tracking import TrackingTrial, TrackingTrialParameters
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.follower_state import FollowerState
 
 LIMIT = 0.02
 """[m] root mean square of the distance between robot and Ghost"""
@@ -27,7 +27,7 @@ def drive(law: str, trajectories: int) -> bool:
         follower = FollowerParameters(law=law)
         trial = TrackingTrial(TrackingTrialParameters(seed=seed, follower=follower))
         trials.append((trial.run(), trial.rms(), max(trial.deviations()), seed))
-    lost = [seed for state, *_, seed in trials if state is not Following.ARRIVED]
+    lost = [seed for state, *_, seed in trials if state is not FollowerState.ARRIVED]
     overall = (sum(rms**2 for _, rms, _, _ in trials) / trajectories) ** 0.5
     worst = max(trials, key=lambda trial: trial[1])
     print(

@@ -55,3 +55,14 @@ def test_imports_run_from_the_nodes_down_to_planar():
             if target[0] != 'agv_motion' or target[1:2] in ([], [parts[0]]):
                 continue
             assert LAYERS[target[1]] < LAYERS[parts[0]], f'{path} imports {module}'
+
+
+def test_one_public_class_name_is_one_class():
+    where = {}
+    for path in files('.'):
+        if path.relative_to(ROOT).parts[0] == 'bag':
+            continue
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith('_'):
+                where.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
+    assert {name: paths for name, paths in where.items() if len(paths) > 1} == {}

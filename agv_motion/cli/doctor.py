@@ -18,7 +18,7 @@ from rich.text import Text
 from agv_motion.cli.terminal import terminal
 
 
-class Finding(NamedTuple):
+class DoctorFinding(NamedTuple):
     """One line of the report."""
 
     what: str
@@ -63,14 +63,14 @@ def doctor(
 
     Exit status 1 when something needed is missing. Example: agv doctor --no-talk
     """
-    findings = [Finding('python', platform.python_version(), True, 'Python 3.10 or newer')]  # noqa: FBT003 - a row
+    findings = [DoctorFinding('python', platform.python_version(), True, 'Python 3.10 or newer')]  # noqa: FBT003 - a row
     findings += [_module(*row) for row in MODULES]
     findings += [
-        Finding(name, shutil.which(name) or 'missing', False, remedy)  # noqa: FBT003 - a row
+        DoctorFinding(name, shutil.which(name) or 'missing', False, remedy)  # noqa: FBT003 - a row
         for name, remedy in COMMANDS
     ]
     findings += [
-        Finding(name, os.environ.get(name, 'not set'), False, '')  # noqa: FBT003 - a row
+        DoctorFinding(name, os.environ.get(name, 'not set'), False, '')  # noqa: FBT003 - a row
         for name in SURROUNDINGS
     ]
     if talk and not any(f.state == 'missing' for f in findings if f.what == 'rclpy'):
@@ -94,23 +94,23 @@ def how_to_get(module: str) -> str:
     return known.get(module) or (known['rclpy'] if ros else '')
 
 
-def _bad(finding: Finding) -> bool:
+def _bad(finding: DoctorFinding) -> bool:
     return finding.state == 'missing' or finding.state.startswith('failed')
 
 
-def _module(module: str, distribution: str, needed: bool, remedy: str) -> Finding:  # noqa: FBT001 - a row of the table
+def _module(module: str, distribution: str, needed: bool, remedy: str) -> DoctorFinding:  # noqa: FBT001 - a row of the table
     try:
         importlib.import_module(module)
     except ImportError as error:
         missing = isinstance(error, ModuleNotFoundError)
-        return Finding(module, 'missing' if missing else f'failed: {error}', needed, remedy)
+        return DoctorFinding(module, 'missing' if missing else f'failed: {error}', needed, remedy)
     try:
-        return Finding(module, importlib.metadata.version(distribution), needed, '')
+        return DoctorFinding(module, importlib.metadata.version(distribution), needed, '')
     except importlib.metadata.PackageNotFoundError:
-        return Finding(module, 'installed', needed, '')
+        return DoctorFinding(module, 'installed', needed, '')
 
 
-def _talk() -> Finding:
+def _talk() -> DoctorFinding:
     """Send a message from one participant to another and time it."""
     import rclpy
     from std_msgs.msg import String
@@ -141,12 +141,12 @@ def _talk() -> Finding:
         for context in contexts:
             rclpy.try_shutdown(context=context)
     if not heard:
-        return Finding('two participants', 'failed: no message came through', True, remedy)  # noqa: FBT003 - a row
+        return DoctorFinding('two participants', 'failed: no message came through', True, remedy)  # noqa: FBT003 - a row
     state = f'hear each other: found in {sent - start:.2f} s, {(heard[0] - sent) * 1e3:.1f} ms'
-    return Finding('two participants', state, True, '')  # noqa: FBT003 - a row
+    return DoctorFinding('two participants', state, True, '')  # noqa: FBT003 - a row
 
 
-def _print(findings: list[Finding]) -> None:
+def _print(findings: list[DoctorFinding]) -> None:
     table = Table(box=None, pad_edge=False)
     for column in ('what', 'state', 'what to do'):
         table.add_column(column, overflow='fold')

@@ -18,7 +18,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 
 from agv_motion.demo.configured import configured
-from agv_motion.demo.recorder import DemoRecorder, Topic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
@@ -36,18 +36,18 @@ if TYPE_CHECKING:
 
 
 TOPICS = [
-    Topic('cmd_vel', TwistStamped),
-    Topic('wheels/command', JointState),
-    Topic('wheels/state', JointState),
-    Topic('wheels/free_speed', JointState),
-    Topic('wheels/residual', Float64),
-    Topic('imu', Imu),
-    Topic('odom', Odometry),
-    Topic('odom/filtered', Odometry),
-    Topic('fix', PoseWithCovarianceStamped),
-    Topic('pose', PoseWithCovarianceStamped),
-    Topic('ground_truth', Odometry),
-    Topic('/diagnostics', DiagnosticArray),
+    RecordedTopic('cmd_vel', TwistStamped),
+    RecordedTopic('wheels/command', JointState),
+    RecordedTopic('wheels/state', JointState),
+    RecordedTopic('wheels/free_speed', JointState),
+    RecordedTopic('wheels/residual', Float64),
+    RecordedTopic('imu', Imu),
+    RecordedTopic('odom', Odometry),
+    RecordedTopic('odom/filtered', Odometry),
+    RecordedTopic('fix', PoseWithCovarianceStamped),
+    RecordedTopic('pose', PoseWithCovarianceStamped),
+    RecordedTopic('ground_truth', Odometry),
+    RecordedTopic('/diagnostics', DiagnosticArray),
 ]
 ROOM = 8.0, 6.0
 """[m] In which the driver chooses its goals."""

@@ -16,7 +16,7 @@ from agv_motion.probe.sources.recorded_time import iso
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from agv_motion.probe.sources.csv_file import Recording
+    from agv_motion.probe.sources.csv_file import CsvRecording
 
 DAY = 86400.0
 PROBE_WORDS = ('probe', 'delta', 'dt', 'granier', 'sap', 'mv', 'volt')
@@ -82,7 +82,7 @@ def _unit(column: str) -> str:
     return {'uv': 'uV', 'v': 'V', 'k': 'K', 'c': 'K', 'degc': 'K'}.get(word, 'mV')
 
 
-def _first_complete(recording: Recording, days: float) -> str:
+def _first_complete(recording: CsvRecording, days: float) -> str:
     """Return the first midnight from which on all probes are there, with a week before it."""
     good = np.asarray((recording.values > 1.0).all(axis=1))
     stamps = np.array(recording.times)

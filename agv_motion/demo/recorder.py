@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 EVERY = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
-class Topic(NamedTuple):
+class RecordedTopic(NamedTuple):
     """A topic worth keeping."""
 
     name: str
@@ -35,7 +35,7 @@ class DemoRecorder(LifecycleNode):
     """Writes what it hears into a bag, stamped with simulated time."""
 
     def __init__(
-        self, bag: Path, topics: list[Topic], now: Callable[[], float], **kwargs: Any
+        self, bag: Path, topics: list[RecordedTopic], now: Callable[[], float], **kwargs: Any
     ) -> None:
         """Subscribe to all topics.
 
@@ -61,7 +61,7 @@ class DemoRecorder(LifecycleNode):
         for topic in topics:
             self._subscribe(topic)
 
-    def _subscribe(self, topic: Topic) -> None:
+    def _subscribe(self, topic: RecordedTopic) -> None:
         write, latest, counts = self._writer.write, self._latest, self.counts
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
         handles = self._handles
@@ -83,7 +83,7 @@ class DemoRecorder(LifecycleNode):
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
 
-    def _add(self, topic: Topic) -> int:
+    def _add(self, topic: RecordedTopic) -> int:
         """Add a topic to the bag, with the quality of service of who publishes it by now."""
         name = f'/{topic.name.lstrip("/")}'
         offers = offered(self.get_publishers_info_by_topic(name))

@@ -16,7 +16,7 @@ from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
 from agv_motion.demo.configured import configured
-from agv_motion.demo.recorder import DemoRecorder, Topic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.tree_view import DemoView
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -24,7 +24,7 @@ from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.report.walk import Outcome
+from agv_motion.report.walk import WalkOutcome
 from agv_motion.ros.config import find_config
 from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import spin, start
@@ -41,24 +41,24 @@ REFRESH = 0.25
 """[s] between two pictures of the live view"""
 
 TOPICS = [
-    *(Topic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
-    Topic('granier/sap_flow', Vector3Stamped),
-    Topic('granier/valid', Bool, latched=True),
-    Topic('cmd_vel', TwistStamped),
-    Topic('goal', PoseStamped, latched=True),
-    Topic('state', String, latched=True),
-    Topic('path', Path, latched=True),
-    Topic('memory/sap_flow', OccupancyGrid, latched=True),
-    Topic('memory/last_visit', OccupancyGrid, latched=True),
-    Topic('turrets/command', JointState),
-    Topic('turrets/state', JointState),
-    Topic('turrets/residual', Float64),
-    Topic('odom', Odometry),
-    Topic('ground_truth', Odometry),
-    Topic('fix', PoseWithCovarianceStamped),
-    Topic('pose', PoseWithCovarianceStamped),
-    Topic('sunlight', Illuminance),
-    Topic('/diagnostics', DiagnosticArray),
+    *(RecordedTopic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
+    RecordedTopic('granier/sap_flow', Vector3Stamped),
+    RecordedTopic('granier/valid', Bool, latched=True),
+    RecordedTopic('cmd_vel', TwistStamped),
+    RecordedTopic('goal', PoseStamped, latched=True),
+    RecordedTopic('state', String, latched=True),
+    RecordedTopic('path', Path, latched=True),
+    RecordedTopic('memory/sap_flow', OccupancyGrid, latched=True),
+    RecordedTopic('memory/last_visit', OccupancyGrid, latched=True),
+    RecordedTopic('turrets/command', JointState),
+    RecordedTopic('turrets/state', JointState),
+    RecordedTopic('turrets/residual', Float64),
+    RecordedTopic('odom', Odometry),
+    RecordedTopic('ground_truth', Odometry),
+    RecordedTopic('fix', PoseWithCovarianceStamped),
+    RecordedTopic('pose', PoseWithCovarianceStamped),
+    RecordedTopic('sunlight', Illuminance),
+    RecordedTopic('/diagnostics', DiagnosticArray),
 ]
 
 
@@ -123,7 +123,7 @@ class DemoGraph:
                 return ended or simulator.elapsed >= seconds
 
             spin([self._recorder, *self._nodes], finished)
-        self.outcome = Outcome(
+        self.outcome = WalkOutcome(
             self._simulator.plain.elapsed, self._factor(), self._latencies(), self._recorder.counts
         )
         self._recorder.close()

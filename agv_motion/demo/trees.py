@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
 from agv_motion.demo.configured import configured
-from agv_motion.demo.recorder import DemoRecorder, Topic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.trees_view import TreesView
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -102,8 +102,13 @@ class TreesGraph:
             self._simulators.append(LiveNode(Simulator, **_given('simulator', name, body)))
         for node in (*self._nodes, *self._simulators):
             start(node)
-        topics = [Topic(f'{name}/{t}', *rest) for name in self.names for t, *rest in OF_EACH]
-        topics += [Topic('/reservations', MarkerArray), Topic('/diagnostics', DiagnosticArray)]
+        topics = [
+            RecordedTopic(f'{name}/{t}', *rest) for name in self.names for t, *rest in OF_EACH
+        ]
+        topics += [
+            RecordedTopic('/reservations', MarkerArray),
+            RecordedTopic('/diagnostics', DiagnosticArray),
+        ]
         self._leader = self._simulators[0].plain
         self._recorder = DemoRecorder(bag, topics, lambda: self._leader.time)
 

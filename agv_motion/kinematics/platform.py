@@ -1,7 +1,7 @@
 """The platform of the tree: where its turrets stand and how far its body reaches, told once.
 
-All that needs its shape declares these parameters or is handed `Outline.rim`: the wheels, the
-simulator, the command, the zone, the traffic of several trees, the memory and the pictures.
+All that needs its shape declares these parameters or is handed `PlatformOutline.rim`: the wheels,
+the simulator, the command, the zone, the traffic of several trees, the memory and the pictures.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
-class Outline:
+class PlatformOutline:
     """Where the turrets stand and how far the body reaches; by default the tree's octagon."""
 
     turret_x: Annotated[tuple[float, ...], Spec('turret centres, forward', 'm', (-100, 100))] = (
@@ -74,7 +74,7 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class PlatformParameters(Outline):
+class PlatformParameters(PlatformOutline):
     """The outline and what rolls under it."""
 
     wheel_radius: Annotated[float, Spec('rolling radius of all wheels', 'm', (0.001, 10.0))] = 0.1

@@ -18,7 +18,7 @@ from agv_motion.watchdog import Silence
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.odometry.continuity import Step
+    from agv_motion.odometry.continuity import Succession
     from agv_motion.planar import Twist
     from agv_motion.ros.port import Port
 
@@ -65,7 +65,7 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         speeds = self._wheels.command(twist, self.parameters.max_wheel_speed).speed
         return self._wheels.rates(speeds)
 
-    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Succession:
         """Carry the odometry on; it needs both wheels."""
         known = [angle for angle in angles if angle is not None]
         if len(known) < len(angles):

@@ -19,7 +19,7 @@ from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.follower_state import FollowerState
 from agv_motion.trajectory.path_headings import are_places, with_headings
 
 if TYPE_CHECKING:
@@ -39,13 +39,13 @@ MOST_DRAWN = 500
 """Poses of that path: a longer trajectory is shown in longer steps."""
 
 WORDS = {
-    Following.IDLE: 'waiting for a goal',
-    Following.LOCKED: 'locked: call ~/lock with data: false to go on',
-    Following.WAITING: 'the Ghost waits for the robot',
-    Following.SETTLING: 'settling',
-    Following.CORRECTING: 'correcting: driving to where the Ghost stands',
-    Following.ARRIVED: 'arrived',
-    Following.ABORTED: 'aborted',
+    FollowerState.IDLE: 'waiting for a goal',
+    FollowerState.LOCKED: 'locked: call ~/lock with data: false to go on',
+    FollowerState.WAITING: 'the Ghost waits for the robot',
+    FollowerState.SETTLING: 'settling',
+    FollowerState.CORRECTING: 'correcting: driving to where the Ghost stands',
+    FollowerState.ARRIVED: 'arrived',
+    FollowerState.ABORTED: 'aborted',
 }
 
 
@@ -109,11 +109,11 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         """Say that a goal may come."""
         super().begin()
         self._follower = Follower(self.parameters.follow)
-        self.tell(WORDS[Following.IDLE])
+        self.tell(WORDS[FollowerState.IDLE])
 
     def halt(self) -> None:
         """Forget the goal and send the last word: no motion."""
-        self._follower.stop()
+        self._follower.end_now()
         super().halt()
 
     def limits(self) -> TwistLimits:
@@ -138,7 +138,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         if follower.failure or self.guard.reason:
             return Diagnosis(ERROR, self.told, values)
         blind = bool(self.lost) and not follower.at_rest
-        waits = follower.state is Following.WAITING
+        waits = follower.state is FollowerState.WAITING
         return Diagnosis(WARN if blind or waits else OK, self.told, values)
 
     def cycle(self, dt: float) -> None:
@@ -147,7 +147,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         if follower.at_rest:
             self.leave(dt)
         elif pose is None or self.obstacle:
-            follower.halt()
+            follower.freeze()
             self.stand()
             if not follower.at_rest:
                 self.tell(self.obstacle)
@@ -161,7 +161,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         follower = self._follower
         if follower.failure:
             return f'{follower.state.value}: {follower.failure}'
-        if follower.state is Following.DRIVING:
+        if follower.state is FollowerState.DRIVING:
             ghost = follower.ghost
             return 'turning' if ghost.rotating else 'backing' if ghost.backward else 'driving'
         return WORDS[follower.state]
@@ -203,9 +203,9 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         follower, pose = self._follower, self.require_pose()
         if self.guard.reason:
             self.guard.release()
-            follower.stop()  # it leaves from where it is, not from where its Ghost waits
+            follower.end_now()  # it leaves from where it is, not from where its Ghost waits
         if self.parameters.lock_goals:
-            follower.hold(True)  # noqa: FBT003 - the name says what the flag is
+            follower.ease_to_halt()
         trajectory = follower.depart(pose, plan)
         lines = follower.ghost.report().lines()
         self._report.publish(String(data='\n'.join(lines)))
@@ -223,16 +223,18 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
     # Services
 
     def _on_lock(self, request: Any) -> str:
-        self._follower.hold(request.data)
-        if not request.data:
-            self.guard.release()
-        return 'the Ghost comes to a halt' if request.data else 'the Ghost is free to go'
+        if request.data:
+            self._follower.ease_to_halt()
+            return 'the Ghost comes to a halt'
+        self._follower.go_on()
+        self.guard.release()
+        return 'the Ghost is free to go'
 
     def _on_abort(self, _: Any) -> str:
         if self._follower.at_rest:
             msg = f'nothing to abort: {self.told}'
             raise SignalError(msg)
-        self._follower.abort()
+        self._follower.brake_and_end()
         return 'braking'
 
 

@@ -16,7 +16,7 @@ from agv_motion.probe import state_file
 from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
-from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.plain_node import PlainNode
@@ -26,7 +26,7 @@ from agv_motion.simulation.shade import LUX_PER_WATT, irradiance
 from agv_motion.simulation.sun import sun
 
 if TYPE_CHECKING:
-    from agv_motion.probe.sources.source import Sample, Source
+    from agv_motion.probe.sources.source import ProbeSample, ProbeSource
     from agv_motion.ros.port import Port
 
 
@@ -63,7 +63,7 @@ class GranierProbeParameters:
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
     ] = ''
     probe: ProbeParameters = field(default_factory=ProbeParameters)
-    simulated: SimulatedParameters = field(default_factory=SimulatedParameters)
+    simulated: SimulatedSourceParameters = field(default_factory=SimulatedSourceParameters)
     csv: CsvParameters = field(default_factory=CsvParameters)
     serial: SerialParameters = field(default_factory=SerialParameters)
 
@@ -83,7 +83,7 @@ class GranierProbeParameters:
             'serial': len(self.serial.fields),
         }[self.source]
 
-    def open_source(self) -> Source:
+    def open_source(self) -> ProbeSource:
         """Open the source that was chosen."""
         if self.source == 'csv':
             return CsvSource(self.csv, self.warm_up_days)
@@ -103,7 +103,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
     takes = GranierProbeParameters
 
     def __init__(
-        self, port: Port, parameters: GranierProbeParameters, source: Source | None = None
+        self, port: Port, parameters: GranierProbeParameters, source: ProbeSource | None = None
     ) -> None:
         """Open the source, unless another is given, and the topics."""
         super().__init__(port, parameters)
@@ -183,7 +183,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             for probe, value in zip(self._probes, sample.values, strict=True):
                 probe.update(sample.time, value)
 
-    def _take(self, sample: Sample, now: float) -> None:
+    def _take(self, sample: ProbeSample, now: float) -> None:
         """Let the probes see one sample, and publish what was read."""
         self._read_at = now
         self.port.stamp(self._message)

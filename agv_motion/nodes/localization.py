@@ -14,11 +14,11 @@ from std_srvs.srv import Trigger
 from agv_motion.errors import SignalError
 from agv_motion.nodes.localization_parameters import LocalizationParameters
 from agv_motion.odometry.assumed_noise import AssumedNoise
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
 from agv_motion.odometry.fix import Fix
 from agv_motion.odometry.fusion import PoseFusion
-from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
+from agv_motion.odometry.fusion_report import Estimate, FixVerdict, FusionState, Health
 from agv_motion.odometry.gates import require_within
 from agv_motion.odometry.odometry_intake import OdometryIntake, Passage
 from agv_motion.odometry.yaw_rate import YawRate
@@ -47,11 +47,11 @@ ANY_HEADING = 3.0
 SAID = Covariance(0.25, 0.0, 0.0, 0.25, 0.0, 0.0685)
 """Of a pose that somebody sets without one: half a metre and 15 degrees, as RViz has it."""
 LEVELS = {
-    State.WAITING: WARN,
-    State.SEARCHING: WARN,
-    State.TRACKING: OK,
-    State.DOUBTFUL: WARN,
-    State.ODOMETRY_ONLY: WARN,
+    FusionState.WAITING: WARN,
+    FusionState.SEARCHING: WARN,
+    FusionState.TRACKING: OK,
+    FusionState.DOUBTFUL: WARN,
+    FusionState.ODOMETRY_ONLY: WARN,
 }
 
 
@@ -77,7 +77,7 @@ class Localization(PlainNode[LocalizationParameters]):
         self._at_rest = False
         self._told_at = -inf
         self._last_pose: Pose | None = None
-        self._state = State.WAITING
+        self._state = FusionState.WAITING
         limits = Freshness(given.odom_timeout, given.odom_timeout, given.max_age)
         self._odom_watch = InputWatch(port, 'odom', limits)
         self._imu_watch = InputWatch(port, 'imu', limits)
@@ -104,7 +104,7 @@ class Localization(PlainNode[LocalizationParameters]):
         values |= {f'fixes {v.name.lower()}': str(n) for v, n in health.verdicts.items() if n}
         if self._odom_watch.silence() is Silence.LOST:
             return Diagnosis(ERROR, 'odom is lost', values)
-        if health.state is not State.WAITING and not self._trusted(health):
+        if health.state is not FusionState.WAITING and not self._trusted(health):
             return Diagnosis(ERROR, f'pose not told: {health.state.value}', values)
         return Diagnosis(LEVELS[health.state], health.state.value, values)
 
@@ -129,7 +129,7 @@ class Localization(PlainNode[LocalizationParameters]):
             self._odom_watch.note()
         self._at_rest = all(abs(component) < AT_REST for component in twist)
         self._fusion.follow(passage)
-        if passage.step in {Step.LEAP, Step.RESET}:
+        if passage.step in {Succession.LEAP, Succession.RESET}:
             self.port.warning(f'odom: {passage.step.value}; less sure of the pose')
         waypoint = passage.waypoint
         if self._filtered.get_subscription_count():
@@ -140,11 +140,12 @@ class Localization(PlainNode[LocalizationParameters]):
 
     def _tell_ignored(self, passage: Passage) -> None:
         """Tell of odometry that cannot be; one that comes late or twice is no news."""
-        if passage.step is Step.DOUBTED:
+        if passage.step is Succession.DOUBTED:
             stamp, (x, y, theta), _ = passage.waypoint
             given = self.parameters.fusion
             self.port.refuse(
-                f'odom of {stamp:.3f} s at ({x:g} m, {y:g} m, {theta:g} rad) {Step.DOUBTED.value}; '
+                f'odom of {stamp:.3f} s at ({x:g} m, {y:g} m, {theta:g} rad) '
+                f'{Succession.DOUBTED.value}; '
                 f'limits: {given.max_speed:g} m/s, {given.max_turn_rate:g} rad/s, and a covariance '
                 "that grows with the way (else set odom_covariance to 'assumed')"
             )
@@ -176,9 +177,9 @@ class Localization(PlainNode[LocalizationParameters]):
         fix = Fix(seconds_of(message.header.stamp), pose.x, pose.y, covariance, heading)
         verdict = self._fusion.add_fix(fix)
         text = f'fix ({fix.x:.2f} m, {fix.y:.2f} m) of {fix.stamp:.3f} s {verdict.value}'
-        if verdict is Verdict.KIDNAPPED:
+        if verdict is FixVerdict.KIDNAPPED:
             self.port.warning(text, throttle_duration_sec=1.0)
-        elif verdict in {Verdict.EARLY, Verdict.LATE}:
+        elif verdict in {FixVerdict.EARLY, FixVerdict.LATE}:
             newest, horizon = self._fusion.newest_stamp, self.parameters.fusion.horizon
             self.port.refuse(f'{text}; odom is at {newest:.3f} s, fusion.horizon = {horizon:g} s')
 
@@ -265,7 +266,7 @@ class Localization(PlainNode[LocalizationParameters]):
     def _trusted(self, health: Health) -> bool:
         given = self.parameters
         return (
-            health.state is not State.SEARCHING
+            health.state is not FusionState.SEARCHING
             and health.position_deviation <= given.max_position_deviation
             and health.heading_deviation <= given.max_heading_deviation
         )

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from agv_motion.blocked import SlowlyBlockedParameters
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.platform import Outline
+from agv_motion.kinematics.platform import PlatformOutline
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.memory import MemoryParameters
@@ -22,7 +22,7 @@ from agv_motion.parameters import Spec
 
 
 @dataclass(frozen=True)
-class MotionGeneratorParameters(CommandParameters, Outline):
+class MotionGeneratorParameters(CommandParameters, PlatformOutline):
     """How sap flow becomes motion."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 10.0

@@ -22,7 +22,7 @@ from agv_motion.watchdog import Silence
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.odometry.continuity import Step
+    from agv_motion.odometry.continuity import Succession
     from agv_motion.odometry.wheel_fault import WheelDiagnosis
     from agv_motion.planar import Twist
     from agv_motion.ros.port import Port
@@ -93,7 +93,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         speeds = self._wheels.command(twist, given.max_wheel_speed).speed
         return [speed / r for speed, r in zip(speeds, given.wheel_radii, strict=True)]
 
-    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Succession:
         """Carry the odometry on, and watch the wheels."""
         step = self._odometry.update(stamp, angles, by_rate=by_rate)
         if step.used:

@@ -20,7 +20,7 @@ from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_path, points_of
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import run
-from agv_motion.route.follower import Limits, RouteFollower
+from agv_motion.route.follower import RouteFollower, RouteLimits
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Point, Route
 from agv_motion.route.route_file import load_route
@@ -135,7 +135,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         else:
             self.tell(_progress(follower))
 
-    def _publish(self, point: Point, limits: Limits) -> None:
+    def _publish(self, point: Point, limits: RouteLimits) -> None:
         message = PointStamped()
         self.port.stamp(message)
         message.header.frame_id = self.parameters.frame

@@ -21,7 +21,7 @@ from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.sequence.prediction import predict
-from agv_motion.sequence.runner import Running, SequenceRunner
+from agv_motion.sequence.runner import SequenceRunner, SequenceState
 from agv_motion.sequence.sequence_file import load_sequence
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 
@@ -104,7 +104,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell what it does, and why it failed."""
-        failed = self.runner is not None and self.runner.status.state is Running.FAILED
+        failed = self.runner is not None and self.runner.status.state is SequenceState.FAILED
         blind = bool(self.lost) and self.runner is not None and not self.runner.ended
         failed = failed or bool(self.guard.reason)
         return Diagnosis(ERROR if failed else WARN if blind else OK, self.told, {})
@@ -147,7 +147,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         if self.runner is None or not self.predicted:
             return 0.0
         status = self.runner.status
-        if status.state is Running.DONE:
+        if status.state is SequenceState.DONE:
             return 1.0
         present = self.predicted[status.number]
         total = sum(each.duration for each in self.predicted)
@@ -157,12 +157,12 @@ class SequenceNode(DrivingNode[SequenceParameters]):
     def _words(self, runner: SequenceRunner) -> str:
         status, count = runner.status, len(runner.sequence.steps)
         where = f'{status.number + 1} of {count}: {runner.step.name}'
-        if status.state is Running.RUNNING:
+        if status.state is SequenceState.RUNNING:
             again = f', attempt {status.attempt}' if status.attempt > 1 else ''
             return f'{where}{again}'
-        if status.state is Running.BLIND:
+        if status.state is SequenceState.BLIND:
             return f'{self.obstacle} ({where})'
-        if status.state is Running.FAILED:
+        if status.state is SequenceState.FAILED:
             return f'failed: {status.reason}'
         return status.state.value if runner.ended else f'{status.state.value}, {where}'
 
@@ -186,7 +186,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         }
         self._status.publish(
             DiagnosticStatus(
-                level=ERROR if status.state is Running.FAILED else OK,
+                level=ERROR if status.state is SequenceState.FAILED else OK,
                 name=self.port.name,
                 message=self.told,
                 values=[KeyValue(key=key, value=value) for key, value in pairs.items()],

@@ -91,7 +91,7 @@ class SimulatedParameters:
 P = TypeVar('P', bound=SimulatedParameters)
 
 
-class Body(Protocol):
+class SimulatedBody(Protocol):
     """The simulated robot."""
 
     pose: Pose
@@ -119,7 +119,7 @@ class SimulatedNode(PlainNode[P]):
 
     # What a node overrides
 
-    def reset(self) -> Body:
+    def reset(self) -> SimulatedBody:
         """Return a robot at its start."""
         raise NotImplementedError
 

@@ -9,7 +9,7 @@ from nav_msgs.srv import SetMap
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.ros.covariances import covariance_of, fill_covariance
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, require_frame, seconds_of
@@ -34,7 +34,7 @@ class Carrier(Protocol):
     reckoning: WheelOdometry
     """The odometry"""
 
-    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Succession:
         """Carry the odometry on to ``angles`` [rad], None where a wheel tells nothing.
 
         Args:
@@ -68,7 +68,7 @@ class WheelStates:
             watch: Of the input.
 
         """
-        self.last_step = Step.FIRST
+        self.last_step = Succession.FIRST
         self._port, self._given, self._carrier = port, given, carrier
         self._angles, self._watch = angles, watch
         self._odom = port.publisher(Odometry, 'odom', SENSOR, sole=True)
@@ -92,7 +92,7 @@ class WheelStates:
             return
         if news:
             self._watch.note()
-        if step in {Step.RESET, Step.LEAP}:
+        if step in {Succession.RESET, Succession.LEAP}:
             self._port.warning(
                 f'{step.value}; odometry goes on from where it was, less sure',
                 throttle_duration_sec=1.0,
@@ -103,11 +103,12 @@ class WheelStates:
 
     def _tell_ignored(self, stamp: float) -> None:
         """Tell of readings that cannot be; one that comes late or twice is no news."""
-        if self.last_step is Step.DOUBTED:
+        if self.last_step is Succession.DOUBTED:
             limit = self._given.odometry.max_wheel_speed
             self._port.refuse(
-                f'wheels/state of {stamp:.3f} s {Step.DOUBTED.value}; wheels run {limit:g} m/s at '
-                'most (odometry.max_wheel_speed): look at the encoders and their clock'
+                f'wheels/state of {stamp:.3f} s {Succession.DOUBTED.value}; wheels run '
+                f'{limit:g} m/s at most '
+                '(odometry.max_wheel_speed): look at the encoders and their clock'
             )
 
     def _publish(self, stamp: Any) -> None:

@@ -32,7 +32,7 @@ from agv_motion.ros.wheel_joints import WheelJoints
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.odometry.continuity import Step
+    from agv_motion.odometry.continuity import Succession
     from agv_motion.odometry.wheel_odometry import WheelOdometry
 
 RELEASE = 'clear the wheels and see to the motors, then send a zero cmd_vel'
@@ -63,7 +63,7 @@ class WheelsNode(PlainNode[P]):
         """Return the rate of each wheel [rad/s] for ``twist``; raise where they cannot make it."""
         raise NotImplementedError
 
-    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Step:
+    def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Succession:
         """Carry the odometry on; see `Carrier`."""
         raise NotImplementedError
 

@@ -39,7 +39,7 @@ UNKNOWN = pi * pi / 3.0
 """[rad2] Variance of a heading that may be any."""
 
 
-class Sighting(NamedTuple):
+class FixAtPose(NamedTuple):
     """A fix, and where odometry saw the robot at that time."""
 
     fix: Fix
@@ -61,7 +61,7 @@ class _Columns(NamedTuple):
     """(n,) of it; 0 where not measured"""
 
 
-def thin(sightings: list[Sighting]) -> None:
+def thin(sightings: list[FixAtPose]) -> None:
     """Drop the sighting whose neighbours are nearest to each other: the whole way stays covered.
 
     Args:
@@ -76,7 +76,7 @@ def thin(sightings: list[Sighting]) -> None:
     del sightings[1 + gaps.index(min(gaps))]
 
 
-def align(sightings: Sequence[Sighting], heading: float, needed: int) -> Belief | None:
+def align(sightings: Sequence[FixAtPose], heading: float, needed: int) -> Belief | None:
     """Return where `odom` lies in `map` by those sightings that agree, as of the newest.
 
     Args:
@@ -101,7 +101,7 @@ def align(sightings: Sequence[Sighting], heading: float, needed: int) -> Belief 
     return believe(pose, Covariance(*map(float, spread[np.triu_indices(3)])), newest)
 
 
-def _columns(sightings: Sequence[Sighting]) -> _Columns:
+def _columns(sightings: Sequence[FixAtPose]) -> _Columns:
     newest = sightings[-1].waypoint
     rows = []
     for fix, (_, pose, noise) in sightings:

@@ -47,7 +47,7 @@ class Drift(NamedTuple):
     """[rad2/s]"""
 
 
-class Surprise(NamedTuple):
+class FixUpdate(NamedTuple):
     """A fix beside what was believed."""
 
     belief: Belief
@@ -84,7 +84,7 @@ def covariance_at(belief: Belief, waypoint: Waypoint, drift: Drift) -> Covarianc
     return Covariance(xx + moved, xy, xt, yy + moved, yt, tt + turned)
 
 
-def take(belief: Belief, waypoint: Waypoint, fix: Fix, drift: Drift) -> Surprise:
+def take(belief: Belief, waypoint: Waypoint, fix: Fix, drift: Drift) -> FixUpdate:
     """Return the belief at ``waypoint`` with a fix measured there, and how surprising that is."""
     map_to_odom, (_, position, _) = belief.map_to_odom, waypoint
     seen = compose(map_to_odom, position)
@@ -97,7 +97,7 @@ def take(belief: Belief, waypoint: Waypoint, fix: Fix, drift: Drift) -> Surprise
         rotate(fix.covariance, -turn),
         3 if fix.heading is not None else 2,
     )
-    return Surprise(
+    return FixUpdate(
         Belief(
             compose(map_to_odom, _about(position, correction)),
             shift(covariance, -position.x, -position.y),

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.odometry.calibration_models import CalibrationModel, Unknown
-    from agv_motion.odometry.calibration_recording import Recording
+    from agv_motion.odometry.calibration_recording import CalibrationDrive
 
 Array = NDArray[np.float64]
 
@@ -82,7 +82,7 @@ class Calibration(NamedTuple):
 
 
 def calibrate(
-    model: CalibrationModel, recording: Recording, wheel_noise: float = 0.005
+    model: CalibrationModel, recording: CalibrationDrive, wheel_noise: float = 0.005
 ) -> Calibration:
     """Return the unknowns of a base that fit a drive best.
 
@@ -111,7 +111,7 @@ def calibrate(
 
 def _fitted(
     model: CalibrationModel,
-    recording: Recording,
+    recording: CalibrationDrive,
     parts: Sequence[NDArray[np.int_]],
     wheel_noise: float,
 ) -> Calibration:
@@ -246,7 +246,7 @@ def _undetermined(unknowns: Sequence[Unknown], spread: Array) -> list[tuple[str,
     ]
 
 
-def _require(model: CalibrationModel, recording: Recording, wheel_noise: float) -> None:
+def _require(model: CalibrationModel, recording: CalibrationDrive, wheel_noise: float) -> None:
     if not 0.0 < wheel_noise < np.inf:
         msg = f'wheel_noise = {wheel_noise} m: must be finite and above 0'
         raise ConfigurationError(msg)

@@ -19,7 +19,7 @@ from agv_motion.odometry.columns import pose_columns
 
 if TYPE_CHECKING:
     from agv_motion.odometry.calibration_models import CalibrationModel
-    from agv_motion.odometry.calibration_recording import Recording
+    from agv_motion.odometry.calibration_recording import CalibrationDrive
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -52,7 +52,7 @@ class _Path(NamedTuple):
 
 
 def carried_apart(
-    model: CalibrationModel, recording: Recording, values: Array
+    model: CalibrationModel, recording: CalibrationDrive, values: Array
 ) -> list[NDArray[np.int_]]:
     """Return groups of references (their indices) between which nobody carried the robot.
 
@@ -75,7 +75,7 @@ def carried_apart(
 
 
 def _apart(
-    model: CalibrationModel, recording: Recording, values: Array, share: float
+    model: CalibrationModel, recording: CalibrationDrive, values: Array, share: float
 ) -> list[NDArray[np.int_]]:
     """Return the groups when lengths may be wrong by a share of themselves."""
     agreeing = _consensus(_windows(model, recording, values, share))
@@ -88,7 +88,9 @@ def _apart(
     return [part for part in np.split(kept, np.flatnonzero(~linked) + 1) if len(part) > 2]
 
 
-def _windows(model: CalibrationModel, recording: Recording, values: Array, share: float) -> _Path:
+def _windows(
+    model: CalibrationModel, recording: CalibrationDrive, values: Array, share: float
+) -> _Path:
     turned = recording.turned
     steering = np.zeros_like(turned) if recording.steering is None else recording.steering
     moved = model.displacement(values, turned, steering)

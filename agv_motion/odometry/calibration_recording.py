@@ -17,7 +17,7 @@ LONGEST = 60
 
 
 @dataclass(frozen=True)
-class Recording:
+class CalibrationDrive:
     """A drive: m steps of n wheels, and k reference poses taken between steps."""
 
     turned: Array
@@ -61,7 +61,7 @@ class Recording:
                 msg = f'{name}_noise = {noise}: must be finite and above 0'
                 raise ConfigurationError(msg)
 
-    def stretches(self) -> list[Recording]:
+    def stretches(self) -> list[CalibrationDrive]:
         """Return the drive in stretches of few references, each with a start of its own.
 
         They share no reference, so that their errors are independent.
@@ -70,10 +70,10 @@ class Recording:
         cuts = np.linspace(0, len(self.reference_step), count + 1).round().astype(int)
         return [self.part(np.arange(first, last)) for first, last in pairwise(cuts)]
 
-    def part(self, kept: NDArray[np.int_]) -> Recording:
+    def part(self, kept: NDArray[np.int_]) -> CalibrationDrive:
         """Return the drive from the first to the last of some references, with these alone."""
         steps = slice(self.reference_step[kept[0]], self.reference_step[kept[-1]])
-        return Recording(
+        return CalibrationDrive(
             self.turned[:, steps],
             self.reference_step[kept] - self.reference_step[kept[0]],
             self.reference[:, kept],

@@ -26,7 +26,7 @@ from agv_motion.planar import Pose, Twist, compose, exponential
 
 if TYPE_CHECKING:
     from agv_motion.odometry.calibration_models import CalibrationModel
-    from agv_motion.odometry.calibration_recording import Recording
+    from agv_motion.odometry.calibration_recording import CalibrationDrive
 
 Array = NDArray[np.float64]
 
@@ -62,12 +62,14 @@ class _Linear(NamedTuple):
 class Stretch:
     """A stretch and its start, which follows the unknowns."""
 
-    def __init__(self, model: CalibrationModel, recording: Recording, wheel_noise: float) -> None:
+    def __init__(
+        self, model: CalibrationModel, recording: CalibrationDrive, wheel_noise: float
+    ) -> None:
         """Lay the start where the nominal wheels fit the references best.
 
         Args:
             model: The base.
-            recording: One of :meth:`Recording.stretches`.
+            recording: One of :meth:`CalibrationDrive.stretches`.
             wheel_noise: Standard deviation of the travel of a wheel after 1 m [m].
 
         """

@@ -30,7 +30,7 @@ LONGEST_LOSS = 3600.0
 R = TypeVar('R')
 
 
-class Step(Enum):
+class Succession(Enum):
     """What a reading was good for."""
 
     MOVED = 'moved'
@@ -46,8 +46,8 @@ class Step(Enum):
     """Whether the reading counted"""
 
 
-for _step in Step:
-    _step.used = _step not in {Step.DUPLICATE, Step.LATE, Step.DOUBTED}
+for _step in Succession:
+    _step.used = _step not in {Succession.DUPLICATE, Succession.LATE, Succession.DOUBTED}
 
 
 class Reading(NamedTuple, Generic[R]):
@@ -90,7 +90,7 @@ class Continuity(Generic[R]):
         """Whether readings were ignored since the last one that counted."""
         return self._doubted is not None
 
-    def judge(self, stamp: float, value: R) -> Step:
+    def judge(self, stamp: float, value: R) -> Succession:
         """Take a reading, and return what it is good for.
 
         Raises:
@@ -100,16 +100,16 @@ class Continuity(Generic[R]):
         last = self.last
         if last is None:
             require_finite('stamp', (stamp,))
-            return self._accept(Step.FIRST, stamp, value, 0.0)
+            return self._accept(Succession.FIRST, stamp, value, 0.0)
         duration = stamp - last.stamp
         if 0.0 < duration <= LEAP and self._possible(last.value, value, duration):
             if duration > self._max_gap:
-                return self._accept(Step.GAP, stamp, value, duration)
+                return self._accept(Succession.GAP, stamp, value, duration)
             late = last.stamp - self._doubted[0].stamp if self._doubted else 0.0
-            return self._accept(Step.MOVED, stamp, value, late if 0.0 < late < LEAP else 0.0)
+            return self._accept(Succession.MOVED, stamp, value, late if 0.0 < late < LEAP else 0.0)
         require_finite('stamp', (stamp,))
         if duration == 0.0:
-            return Step.DUPLICATE
+            return Succession.DUPLICATE
         return self._doubt(last, stamp, value)
 
     def follow(self, stamp: float, value: R) -> None:
@@ -121,12 +121,12 @@ class Continuity(Generic[R]):
         if self._value is not None:
             self._value = value
 
-    def _accept(self, step: Step, stamp: float, value: R, unseen: float) -> Step:
+    def _accept(self, step: Succession, stamp: float, value: R, unseen: float) -> Succession:
         self.follow(stamp, value)
         self.unseen = unseen
         return step
 
-    def _doubt(self, last: Reading[R], stamp: float, value: R) -> Step:
+    def _doubt(self, last: Reading[R], stamp: float, value: R) -> Succession:
         """Ignore what cannot follow, unless it goes on from what was ignored before."""
         late = -LEAP < stamp - last.stamp < 0.0
         now = Reading(stamp, value)
@@ -134,20 +134,20 @@ class Continuity(Generic[R]):
             begun, newest = self._doubted
             passed = stamp - newest.stamp
             if passed == 0.0:
-                return Step.LATE if late else Step.DUPLICATE
+                return Succession.LATE if late else Succession.DUPLICATE
             if 0.0 < passed <= LEAP and self._possible(newest.value, value, passed):
                 self._doubted = begun, now
                 # messages may come late by some steps in a row, hardly by as long as a gap
                 if not late or stamp - begun.stamp > self._max_gap:
                     return self._leap(last, begun, now)
-                return Step.LATE
+                return Succession.LATE
         self._doubted = now, now
-        return Step.LATE if late else Step.DOUBTED
+        return Succession.LATE if late else Succession.DOUBTED
 
-    def _leap(self, last: Reading[R], begun: Reading[R], now: Reading[R]) -> Step:
+    def _leap(self, last: Reading[R], begun: Reading[R], now: Reading[R]) -> Succession:
         """Believe in a leap from ``last`` to ``begun``, on which ``now`` follows."""
         passed = begun.stamp - last.stamp
         jumped = 0.0 < passed <= LEAP or not self._possible(last.value, begun.value, LEAP)
         unseen = min(passed, LONGEST_LOSS) if passed > 0.0 else min(-passed, LEAP)
         self.begun = begun
-        return self._accept(Step.RESET if jumped else Step.LEAP, *now, unseen)
+        return self._accept(Succession.RESET if jumped else Succession.LEAP, *now, unseen)

@@ -7,7 +7,7 @@ from operator import mul, sub
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.continuity import Continuity, Succession
 from agv_motion.odometry.gates import MAX_ANGLE, require_within
 from agv_motion.planar import require_finite
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.parameters import OdometryParameters
 
-MOVED = Step.MOVED
+MOVED = Succession.MOVED
 """An attribute of an enumeration costs ten times a global: this one is read at every step."""
 
 
@@ -61,7 +61,7 @@ class Encoders:
         """Time of the last reading [s]; None before the first."""
         return self._stamp if self._stamp > -inf else None
 
-    def read(self, stamp: float, angles: Sequence[float], *, by_rate: bool = False) -> Step:
+    def read(self, stamp: float, angles: Sequence[float], *, by_rate: bool = False) -> Succession:
         """Take a reading and work out the travel since the one before.
 
         Args:
@@ -99,7 +99,7 @@ class Encoders:
                 self._angles[wheel] = angle
         self._order.replace(self._angles)
 
-    def _judge(self, stamp: float, angles: list[float], *, by_rate: bool) -> Step:
+    def _judge(self, stamp: float, angles: list[float], *, by_rate: bool) -> Succession:
         """Take a reading that does not plainly follow the last."""
         self._require(angles)
         order, before = self._order, self._angles
@@ -108,21 +108,21 @@ class Encoders:
             return step
         since, speed = self._stamp, self._speed()
         self._stamp, self._angles = stamp, angles
-        if step is Step.FIRST:
+        if step is Succession.FIRST:
             return step
-        if order.begun is not None and step in {Step.LEAP, Step.RESET}:
+        if order.begun is not None and step in {Succession.LEAP, Succession.RESET}:
             since = order.begun.stamp
             self.beyond = self._travel(before, order.begun.value)
             before = order.begun.value
-        elif step is Step.GAP and self._may_have_gone_round(stamp - since):
-            step, before = Step.RESET, angles
+        elif step is Succession.GAP and self._may_have_gone_round(stamp - since):
+            step, before = Succession.RESET, angles
         duration, travel = stamp - since, self._travel(before, angles)
         uneven = self._uneven(travel, duration) if by_rate else 0.0
         self.duration, self.travel, self.rolled = duration, travel, sum(map(abs, travel))
         self.doubt = uneven + self._doubt(step, max(speed, self._speed()), by_rate=by_rate)
         return step
 
-    def _doubt(self, step: Step, speed: float, *, by_rate: bool) -> float:
+    def _doubt(self, step: Succession, speed: float, *, by_rate: bool) -> float:
         """Return how far a wheel may have rolled beyond what is known [m].
 
         Args:
@@ -131,9 +131,12 @@ class Encoders:
             by_rate: Whether nothing counted meanwhile.
 
         """
-        if step is Step.RESET or by_rate:
+        if step is Succession.RESET or by_rate:
             return speed * self._order.unseen
-        unsure = {Step.GAP: self._gap_noise * self.rolled, Step.LEAP: sum(map(abs, self.beyond))}
+        unsure = {
+            Succession.GAP: self._gap_noise * self.rolled,
+            Succession.LEAP: sum(map(abs, self.beyond)),
+        }
         return unsure.get(step, 0.0) / len(self._radii)
 
     def _uneven(self, travel: Sequence[float], duration: float) -> float:

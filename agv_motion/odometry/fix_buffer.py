@@ -21,7 +21,7 @@ from agv_motion.odometry.chi_square import chi_square_quantile
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.odometry.alignment import Sighting
+    from agv_motion.odometry.alignment import FixAtPose
 
 VOTERS = range(3, 8)
 """How many fixes in a row are rejected when it is asked whether the one before was the outlier."""
@@ -31,7 +31,7 @@ LONGEST_STREAK = 24
 
 @dataclass
 class _Entry:
-    sighting: Sighting
+    sighting: FixAtPose
     after: Belief
     accepted: bool = False
     outvoted: bool = False
@@ -69,15 +69,15 @@ class FixBuffer:
         """Stamp of the belief before the first fix: none earlier can be taken in [s]."""
         return self._before.waypoint.stamp
 
-    def __contains__(self, sighting: Sighting) -> bool:
+    def __contains__(self, sighting: FixAtPose) -> bool:
         """Return whether the very same fix is there already."""
         return any(entry.sighting.fix == sighting.fix for entry in self._entries)
 
-    def rejected(self) -> Sequence[Sighting]:
+    def rejected(self) -> Sequence[FixAtPose]:
         """Return the fixes since the last one that was accepted, in the order of time."""
         return [entry.sighting for entry in self._entries[self._streak() :]]
 
-    def take(self, sighting: Sighting) -> bool:
+    def take(self, sighting: FixAtPose) -> bool:
         """Take in a fix that is not before the start; return whether it passed the gate."""
         entries = self._entries
         place = bisect_right([entry.sighting.fix.stamp for entry in entries], sighting.fix.stamp)

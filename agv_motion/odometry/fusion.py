@@ -12,13 +12,13 @@ from math import ceil, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.alignment import Sighting, align, thin
+from agv_motion.odometry.alignment import FixAtPose, align, thin
 from agv_motion.odometry.belief import Belief, Drift, believe, covariance_at
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import Covariance, rotate
 from agv_motion.odometry.fix_buffer import FixBuffer
 from agv_motion.odometry.fusion_parameters import FusionParameters
-from agv_motion.odometry.fusion_report import Estimate, Health, State, Verdict
+from agv_motion.odometry.fusion_report import Estimate, FixVerdict, FusionState, Health
 from agv_motion.odometry.gates import (
     MAX_COORDINATE,
     MAX_DEVIATION,
@@ -58,14 +58,14 @@ class PoseFusion:
         self._intake = OdometryIntake(self._given)
         self._history = OdometryHistory(self._given.horizon)
         self._waiting: list[Fix] = []
-        self._verdicts = dict.fromkeys(Verdict, 0)
+        self._verdicts = dict.fromkeys(FixVerdict, 0)
         self.restart()
 
     def restart(self) -> None:
         """Forget where the robot is and search for it anew."""
         self._buffer: FixBuffer | None = None
         self._guess: Belief | None = None
-        self._sightings: list[Sighting] = []
+        self._sightings: list[FixAtPose] = []
         self._accepted_at: float | None = None
 
     def set_pose(self, pose: Pose, covariance: Covariance) -> None:
@@ -89,7 +89,7 @@ class PoseFusion:
         self.restart()
         self._track(believe(pose, covariance, self._history.newest))
 
-    def add_odometry(self, stamp: float, pose: Pose, origin_covariance: Covariance) -> Step:
+    def add_odometry(self, stamp: float, pose: Pose, origin_covariance: Covariance) -> Succession:
         """Take in where odometry sees the robot; what does not follow is ignored: `continuity`.
 
         Args:
@@ -111,7 +111,7 @@ class PoseFusion:
         step, now, *_ = passage
         if not step.used:
             return
-        if step in {Step.LEAP, Step.RESET} and self._history:
+        if step in {Succession.LEAP, Succession.RESET} and self._history:
             self._leap(passage)
         self._history.append(now)
         if self._waiting and self._waiting[0].stamp <= now.stamp:
@@ -120,14 +120,14 @@ class PoseFusion:
             for fix in ready:
                 self._judge(fix)
 
-    def add_fix(self, fix: Fix) -> Verdict:
+    def add_fix(self, fix: Fix) -> FixVerdict:
         """Take in a position fix, in time, late or out of order; return what became of it."""
         ahead = fix.stamp - self._history.newest.stamp if self._history else 0.5
         if 0.0 < ahead <= max(self._given.horizon, 1.0):
             if fix not in self._waiting:
                 self._waiting = sorted([*self._waiting, fix], key=lambda waiting: waiting.stamp)
             del self._waiting[:-MOST_WAITING]
-            return self._count(Verdict.WAITING)
+            return self._count(FixVerdict.WAITING)
         return self._judge(fix)
 
     @property
@@ -153,42 +153,42 @@ class PoseFusion:
         """Return how far the estimate is to be trusted."""
         estimate = self.estimate()
         if estimate is None:
-            state = State.SEARCHING if self._sightings else State.WAITING
+            state = FusionState.SEARCHING if self._sightings else FusionState.WAITING
             return Health(state, inf, inf, inf, dict(self._verdicts))
         since = inf if self._accepted_at is None else estimate.stamp - self._accepted_at
-        state = State.TRACKING
+        state = FusionState.TRACKING
         if self._buffer is None:
-            state = State.SEARCHING
+            state = FusionState.SEARCHING
         elif len(self._buffer.rejected()) >= DOUBT:
-            state = State.DOUBTFUL
+            state = FusionState.DOUBTFUL
         elif since > self._given.fix_timeout:
-            state = State.ODOMETRY_ONLY
+            state = FusionState.ODOMETRY_ONLY
         xx, _, _, yy, _, tt = estimate.covariance
         return Health(state, sqrt(max(xx, yy)), sqrt(tt), since, dict(self._verdicts))
 
     def _belief(self) -> Belief | None:
         return self._buffer.belief if self._buffer is not None else self._guess
 
-    def _judge(self, fix: Fix) -> Verdict:
+    def _judge(self, fix: Fix) -> FixVerdict:
         """Decide about a fix that is not newer than the odometry."""
         if fix.stamp > self._history.newest.stamp:
-            return self._count(Verdict.EARLY)
+            return self._count(FixVerdict.EARLY)
         horizon = max(self._history.newest.stamp - self._given.horizon, self._history.oldest.stamp)
         if fix.stamp < horizon or (self._buffer is not None and fix.stamp < self._buffer.start):
-            return self._count(Verdict.LATE)
-        sighting = Sighting(fix, self._tag_at(self._history.at(fix.stamp)))
+            return self._count(FixVerdict.LATE)
+        sighting = FixAtPose(fix, self._tag_at(self._history.at(fix.stamp)))
         if self._is_lost(sighting.waypoint):
             self.restart()
         if self._buffer is None:
             return self._count(self._search(sighting))
         if sighting in self._buffer:
-            return self._count(Verdict.DUPLICATE)
-        verdict = Verdict.REJECTED
+            return self._count(FixVerdict.DUPLICATE)
+        verdict = FixVerdict.REJECTED
         if self._buffer.take(sighting):
-            verdict = Verdict.ACCEPTED
+            verdict = FixVerdict.ACCEPTED
             self._accepted_at = max(fix.stamp, self._accepted_at or fix.stamp)
         elif self._is_kidnapped(self._buffer):
-            verdict = Verdict.KIDNAPPED
+            verdict = FixVerdict.KIDNAPPED
         if self._buffer is not None:
             self._buffer.forget(horizon)
         return self._count(verdict)
@@ -215,10 +215,10 @@ class PoseFusion:
         xx, _, _, yy, _, tt = covariance_at(self._buffer.belief, waypoint, self._drift)
         return max(xx, yy) > MAX_DEVIATION**2 or tt > MAX_TURN_DEVIATION**2
 
-    def _search(self, sighting: Sighting) -> Verdict:
+    def _search(self, sighting: FixAtPose) -> FixVerdict:
         """Keep the fix, and see whether enough of them agree on position and heading."""
         if any(known.fix == sighting.fix for known in self._sightings):
-            return Verdict.DUPLICATE
+            return FixVerdict.DUPLICATE
         self._sightings.append(sighting)
         self._sightings.sort(key=lambda known: known.fix.stamp)
         while self._sightings[0].fix.stamp < sighting.fix.stamp - self._given.search_time:
@@ -226,10 +226,10 @@ class PoseFusion:
         if len(self._sightings) > MOST_SIGHTINGS:
             thin(self._sightings)
         if len(self._sightings) < self._given.alignment_fixes:
-            return Verdict.SEARCHING
+            return FixVerdict.SEARCHING
         heading = self._guess.map_to_odom.theta if self._guess else 0.0
         self._settle(self._align(self._sightings, heading))
-        return Verdict.SEARCHING if self._buffer is None else Verdict.ACCEPTED
+        return FixVerdict.SEARCHING if self._buffer is None else FixVerdict.ACCEPTED
 
     def _is_kidnapped(self, buffer: FixBuffer) -> bool:
         """Begin the search anew if the rejected fixes agree on another place; return whether."""
@@ -245,7 +245,7 @@ class PoseFusion:
         self._settle(belief)
         return True
 
-    def _align(self, sightings: Sequence[Sighting], heading: float) -> Belief | None:
+    def _align(self, sightings: Sequence[FixAtPose], heading: float) -> Belief | None:
         needed = max(self._given.alignment_fixes, ceil(AGREEING * len(sightings)))
         return align(sightings, heading, needed)
 
@@ -282,6 +282,6 @@ class PoseFusion:
             else:
                 self._guess = kept
 
-    def _count(self, verdict: Verdict) -> Verdict:
+    def _count(self, verdict: FixVerdict) -> FixVerdict:
         self._verdicts[verdict] += 1
         return verdict

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from agv_motion.planar import Pose
 
 
-class Verdict(Enum):
+class FixVerdict(Enum):
     """What became of a fix."""
 
     ACCEPTED = 'accepted'
@@ -23,7 +23,7 @@ class Verdict(Enum):
     DUPLICATE = 'the same fix again: ignored'
 
 
-class State(Enum):
+class FusionState(Enum):
     """How far the estimate is to be trusted."""
 
     WAITING = 'no odometry, or no fix yet'
@@ -49,12 +49,12 @@ class Estimate(NamedTuple):
 class Health(NamedTuple):
     """Whether to believe the estimate, and why."""
 
-    state: State
+    state: FusionState
     position_deviation: float
     """[m] the larger standard deviation of x and y; infinite when unknown"""
     heading_deviation: float
     """[rad]"""
     since_fix: float
     """[s] since the last fix that was accepted"""
-    verdicts: dict[Verdict, int]
+    verdicts: dict[FixVerdict, int]
     """How many fixes each verdict was given to"""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.odometry.alignment import UNKNOWN
 from agv_motion.odometry.belief import Belief, Drift, covariance_at
-from agv_motion.odometry.continuity import LEAP, Step
+from agv_motion.odometry.continuity import LEAP, Succession
 from agv_motion.odometry.covariance import Covariance, add, rotate, shift
 from agv_motion.odometry.history import Waypoint, speed_between
 from agv_motion.planar import compose, inverse
@@ -36,7 +36,7 @@ class Leap:
         ]
         self.of_clock = not 0.0 < self._first.stamp - self._last.stamp <= LEAP
         """Whether the stamps leapt"""
-        self.of_all = self.of_clock and passage.step is Step.RESET
+        self.of_all = self.of_clock and passage.step is Succession.RESET
         """Whether stamps and poses leapt: then all began anew"""
 
     def keep(self, belief: Belief, drift: Drift) -> Belief:
@@ -44,7 +44,7 @@ class Leap:
         last, first = self._last, self._first
         about_robot = add(covariance_at(belief, last, drift), self._lost())
         covariance = shift(about_robot, -last.pose.x, -last.pose.y)
-        if self._passage.step is not Step.RESET:
+        if self._passage.step is not Succession.RESET:
             return Belief(belief.map_to_odom, covariance, last._replace(stamp=first.stamp))
         jump = compose(last.pose, inverse(first.pose))
         moved = rotate(shift(covariance, jump.x, jump.y), -jump.theta)

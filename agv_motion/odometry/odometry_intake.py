@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.odometry.continuity import LEAP, Continuity, Step
+from agv_motion.odometry.continuity import LEAP, Continuity, Succession
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
 from agv_motion.odometry.gates import (
     MAX_DEVIATION,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from agv_motion.odometry.fusion_parameters import FusionParameters
     from agv_motion.odometry.yaw_rate import YawRate
 
-MOVED = Step.MOVED
+MOVED = Succession.MOVED
 """An attribute of an enumeration costs ten times a global: this one is read at every message."""
 SLACK = 0.01, 0.05
 """[m, rad] What two messages may be apart however near their stamps are."""
@@ -43,7 +43,7 @@ EXACT = 1e-13
 class Passage(NamedTuple):
     """What became of one message of odometry."""
 
-    step: Step
+    step: Succession
     waypoint: Waypoint
     """Where it sees the robot"""
     begun: Waypoint | None = None
@@ -99,15 +99,15 @@ class OdometryIntake:
         self._last = now
         if step is MOVED and self._noise is None and gyro is None:
             return Passage(step, now)
-        leapt, begun = step in {Step.LEAP, Step.RESET}, None
+        leapt, begun = step in {Succession.LEAP, Succession.RESET}, None
         if leapt and self._order.begun is not None:
             begun = self._order.begun.value
         if self._noise is not None:
-            if begun is not None and step is Step.RESET:
+            if begun is not None and step is Succession.RESET:
                 begun = begun._replace(noise=self._noise.restart(begun.pose))
             now = now._replace(noise=self._noise.follow(pose))
         if gyro is not None:
-            now = self._turned(now, begun if step is Step.RESET else None, gyro)
+            now = self._turned(now, begun if step is Succession.RESET else None, gyro)
         return Passage(step, now, begun, self._order.unseen if leapt else 0.0)
 
     def _turned(self, now: Waypoint, begun: Waypoint | None, gyro: YawRate) -> Waypoint:

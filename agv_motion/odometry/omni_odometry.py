@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.omniwheels import OmniWheels
-    from agv_motion.odometry.continuity import Step
+    from agv_motion.odometry.continuity import Succession
     from agv_motion.odometry.parameters import OdometryParameters
 
 
@@ -55,7 +55,7 @@ class OmniOdometry:
 
     def update(
         self, stamp: float, angles: Sequence[float | None], *, by_rate: bool = False
-    ) -> Step:
+    ) -> Succession:
         """Take a reading; None stands for a wheel of which nothing is known.
 
         Args:

@@ -9,7 +9,7 @@ import numpy as np
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.odometry.base import TurretBase
-from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.continuity import Continuity, Succession
 from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.odometry.gates import require_within
 from agv_motion.planar import Twist
@@ -43,7 +43,7 @@ class Reckoned(NamedTuple):
     """where the wheels carried the platform"""
     covariance: Covariance
     """of the pose"""
-    step: Step
+    step: Succession
     """what the state was good for; one that is ignored leaves pose and covariance"""
 
 
@@ -111,7 +111,7 @@ class TurretOdometry:
         speed = sum(map(abs, speeds)) / len(speeds)
         step = order.judge(time, (speed, fit.twist))
         if step.used and before is not None:
-            begun = order.begun if step is Step.LEAP and order.begun is not None else before
+            begun = order.begun if step is Succession.LEAP and order.begun is not None else before
             passed, (last_speed, last_twist) = time - begun.stamp, before.value
             # over a gap they either rolled on or the clock leapt: as uncertain as it is long
             lost = max(last_speed, speed) * order.unseen

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.continuity import Continuity, Succession
 from agv_motion.odometry.gates import require_within
 
 if TYPE_CHECKING:
@@ -64,9 +64,9 @@ class WheelAngles:
         before, last = self._order.stamp, self._order.last
         step = self._order.judge(stamp, rates)
         if step.used:
-            if step is Step.LEAP and self._order.begun is not None:
+            if step is Succession.LEAP and self._order.begun is not None:
                 before, last = self._order.begun.stamp, self._order.begun
-            elapsed = 0.0 if step is Step.FIRST else stamp - before
+            elapsed = 0.0 if step is Succession.FIRST else stamp - before
             self._count(pairs, self._none if last is None else last.value, elapsed)
         return [
             None if position is None and rate is None else angle

@@ -10,7 +10,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.dead_reckoning import DeadReckoning
 from agv_motion.odometry.encoders import MOVED, Encoders
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.odometry.base import Base
-    from agv_motion.odometry.yaw_rate import Turn
+    from agv_motion.odometry.yaw_rate import GyroTurn
 
 SLIP = 9.0
 """[-] Wheels slip when their residual shows more than this many times the usual variance."""
@@ -122,10 +122,10 @@ class WheelOdometry:
         stamp: float,
         angles: Sequence[float],
         steering: Sequence[float] = (),
-        turn: Turn | None = None,
+        turn: GyroTurn | None = None,
         *,
         by_rate: bool = False,
-    ) -> Step:
+    ) -> Succession:
         """Take a reading of the encoders and carry pose, covariance and twist on.
 
         Args:
@@ -149,9 +149,9 @@ class WheelOdometry:
             return step
         if steering:
             self._steering = list(steering)
-        if step is Step.FIRST:
+        if step is Succession.FIRST:
             return step
-        if step is Step.LEAP:
+        if step is Succession.LEAP:
             self._go_beyond(halfway)
         variance, covariance = self._walk * encoders.rolled, base.unit_covariance
         dx, dy, angle, residual = base.displacement(encoders.travel, halfway)
@@ -192,9 +192,9 @@ class WheelOdometry:
             return steering
         return [a + 0.5 * wrap(b - a) for a, b in zip(self._steering, steering, strict=True)]
 
-    def _together(self, step: Step, *, by_rate: bool) -> int:
+    def _together(self, step: Succession, *, by_rate: bool) -> int:
         """Return how many wheels go wrong together: all, where nobody knows whether they moved.
 
         Each wheel has its own part in a path that is guessed between two positions.
         """
-        return 1 if step is Step.GAP and not by_rate else len(self._base)
+        return 1 if step is Succession.GAP and not by_rate else len(self._base)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.continuity import Continuity, Succession
 from agv_motion.odometry.covariance import Covariance
 from agv_motion.odometry.gates import require_within
 from agv_motion.parameters import Spec, check
@@ -50,7 +50,7 @@ class YawRateParameters:
         check(self)
 
 
-class Turn(NamedTuple):
+class GyroTurn(NamedTuple):
     """What the gyroscope says of the turn over some time."""
 
     angle: float
@@ -132,7 +132,7 @@ class YawRate:
         step = self._order.judge(stamp, rate)
         if not step.used:
             return
-        if step is Step.MOVED:
+        if step is Succession.MOVED:
             duration = stamp - before
             self._angle += duration * (0.5 * (rate + self._rate) - self.bias)
             self._duration += duration
@@ -147,7 +147,7 @@ class YawRate:
         if at_rest:
             self._correct(rate - self.bias, self._given.noise**2 / duration)
 
-    def compare(self, turn: Turn, angle: float, variance: float) -> None:
+    def compare(self, turn: GyroTurn, angle: float, variance: float) -> None:
         """Learn the bias from what the wheels say of a turn as well.
 
         Args:
@@ -165,11 +165,11 @@ class YawRate:
         self.bias += gain * missed
         self.bias_variance *= 1.0 - gain
 
-    def take(self) -> Turn | None:
+    def take(self) -> GyroTurn | None:
         """Return the turn since this was last asked; None when nothing was measured."""
         if self._duration == 0.0:
             return None
         a_second = self._given.noise**2 + 2.0 * PERSISTENCE * self.bias_variance
-        turn = Turn(self._angle, a_second * self._duration, self._duration)
+        turn = GyroTurn(self._angle, a_second * self._duration, self._duration)
         self._angle = self._duration = 0.0
         return turn

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.odometry.calibration_recording import Recording
+from agv_motion.odometry.calibration_recording import CalibrationDrive
 from agv_motion.report.stamped_columns import (
     POSES,
     JointColumns,
@@ -49,17 +49,19 @@ class Wheels(NamedTuple):
     """[rad] at which the angles start again; 0: never"""
 
 
-class Drive(NamedTuple):
+class RecordedDrive(NamedTuple):
     """A drive from a bag."""
 
-    recording: Recording
+    recording: CalibrationDrive
     topic: str
     """of its references"""
     notes: list[str]
     """what was left out"""
 
 
-def read_drive(bag: BagReader, wheels: Wheels, reference: str = '', prefix: str = '') -> Drive:
+def read_drive(
+    bag: BagReader, wheels: Wheels, reference: str = '', prefix: str = ''
+) -> RecordedDrive:
     """Return a drive.
 
     Args:
@@ -108,8 +110,8 @@ def read_drive(bag: BagReader, wheels: Wheels, reference: str = '', prefix: str 
     position_noise, heading_noise = _noise(places.covariance[:, within])
     if heading_noise >= KNOWN_HEADING:
         pose[2] = np.nan
-    recording = Recording(turned, step, pose, position_noise, heading_noise, steering)
-    return Drive(recording, topic, notes)
+    recording = CalibrationDrive(turned, step, pose, position_noise, heading_noise, steering)
+    return RecordedDrive(recording, topic, notes)
 
 
 def _finite(

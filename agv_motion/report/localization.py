@@ -26,7 +26,7 @@ ELLIPSE = np.sqrt(5.991)
 """[-] Radius of the ellipse in which the truth lies with 95 %."""
 
 
-class Run(NamedTuple):
+class LocalizationRun(NamedTuple):
     """A drive; all stamps in seconds since its start."""
 
     truth: PoseColumns
@@ -53,14 +53,14 @@ class Run(NamedTuple):
         return PoseColumns(self.odom.stamp, laid, self.odom.covariance)
 
 
-def read_run(bag: BagReader) -> Run:
+def read_run(bag: BagReader) -> LocalizationRun:
     """Read the bag back."""
     columns = pose_columns(bag, TOPICS)
     begin = columns[0].stamp[0]
-    return Run(*(c._replace(stamp=c.stamp - begin) for c in columns))
+    return LocalizationRun(*(c._replace(stamp=c.stamp - begin) for c in columns))
 
 
-def summary(run: Run) -> Table:
+def summary(run: LocalizationRun) -> Table:
     """Return the figures of a run as a table."""
     table = Table(title='The drive', show_header=False, title_justify='left', box=None)
     fixes, told = np.hypot(*run.error(run.fix)[:2]), np.hypot(*run.error(run.pose)[:2])
@@ -88,7 +88,7 @@ def summary(run: Run) -> Table:
     return table
 
 
-def _inside(run: Run) -> float:
+def _inside(run: LocalizationRun) -> float:
     """Return the share of the time in which the truth lay inside the ellipse."""
     x, y, _ = run.error(run.pose)
     xx, xy, _, yy, _, _ = run.pose.covariance
@@ -96,7 +96,7 @@ def _inside(run: Run) -> float:
     return float(np.mean(square <= ELLIPSE**2))
 
 
-def draw(run: Run, path: Path) -> None:
+def draw(run: LocalizationRun, path: Path) -> None:
     """Draw path and ellipses, and errors over time, into one picture.
 
     Raises:
@@ -109,7 +109,7 @@ def draw(run: Run, path: Path) -> None:
         _draw_errors(axes['position'], axes['heading'], run)
 
 
-def _draw_map(axes: Any, run: Run) -> None:
+def _draw_map(axes: Any, run: LocalizationRun) -> None:
     from matplotlib.patches import Ellipse
 
     axes.plot(*run.fix.pose[:2], '.', ms=3, color='0.75', label='fixes')
@@ -134,7 +134,7 @@ def _draw_map(axes: Any, run: Run) -> None:
     axes.legend(loc='upper left', fontsize='small')
 
 
-def _draw_errors(position: Any, heading: Any, run: Run) -> None:
+def _draw_errors(position: Any, heading: Any, run: LocalizationRun) -> None:
     """Draw what pose and fixes err, and what the pose said it may."""
     for of, style in (
         (run.fix, {'marker': '.', 'ms': 3, 'ls': '', 'color': '0.7', 'label': 'fixes'}),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.report.figure import figure
-from agv_motion.route.follower import Limiter
+from agv_motion.route.follower import RouteLimiter
 from agv_motion.route.prediction import NOTHING
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 COLOURS = dict(
     zip(
-        (NOTHING, *(limiter.value for limiter in Limiter)),
+        (NOTHING, *(limiter.value for limiter in RouteLimiter)),
         ('0.4', 'tab:red', 'tab:orange', 'tab:purple', 'tab:green', 'tab:blue'),
         strict=True,
     )

@@ -22,7 +22,7 @@ READ = {
     'ground_truth': 4, 'granier/sap_flow': 4, 'turrets/command': 4, 'turrets/residual': 2,
     'goal': 3,
 }  # fmt: skip
-"""Topics of the bag that the report needs, in the order of the fields of `Run`, and the columns
+"""Topics of the bag that the report needs, in the order of the fields of `WalkRun`, and the columns
 of each, where nothing came."""
 
 
@@ -41,7 +41,7 @@ class Remembered(NamedTuple):
     """(rows, columns), NaN where unknown"""
 
 
-class Run(NamedTuple):
+class WalkRun(NamedTuple):
     """The bag of a demo as columns; times in seconds since its start."""
 
     path: NDArray[np.float64]
@@ -82,7 +82,7 @@ class Run(NamedTuple):
         )
 
 
-def read_run(bag: BagReader, wheel_radius: float) -> Run:
+def read_run(bag: BagReader, wheel_radius: float) -> WalkRun:
     """Read the bag back."""
     rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in READ}
     states: list[tuple[float, str]] = []
@@ -100,7 +100,7 @@ def read_run(bag: BagReader, wheel_radius: float) -> Run:
         np.array(rows[name] or np.empty((0, width)), dtype=float) for name, width in READ.items()
     )
     path, flow, speeds, residual, goals = columns
-    return Run(
+    return WalkRun(
         path, flow, speeds, residual, goals, _reasons(goals, states),
         maps.get('memory/sap_flow'), maps.get('memory/last_visit'),
     )  # fmt: skip
@@ -144,7 +144,7 @@ def _numbers(name: str, message: Any, wheel_radius: float) -> tuple[float, ...]:
     return (message.data,)
 
 
-class Outcome(NamedTuple):
+class WalkOutcome(NamedTuple):
     """What the run itself knows beside its bag."""
 
     simulated: float
@@ -158,7 +158,11 @@ class Outcome(NamedTuple):
 
 
 def summary(
-    run: Run, outcome: Outcome, zone: Zone, max_wheel_speed: float, rim: float = PLATFORM_RADIUS
+    run: WalkRun,
+    outcome: WalkOutcome,
+    zone: Zone,
+    max_wheel_speed: float,
+    rim: float = PLATFORM_RADIUS,
 ) -> Table:
     """Return the figures of a run as a table; ``rim`` of the platform from its centre [m]."""
     table = Table(title='The walk', show_header=False, title_justify='left', box=None)

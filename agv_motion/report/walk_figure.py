@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.motion.navigation.zone import Zone
-    from agv_motion.report.walk import Run
+    from agv_motion.report.walk import WalkRun
 
 PLATFORMS = 5
 """Times at which the platform is drawn."""
@@ -23,7 +23,7 @@ GOALS_LISTED = 12
 
 
 def draw(
-    run: Run, zone: Zone, max_wheel_speed: float, path: Path, rim: float = PLATFORM_RADIUS
+    run: WalkRun, zone: Zone, max_wheel_speed: float, path: Path, rim: float = PLATFORM_RADIUS
 ) -> None:
     """Draw zone and trail, probes, wheel speeds and residual into one picture.
 
@@ -46,7 +46,7 @@ def draw(
         _draw_signals(axes, run, max_wheel_speed)
 
 
-def _draw_signals(axes: dict[str, Any], run: Run, max_wheel_speed: float) -> None:
+def _draw_signals(axes: dict[str, Any], run: WalkRun, max_wheel_speed: float) -> None:
     """Draw sap flow, wheel speeds and residual over time."""
     minutes = run.flow[:, 0] / 60.0
     for i, name in enumerate(('s1: speed', 's2: rotation', 's3: places')):
@@ -65,7 +65,7 @@ def _draw_signals(axes: dict[str, Any], run: Run, max_wheel_speed: float) -> Non
     axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
 
 
-def _draw_map(axes: Any, run: Run, zone: Zone, rim: float) -> None:
+def _draw_map(axes: Any, run: WalkRun, zone: Zone, rim: float) -> None:
     """Draw the floor, its margin, and the memory, the trail and the goals."""
     import shapely
 
@@ -100,7 +100,7 @@ def _draw_map(axes: Any, run: Run, zone: Zone, rim: float) -> None:
         axes.legend(loc='upper left', fontsize='small')
 
 
-def _draw_platforms(axes: Any, run: Run, rim: float) -> None:
+def _draw_platforms(axes: Any, run: WalkRun, rim: float) -> None:
     """Draw the platform at its true size with its heading: at the start, between, at the end."""
     from matplotlib.patches import Circle
 
@@ -113,7 +113,7 @@ def _draw_platforms(axes: Any, run: Run, rim: float) -> None:
         axes.plot(*zip((x, y), ahead, strict=True), color=style['ec'], lw=style['lw'])
 
 
-def _list_goals(axes: Any, run: Run) -> None:
+def _list_goals(axes: Any, run: WalkRun) -> None:
     """Write down when the tree set out for each goal and why: the latest, as many as fit."""
     axes.axis('off')
     lines = [

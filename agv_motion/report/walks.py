@@ -28,7 +28,7 @@ DOINGS = {'walks': 'tab:green', 'gives way': 'tab:orange', 'waits': 'tab:red', '
 """What a tree may do, and the colour of it."""
 
 
-class Walk(NamedTuple):
+class RecordedWalk(NamedTuple):
     """The walk of one tree; times in seconds since the start of the bag."""
 
     name: str
@@ -68,7 +68,7 @@ def doing_of(state: str) -> str:
     return 'walks' if state.startswith(('walking', 'turning', 'returning')) else 'rests'
 
 
-def read_walks(bag: BagReader, names: Sequence[str]) -> list[Walk]:
+def read_walks(bag: BagReader, names: Sequence[str]) -> list[RecordedWalk]:
     """Read the bag back."""
     truths = pose_columns(bag, [f'/{name}/ground_truth' for name in names])
     goals: dict[str, list[tuple[float, float, float]]] = {name: [] for name in names}
@@ -82,12 +82,14 @@ def read_walks(bag: BagReader, names: Sequence[str]) -> list[Walk]:
         else:
             doings[name].append((time, doing_of(content.data)))
     return [
-        Walk(name, truth.stamp - bag.start * 1e-9, truth.pose[:2], goals[name], doings[name])
+        RecordedWalk(
+            name, truth.stamp - bag.start * 1e-9, truth.pose[:2], goals[name], doings[name]
+        )
         for name, truth in zip(names, truths, strict=True)
     ]
 
 
-def gaps(walks: Sequence[Walk], body: float) -> tuple[Array, dict[str, Array]]:
+def gaps(walks: Sequence[RecordedWalk], body: float) -> tuple[Array, dict[str, Array]]:
     """Return times [s], and between each two trees the distance from rim to rim then [m].
 
     Args:
@@ -107,7 +109,7 @@ def gaps(walks: Sequence[Walk], body: float) -> tuple[Array, dict[str, Array]]:
     }
 
 
-def summary(walks: Sequence[Walk]) -> Table:
+def summary(walks: Sequence[RecordedWalk]) -> Table:
     """Return the figures of all walks as a table."""
     table = Table(title='The walks', title_justify='left', box=None)
     for column in ('tree', 'walked', 'goals', *DOINGS):
@@ -118,7 +120,7 @@ def summary(walks: Sequence[Walk]) -> Table:
     return table
 
 
-def nearest(walks: Sequence[Walk], traffic: TrafficParameters) -> str:
+def nearest(walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> str:
     """Return in words which two trees came nearest to each other, and how near."""
     _, between = gaps(walks, traffic.body)
     pair = min(between, key=lambda pair: between[pair].min())
@@ -128,7 +130,7 @@ def nearest(walks: Sequence[Walk], traffic: TrafficParameters) -> str:
     )
 
 
-def draw(walks: Sequence[Walk], zone: Zone, traffic: TrafficParameters, path: Path) -> None:
+def draw(walks: Sequence[RecordedWalk], zone: Zone, traffic: TrafficParameters, path: Path) -> None:
     """Draw the walks, the gaps between the trees, and what each did when, into one picture.
 
     Raises:
@@ -143,7 +145,7 @@ def draw(walks: Sequence[Walk], zone: Zone, traffic: TrafficParameters, path: Pa
         _draw_doings(axes['doings'], walks)
 
 
-def _draw_map(axes: Any, walks: Sequence[Walk], zone: Zone, body: float) -> None:
+def _draw_map(axes: Any, walks: Sequence[RecordedWalk], zone: Zone, body: float) -> None:
     """Draw the floor, the trails with the goals, and the trees where they are at the end."""
     from matplotlib.patches import Circle
 
@@ -165,7 +167,7 @@ def _draw_map(axes: Any, walks: Sequence[Walk], zone: Zone, body: float) -> None
     axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='small', ncols=len(walks))
 
 
-def _draw_gaps(axes: Any, walks: Sequence[Walk], traffic: TrafficParameters) -> None:
+def _draw_gaps(axes: Any, walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> None:
     times, between = gaps(walks, traffic.body)
     for pair, gap in between.items():
         axes.plot(times / 60.0, gap, lw=1.0, label=pair)
@@ -174,7 +176,7 @@ def _draw_gaps(axes: Any, walks: Sequence[Walk], traffic: TrafficParameters) -> 
     axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='x-small', ncols=4)
 
 
-def _draw_doings(axes: Any, walks: Sequence[Walk]) -> None:
+def _draw_doings(axes: Any, walks: Sequence[RecordedWalk]) -> None:
     for i, walk in enumerate(walks):
         for begin, length, what in walk.spans():
             axes.barh(i, length / 60.0, left=begin / 60.0, color=DOINGS[what], height=0.7)

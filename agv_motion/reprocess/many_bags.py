@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.files.unfinished import sweep
-from agv_motion.reprocess.one_bag import Abandoned, Outcome, Plan, reprocess
+from agv_motion.reprocess.one_bag import Abandoned, Plan, ReprocessOutcome, reprocess
 from agv_motion.ros.stop import SIGNALS, end_no_more
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def outcomes(
     workers: int,
     scheduler: str,
     tell: Callable[[float], None] | None = None,
-) -> Generator[Outcome, None, None]:
+) -> Generator[ReprocessOutcome, None, None]:
     """Yield what came of each bag, as soon as it is known; close it, so that all workers end.
 
     Args:
@@ -68,7 +68,7 @@ class _Worker(NamedTuple):
     line: Connection
 
 
-def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Outcome]:
+def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[ReprocessOutcome]:
     waiting = deque(jobs)
     busy: dict[Any, tuple[_Worker, Job]] = {}
     free: list[_Worker] = []
@@ -140,7 +140,7 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Outcome]:
+def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[ReprocessOutcome]:
     try:
         import distributed
     except ImportError as error:
@@ -172,7 +172,7 @@ def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Out
             client.cancel([future for future in waiting if not future.done()], force=True)
 
 
-def _on_worker(source: Path, target: Path, plan: Plan) -> Outcome:
+def _on_worker(source: Path, target: Path, plan: Plan) -> ReprocessOutcome:
     """Reprocess a bag on a worker of the cluster, as long as somebody waits for it."""
     from distributed import get_worker
 
@@ -187,8 +187,10 @@ def _on_worker(source: Path, target: Path, plan: Plan) -> Outcome:
     return reprocess(source, target, plan, look)
 
 
-def _lost(job: Job, reason: object) -> Outcome:
+def _lost(job: Job, reason: object) -> ReprocessOutcome:
     """Return the outcome of a bag whose worker died."""
     if isinstance(reason, BaseException):
         reason = f'{type(reason).__name__} {reason}'
-    return Outcome(str(job[0]), failure=f'its worker ended: {reason}; run again to complete')
+    return ReprocessOutcome(
+        str(job[0]), failure=f'its worker ended: {reason}; run again to complete'
+    )

@@ -53,7 +53,7 @@ class Plan(NamedTuple):
         return {full_name(a, self.namespace): full_name(b, self.namespace) for a, b in self.remap}
 
 
-class Outcome(NamedTuple):
+class ReprocessOutcome(NamedTuple):
     """What came of one bag."""
 
     source: str
@@ -139,7 +139,7 @@ TOGETHER = 1024
 
 def reprocess(
     source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None = None
-) -> Outcome:
+) -> ReprocessOutcome:
     """Run nodes over a bag; a failure is part of the outcome.
 
     Args:
@@ -156,16 +156,18 @@ def reprocess(
         failure = str(error)
     except Exception as error:  # noqa: BLE001 - a defect in one bag must not stop the others
         failure = f'{type(error).__name__}: {error}'
-    return Outcome(str(source), took=time.perf_counter() - begin, failure=failure)
+    return ReprocessOutcome(str(source), took=time.perf_counter() - begin, failure=failure)
 
 
-def _run(source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None) -> Outcome:
+def _run(
+    source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None
+) -> ReprocessOutcome:
     given = {name: parameters(plan.config, name, plan.namespace) for name in plan.nodes}
     made_by = given, plan._replace(config=''), _contents(given)
     digest = provenance.fingerprint(source, made_by)
     with BagReader(source) as bag:
         if provenance.is_made(target, digest):
-            outcome = Outcome(str(source), made_before=True)
+            outcome = ReprocessOutcome(str(source), made_before=True)
         else:
             with beside(target) as made:
                 outcome = _played(bag, made, plan, given, tell)
@@ -179,7 +181,7 @@ def _played(
     plan: Plan,
     given: Mapping[str, Mapping[str, Any]],
     tell: Callable[[float], None] | None,
-) -> Outcome:
+) -> ReprocessOutcome:
     """Run the nodes, with the parameters given to each, over an open bag."""
     with BagWriter(made, compression=plan.compression, chunk_duration=inf) as writer:
         transcript = Transcript(writer)
@@ -201,7 +203,7 @@ def _played(
     missing = tuple(sorted(inputs - set(bag.topics)))
     span = (clock.end() - clock.start) * 1e-9
     counts = heard, transcript.messages
-    return Outcome(
+    return ReprocessOutcome(
         str(bag.path), *counts, span, 0.0, missing, graph.complaints, simulated=bool(clock.topics)
     )
 

@@ -40,7 +40,7 @@ class Hearer(Protocol):
         """Take a message."""
 
 
-class Member(Protocol):
+class GraphMember(Protocol):
     """A node of the graph."""
 
     def activate(self) -> None:
@@ -67,7 +67,7 @@ class InProcessGraph:
         """topics that someone listens to beside the nodes"""
         self.takes_rows = False
         """whether ``record`` takes the rows of `InProcessRowPublisher` in place of messages"""
-        self.nodes: list[Member] = []
+        self.nodes: list[GraphMember] = []
         self.complaints: dict[str, int] = {}
         """what the nodes warned of, and how often"""
         self.listeners: dict[str, list[Hearer]] = {}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.marked import quoted
-from agv_motion.parameters import nested, rows
+from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_arguments import meant, sections
 
 if TYPE_CHECKING:
@@ -68,6 +68,11 @@ def _build(kind: type[T], values: dict[str, Any], where: str, prefix: str) -> T:
         elif name in plain:
             given[name] = _typed(value, plain[name], f'{where}{prefix}{name}')
         else:
+            first = next(iter(value), '') if isinstance(value, dict) else ''
+            old = f'{prefix}{name}.{first}' if first else f'{prefix}{name}'
+            if moved(old):
+                msg = f'{where}no parameter {old} any more; it is {moved(old)} now'
+                raise ConfigurationError(msg)
             msg = (
                 f'{where}no parameter {prefix}{name}{meant(name, [*plain, *groups])}; '
                 f'there are {", ".join([*plain, *groups])}'

@@ -14,7 +14,7 @@ from rcl_interfaces.msg import (
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.parameters import nested, rows
+from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
@@ -86,6 +86,9 @@ class DeclaredParameters(Generic[T]):
         return name in self._types or name in OF_EVERY_NODE or name.startswith('qos_overrides.')
 
     def _no_parameter(self, name: str) -> str:
+        new = moved(name)
+        if new:
+            return f"no parameter '{name}' any more; it is '{new}' now"
         return f"no parameter '{name}'{meant(name, [*self._types, *OF_EVERY_NODE])}"
 
     def _on_set(self, changes: list[Parameter]) -> SetParametersResult:
@@ -116,7 +119,9 @@ def filled(kind: type[T], given: Mapping[str, Any], node: str) -> T:
             raise ConfigurationError(wrong)
     unknown = set(given) - set(known) - OF_THE_PLATFORM - set(OF_EVERY_NODE)
     if unknown:
-        msg = f'{node} has no parameter {", ".join(sorted(unknown))}'
+        told = ', '.join(f'{name} (it is {new} now)' if (new := moved(name)) else name
+                         for name in sorted(unknown))  # fmt: skip
+        msg = f'{node} has no parameter {told}'
         raise ConfigurationError(msg)
     values: T = _filled(kind, own, '')
     return values

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from agv_motion.route.route import Point, Route
 
 
-class Limiter(Enum):
+class RouteLimiter(Enum):
     """What holds the speed down."""
 
     TO_GO = 'v(d)'
@@ -35,7 +35,7 @@ class Limiter(Enum):
     COUPLING = 'coupling'
 
 
-class Limits(NamedTuple):
+class RouteLimits(NamedTuple):
     """The measures of one step, the speed that each allows, and which is in force."""
 
     to_go: float
@@ -56,16 +56,16 @@ class Limits(NamedTuple):
     """[m/s]"""
     speed: float
     """V [m/s]"""
-    limiter: Limiter
+    limiter: RouteLimiter
 
 
-class Step(NamedTuple):
+class RouteStep(NamedTuple):
     """What the follower says at one moment."""
 
     twist: Twist
     """in the robot's frame"""
     virtual_point: Point
-    limits: Limits
+    limits: RouteLimits
     arrived: bool
 
 
@@ -133,7 +133,7 @@ class RouteFollower:
         for coupling in (self._speed, self._turn):
             coupling.rest()
 
-    def update(self, pose: Pose, dt: float) -> Step:
+    def update(self, pose: Pose, dt: float) -> RouteStep:
         """Return what to do at ``pose``, ``dt`` [s] after the last update (or the start).
 
         Once arrived it stays so, with a twist of zero.
@@ -155,20 +155,20 @@ class RouteFollower:
         last = self.route.is_last(self.segment)
         self.arrived = self.arrived or (last and limits.v_d <= self._arrival_speed)
         if self.arrived:
-            return Step(REST, self._virtual.point, limits, arrived=True)
+            return RouteStep(REST, self._virtual.point, limits, arrived=True)
         speed = self._speed.follow(limits.speed, dt)
         rate = self._profiles.omega_dphi(abs(limits.heading_error))
         turn_rate = self._turn.follow(copysign(rate, limits.heading_error), dt)
         if speed != limits.speed:
-            limits = limits._replace(limiter=Limiter.COUPLING)
-        return Step(
+            limits = limits._replace(limiter=RouteLimiter.COUPLING)
+        return RouteStep(
             self._twist(speed, turn_rate, limits.heading_error),
             self._virtual.point,
             limits,
             arrived=False,
         )
 
-    def _limits(self, pose: Pose) -> Limits:
+    def _limits(self, pose: Pose) -> RouteLimits:
         """Return the measures at ``pose`` and the speeds of the tables."""
         route, place, point = self.route, self._virtual.place, self._virtual.point
         dx, dy = point.x - pose.x, point.y - pose.y
@@ -179,12 +179,14 @@ class RouteFollower:
         v_d, v_dphi = self._profiles.v_d(to_go), self._profiles.v_dphi(abs(error))
         v_dn, v_alpha = self._profiles.v_dn(to_waypoint), self._profiles.v_alpha(bend)
         candidates = (
-            (v_d, Limiter.TO_GO),
-            (v_dphi, Limiter.HEADING),
-            (v_dn, Limiter.WAYPOINT) if v_dn > v_alpha else (v_alpha, Limiter.BEND),
+            (v_d, RouteLimiter.TO_GO),
+            (v_dphi, RouteLimiter.HEADING),
+            (v_dn, RouteLimiter.WAYPOINT) if v_dn > v_alpha else (v_alpha, RouteLimiter.BEND),
         )
         speed, limiter = min(candidates, key=lambda candidate: candidate[0])
-        return Limits(to_go, error, to_waypoint, bend, v_d, v_dphi, v_dn, v_alpha, speed, limiter)
+        return RouteLimits(
+            to_go, error, to_waypoint, bend, v_d, v_dphi, v_dn, v_alpha, speed, limiter
+        )
 
     def _twist(self, speed: float, turn_rate: float, heading_error: float) -> Twist:
         if self._holonomic:

@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple
 
 from agv_motion.parameters import Spec, check
 from agv_motion.route.coupling import FORMS
-from agv_motion.route.table import Table
+from agv_motion.route.table import ProfileTable
 
 HALF_TURN = pi + 1e-4
 """[rad] Largest angle of a table: half a turn, as people round it up."""
@@ -17,15 +17,15 @@ HALF_TURN = pi + 1e-4
 class Profiles(NamedTuple):
     """The five tables."""
 
-    omega_dphi: Table
+    omega_dphi: ProfileTable
     """turn rate [rad/s] over the angle between heading and virtual point [rad]"""
-    v_dphi: Table
+    v_dphi: ProfileTable
     """speed [m/s] over the same angle"""
-    v_dn: Table
+    v_dn: ProfileTable
     """speed over the distance from the virtual point to the next waypoint [m]"""
-    v_alpha: Table
+    v_alpha: ProfileTable
     """speed over the angle between this segment and the next [rad]; pi is straight on"""
-    v_d: Table
+    v_d: ProfileTable
     """speed over the route still to go [m]"""
 
     def top_speed(self) -> float:
@@ -127,13 +127,13 @@ class FollowParameters:
 
         """
         return Profiles(
-            Table('omega_dphi', self.omega_dphi, HALF_TURN).require_zero_at_zero(
+            ProfileTable('omega_dphi', self.omega_dphi, HALF_TURN).require_zero_at_zero(
                 'the robot would swing to and fro about the virtual point'
             ),
-            Table('v_dphi', self.v_dphi, HALF_TURN).require_positive(),
-            Table('v_dn', self.v_dn).require_positive(),
-            Table('v_alpha', self.v_alpha, HALF_TURN).require_positive(),
-            Table('v_d', self.v_d)
+            ProfileTable('v_dphi', self.v_dphi, HALF_TURN).require_positive(),
+            ProfileTable('v_dn', self.v_dn).require_positive(),
+            ProfileTable('v_alpha', self.v_alpha, HALF_TURN).require_positive(),
+            ProfileTable('v_d', self.v_d)
             .require_zero_at_zero('the robot would never arrive')
             .require_never_zero_again(),
         )

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from agv_motion.planar import REST, Pose, integrate
-from agv_motion.route.follower import RouteFollower, Step
+from agv_motion.route.follower import RouteFollower, RouteStep
 from agv_motion.twist_limits import TwistLimits
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Prediction(NamedTuple):
     """[s] between two steps"""
     poses: list[Pose]
     """where it is at each"""
-    steps: list[Step]
+    steps: list[RouteStep]
     """what the follower says there; the last one is the arrival, if it arrives"""
     top_speed: float
     """[m/s] that the tables allow at all"""
@@ -90,7 +90,7 @@ def predict(  # noqa: PLR0913 - all but three have a default
     """
     follower, hold = RouteFollower(route, parameters), (limits or NO_LIMITS).hold
 
-    def step(pose: Pose, passed: float) -> Step:
+    def step(pose: Pose, passed: float) -> RouteStep:
         found = follower.update(pose, passed)
         return found._replace(twist=hold(found.twist))
 

@@ -38,7 +38,7 @@ class Segment(NamedTuple):
         return Point(self.start.x + way * self.ux, self.start.y + way * self.uy)
 
 
-class Place(NamedTuple):
+class RoutePlace(NamedTuple):
     """A point of a route; whole numbers beside a distance, so that no lap costs a digit."""
 
     segment: int
@@ -88,11 +88,11 @@ class Route:
         """Return segment ``number`` of all laps."""
         return self.segments[number % len(self.segments)]
 
-    def point(self, place: Place) -> Point:
+    def point(self, place: RoutePlace) -> Point:
         """Return where ``place`` is."""
         return self.segment(place.segment).at(place.way)
 
-    def way(self, place: Place) -> float:
+    def way(self, place: RoutePlace) -> float:
         """Return the length of the route from its start to ``place`` [m]."""
         lap, segment = divmod(place.segment, len(self.segments))
         return lap * self.lap_length + self._starts[segment] + place.way

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-class Table:
+class ProfileTable:
     """Straight lines between rows (x, y), and constant outside of them."""
 
     def __init__(self, name: str, flat: Sequence[float], highest: float = inf) -> None:
@@ -55,7 +55,7 @@ class Table:
         x0, y0 = self.x[above - 1], self.y[above - 1]
         return y0 + (x - x0) * (self.y[above] - y0) / (self.x[above] - x0)
 
-    def require_positive(self) -> Table:
+    def require_positive(self) -> ProfileTable:
         """Return the table if every y is positive.
 
         Raises:
@@ -71,7 +71,7 @@ class Table:
                 )
         return self
 
-    def require_zero_at_zero(self, why: str) -> Table:
+    def require_zero_at_zero(self, why: str) -> ProfileTable:
         """Return the table if it is 0 at 0 and nowhere negative.
 
         Args:
@@ -88,7 +88,7 @@ class Table:
                 _refuse(self.name, f'{y:g} at x = {x:g}: must not be negative')
         return self
 
-    def require_never_zero_again(self) -> Table:
+    def require_never_zero_again(self) -> ProfileTable:
         """Return the table if it stays positive once it is.
 
         Raises:

@@ -19,7 +19,7 @@ from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.route.route import Place
+from agv_motion.route.route import RoutePlace
 
 if TYPE_CHECKING:
     from agv_motion.route.route import Point, Route
@@ -40,7 +40,7 @@ class VirtualPoint:
 
         """
         self._route = route
-        self.place = Place(0, 0.0)
+        self.place = RoutePlace(0, 0.0)
         self.set_radius(radius)
 
     def set_radius(self, radius: float) -> None:
@@ -75,20 +75,20 @@ class VirtualPoint:
         back = self._distance_to_exit_behind(x, y)
         self.place = self._exit_ahead(x, y, back) or self.place
 
-    def _next_exit(self, x: float, y: float) -> Place:
+    def _next_exit(self, x: float, y: float) -> RoutePlace:
         """Return where the stretch of route inside the circle, from the point on, leaves it."""
         number, way = self.place
         for _ in self._route.segments:  # at most one lap: a circle may hold a whole one
             exit_way = self._exit_way(number, x, y)
             length = self._route.segment(number).length
             if exit_way <= length:
-                return Place(number, max(exit_way, way))
+                return RoutePlace(number, max(exit_way, way))
             if self._route.is_last(number):
-                return Place(number, length)
+                return RoutePlace(number, length)
             number, way = number + 1, 0.0
         return self.place
 
-    def _exit_ahead(self, x: float, y: float, within: float) -> Place | None:
+    def _exit_ahead(self, x: float, y: float, within: float) -> RoutePlace | None:
         """Return the next exit ahead of the point, if it is nearer than ``within`` [m] of route."""
         number, way = self.place
         passed = -way
@@ -96,7 +96,7 @@ class VirtualPoint:
             length = self._route.segment(number).length
             exit_way = self._exit_way(number, x, y)
             if way <= exit_way <= length:
-                return Place(number, exit_way) if passed + exit_way < within else None
+                return RoutePlace(number, exit_way) if passed + exit_way < within else None
             passed += length
             if passed >= within or self._route.is_last(number):
                 return None

@@ -13,14 +13,14 @@ from agv_motion.trajectory.ghost import Ghost
 if TYPE_CHECKING:
     from agv_motion.planar import Pose
     from agv_motion.route.parameters import FollowParameters
-    from agv_motion.sequence.sequence import Sequence, Step
+    from agv_motion.sequence.sequence import Sequence, SequenceStep
     from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 
 class Predicted(NamedTuple):
     """One action of an ideal robot."""
 
-    step: Step
+    step: SequenceStep
     begin: float
     """[s] after the start of the sequence"""
     duration: float
@@ -86,7 +86,7 @@ def predict(
 
 
 def _perform(
-    step: Step, pose: Pose, ghost: GhostParameters, follow: FollowParameters, dt: float
+    step: SequenceStep, pose: Pose, ghost: GhostParameters, follow: FollowParameters, dt: float
 ) -> tuple[float, list[Pose]]:
     """Return duration [s] and poses of one action."""
     action = step.action

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose, Twist, require_finite
-from agv_motion.sequence.actions import FollowRoute, Wait
-from agv_motion.sequence.performance import (
-    GhostPerformance,
-    Performance,
-    RoutePerformance,
-    WaitPerformance,
+from agv_motion.sequence.action_run import (
+    ActionRun,
+    GhostRun,
+    RouteRun,
+    WaitRun,
 )
+from agv_motion.sequence.actions import FollowRoute, Wait
 from agv_motion.trajectory.follower import Follower
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
-    from agv_motion.sequence.sequence import Sequence, Step
+    from agv_motion.sequence.sequence import Sequence, SequenceStep
     from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 
-class Running(Enum):
+class SequenceState(Enum):
     """What a sequence is doing."""
 
     READY = 'ready'
@@ -39,13 +39,13 @@ class Running(Enum):
     ABORTED = 'aborted'
 
 
-ENDS = frozenset({Running.DONE, Running.FAILED, Running.ABORTED})
+ENDS = frozenset({SequenceState.DONE, SequenceState.FAILED, SequenceState.ABORTED})
 
 
 class Status(NamedTuple):
     """How far it is."""
 
-    state: Running
+    state: SequenceState
     number: int
     """of the present action, from 0"""
     attempt: int
@@ -82,7 +82,7 @@ class SequenceRunner:
         self.sequence = sequence
         self._follow = follow
         self._follower = Follower(follower)
-        self._state = Running.READY
+        self._state = SequenceState.READY
         self._number = 0
         self._attempt = 1
         self._elapsed = 0.0
@@ -91,24 +91,24 @@ class SequenceRunner:
         self._after_stop = ''
         self._nominal: Pose | None = None
         self._waiting = True
-        self._performances = [self._performance_of(step) for step in sequence.steps]
+        self._runs = [self._run_of(step) for step in sequence.steps]
 
     @property
     def status(self) -> Status:
         """How far it is."""
         return Status(
             self._state, self._number, self._attempt, self._elapsed,
-            self._performance.progress, self._reason,
+            self._run.progress, self._reason,
         )  # fmt: skip
 
     @property
-    def step(self) -> Step:
+    def step(self) -> SequenceStep:
         """The present action; at the end, the last one."""
         return self.sequence.steps[self._number]
 
     @property
-    def _performance(self) -> Performance:
-        return self._performances[self._number]
+    def _run(self) -> ActionRun:
+        return self._runs[self._number]
 
     @property
     def ended(self) -> bool:
@@ -118,12 +118,19 @@ class SequenceRunner:
     def pause(self) -> None:
         """Ease to a halt and stay there."""
         self._held = True
-        self._performance.hold(self._held)
+        self._set_held()
 
     def resume(self) -> None:
         """Go on after a pause."""
         self._held = False
-        self._performance.hold(self._held)
+        self._set_held()
+
+    def _set_held(self) -> None:
+        """Let the present action know whether to halt or to go on."""
+        if self._held:
+            self._run.ease_to_halt()
+        else:
+            self._run.go_on()
 
     def abort(self) -> None:
         """Brake, and end it."""
@@ -134,10 +141,10 @@ class SequenceRunner:
         """Stand at once, and take the present action for failed: again, skip or end, as it says."""
         if self.ended:
             return
-        self._performance.hold(False)  # noqa: FBT003 - the name says what the flag is
-        self._performance.abort()
-        self._performance.halt()
-        if self._state is Running.STOPPING:
+        self._run.go_on()
+        self._run.brake_and_end()
+        self._run.freeze()
+        if self._state is SequenceState.STOPPING:
             self._after(self._after_stop)
         else:
             self._fail(reason)
@@ -168,42 +175,42 @@ class SequenceRunner:
 
     def _stand(self) -> Twist:
         """Stand, because the pose is lost."""
-        self._performance.halt()
-        if self._state is not Running.STOPPING:
-            self._state = Running.BLIND
+        self._run.freeze()
+        if self._state is not SequenceState.STOPPING:
+            self._state = SequenceState.BLIND
         return REST
 
     def _move(self, pose: Pose, dt: float) -> Twist:
         if self._waiting:
             self._waiting = False
-            self._performance.begin(self._departure(pose))
-        twist = self._performance.step(pose, dt)
-        if self._state is not Running.STOPPING:
-            self._state = Running.PAUSED if self._held else Running.RUNNING
+            self._run.begin(self._departure(pose))
+        twist = self._run.step(pose, dt)
+        if self._state is not SequenceState.STOPPING:
+            self._state = SequenceState.PAUSED if self._held else SequenceState.RUNNING
         return twist
 
     def _judge(self) -> None:
         """Find out whether the present action is over, well or badly."""
-        performance = self._performance
-        if self._state is Running.STOPPING:
-            if performance.at_rest or self._waiting:
+        run = self._run
+        if self._state is SequenceState.STOPPING:
+            if run.at_rest or self._waiting:
                 self._after(self._after_stop)
-        elif performance.failure:
-            self._fail(performance.failure)
-        elif performance.done and not self._waiting:
+        elif run.failure:
+            self._fail(run.failure)
+        elif run.done and not self._waiting:
             self._next()
         elif self._elapsed > self.step.timeout:
             self._stop(f'not done within {self.step.timeout:g} s')
 
     def _stop(self, reason: str) -> None:
         """Brake first, then `_after`."""
-        self._state, self._after_stop = Running.STOPPING, reason
-        self._performance.hold(False)  # noqa: FBT003 - the name says what the flag is
-        self._performance.abort()
+        self._state, self._after_stop = SequenceState.STOPPING, reason
+        self._run.go_on()
+        self._run.brake_and_end()
 
     def _after(self, reason: str) -> None:
         if reason == 'aborted':
-            self._state = Running.ABORTED
+            self._state = SequenceState.ABORTED
             self._reason = reason
         else:
             self._fail(reason)
@@ -219,15 +226,15 @@ class SequenceRunner:
         elif step.on_failure.skip:
             self._next(failed=True)
         else:
-            self._state = Running.FAILED
+            self._state = SequenceState.FAILED
 
     def _next(self, *, failed: bool = False) -> None:
-        performance = self._performance
-        self._nominal = self._nominal if isinstance(performance, WaitPerformance) else None
-        if isinstance(performance, GhostPerformance) and not failed:
-            self._nominal = performance.end
+        run = self._run
+        self._nominal = self._nominal if isinstance(run, WaitRun) else None
+        if isinstance(run, GhostRun) and not failed:
+            self._nominal = run.end
         if self._number + 1 == len(self.sequence.steps):
-            self._state = Running.DONE
+            self._state = SequenceState.DONE
             return
         self._number += 1
         self._attempt = 1
@@ -235,22 +242,22 @@ class SequenceRunner:
 
     def _begin(self) -> None:
         """Let the present action start from the next pose."""
-        self._performance.hold(self._held)
+        self._set_held()
         self._elapsed, self._waiting = 0.0, True
-        self._state = Running.RUNNING
+        self._state = SequenceState.RUNNING
 
     def _departure(self, pose: Pose) -> Pose:
         """Return where the last action was to end, if the robot is near it, or ``pose``."""
         nominal = self._nominal
         if nominal is None:
             return pose
-        near = self._follower.parameters.leash.slow_beyond
+        near = self._follower.parameters.pace.slow_beyond
         return nominal if hypot(nominal.x - pose.x, nominal.y - pose.y) < near else pose
 
-    def _performance_of(self, step: Step) -> Performance:
+    def _run_of(self, step: SequenceStep) -> ActionRun:
         action = step.action
         if isinstance(action, Wait):
-            return WaitPerformance(action.seconds)
+            return WaitRun(action.seconds)
         if isinstance(action, FollowRoute):
-            return RoutePerformance(action.route, self._follow)
-        return GhostPerformance(action, self._follower)
+            return RouteRun(action.route, self._follow)
+        return GhostRun(action, self._follower)

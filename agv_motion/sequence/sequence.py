@@ -45,7 +45,7 @@ class OnFailure:
         return f'retry {self.retries}' + (' then skip' if self.skip else '')
 
 
-class Step(NamedTuple):
+class SequenceStep(NamedTuple):
     """One action of a sequence."""
 
     name: str
@@ -62,4 +62,4 @@ class Sequence(NamedTuple):
     """All of it."""
 
     name: str
-    steps: tuple[Step, ...]
+    steps: tuple[SequenceStep, ...]

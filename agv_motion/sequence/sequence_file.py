@@ -14,7 +14,7 @@ from agv_motion.parameters import rows
 from agv_motion.route.route import Route
 from agv_motion.route.route_file import load_route
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
-from agv_motion.sequence.sequence import OnFailure, Sequence, Step
+from agv_motion.sequence.sequence import OnFailure, Sequence, SequenceStep
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -76,7 +76,7 @@ def _defaults(marked: Marked | None) -> Defaults:
     return Defaults(_timeout(found, 60.0), _on_failure(found, OnFailure()), given)
 
 
-def _step(item: Marked, defaults: Defaults) -> Step:
+def _step(item: Marked, defaults: Defaults) -> SequenceStep:
     found = item.mapping('an action')
     kinds = [key for key in found if key not in OPTIONS]
     if len(kinds) != 1:
@@ -91,7 +91,7 @@ def _step(item: Marked, defaults: Defaults) -> Step:
         )
     action = _action(kind, marked, defaults.keys.get(kind, {}))
     name = _name(found['name'][1]) if 'name' in found else _words(kind, marked)
-    return Step(
+    return SequenceStep(
         name,
         action,
         _timeout(found, defaults.timeout),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.probe.granier import flow_index, flux_density
-from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 
 PERIOD = 60.0
 """[s] between two readings: the stomata follow the light over a quarter of an hour."""
@@ -15,7 +15,7 @@ class SapSense:
 
     def __init__(self, seed: int) -> None:
         """Grow a tree whose weather and noise belong to ``seed``."""
-        given = SimulatedParameters(seed=seed, period=PERIOD, drift=0.0)
+        given = SimulatedSourceParameters(seed=seed, period=PERIOD, drift=0.0)
         self._source = SimulatedSource(given, 0.0)
         self._zero_flow = [given.zero_flow * (1.0 - 0.02 * probe) for probe in range(3)]
         self._fair = flux_density(given.fair_day_index)

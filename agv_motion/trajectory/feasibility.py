@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from agv_motion.trajectory.motions import Drive, Turn
+from agv_motion.trajectory.motions import DriveMotion, TurnMotion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,16 +73,16 @@ class Feasibility(NamedTuple):
 
 def examine(trajectory: Trajectory) -> Feasibility:
     """Return what ``trajectory`` asks of the robot, and where it has to be slow."""
-    drives = [motion for motion in trajectory.motions if isinstance(motion, Drive)]
+    drives = [motion for motion in trajectory.motions if isinstance(motion, DriveMotion)]
     slow: list[Slow] = []
     driven = 0.0
     for motion in trajectory.motions:
-        if isinstance(motion, Drive):
+        if isinstance(motion, DriveMotion):
             slow += _stretches(trajectory, motion, driven)
         driven += motion.length
     return Feasibility(
         length=driven,
-        turn=sum(motion.angle for motion in trajectory.motions if isinstance(motion, Turn)),
+        turn=sum(motion.angle for motion in trajectory.motions if isinstance(motion, TurnMotion)),
         duration=trajectory.duration,
         top_speed=max((drive.profile.top_speed for drive in drives), default=0.0),
         top_curvature=max((_top_curvature(drive) for drive in drives), default=0.0),
@@ -90,12 +90,12 @@ def examine(trajectory: Trajectory) -> Feasibility:
     )
 
 
-def _top_curvature(drive: Drive) -> float:
+def _top_curvature(drive: DriveMotion) -> float:
     course = drive.course
     return float(max(np.abs(course.curvature).max(), np.abs(course.middle_curvature).max()))
 
 
-def _stretches(trajectory: Trajectory, drive: Drive, driven: float) -> Iterator[Slow]:
+def _stretches(trajectory: Trajectory, drive: DriveMotion, driven: float) -> Iterator[Slow]:
     """Yield the runs of nodes that are held below the cruising speed by one limit."""
     course, limits, request = drive.course, trajectory.limits, trajectory.request
     if not limits or request is None:

@@ -1,8 +1,8 @@
 """A robot behind its Ghost: one twist a cycle, from the measured pose.
 
-The Ghost runs along its trajectory, a law of control keeps the robot on it, and the leash between
-them makes the Ghost wait for a robot that falls back, and stop one that is lost. Whatever the law
-asks for, the twist keeps the limits of the robot.
+The Ghost runs along its trajectory, a law of control keeps the robot on it, and the pace of the
+Ghost is controlled: it waits for a robot that falls back; one that is lost is stopped. Whatever the
+law asks for, the twist keeps the limits of the robot.
 
 Arrival is measured: by the pose, not by the Ghost. A law of two wheels closes no error across at
 rest, and wheels may be slow or slip; where the law brings the robot no nearer, a second Ghost leads
@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING
 from agv_motion.planar import REST, Pose, Twist, compose, inverse, require_finite
 from agv_motion.trajectory.approach import Approach, is_calm
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.following import AT_REST, Following
+from agv_motion.trajectory.follower_state import AT_REST, FollowerState
 from agv_motion.trajectory.ghost import Ghost
-from agv_motion.trajectory.leash import Leash
 from agv_motion.trajectory.motions import Speeds
+from agv_motion.trajectory.pace import PaceController
 from agv_motion.trajectory.tracking import TrackingError, tracking_error
 
 if TYPE_CHECKING:
@@ -34,13 +34,13 @@ CORRECTION_SPEED, CORRECTION_RAMPS = 0.1, 0.2
 
 
 class Follower:
-    """Ghost, law and leash of one robot."""
+    """Ghost, law and pace of one robot."""
 
     def __init__(self, parameters: FollowerParameters | None = None) -> None:
         """Wait for a trajectory."""
         self.parameters = parameters or FollowerParameters()
         self.ghost = Ghost(Pose(0.0, 0.0, 0.0), self.parameters.ghost)
-        self.state = Following.IDLE
+        self.state = FollowerState.IDLE
         self.error = TrackingError(0.0, 0.0, 0.0)
         """As of the last step"""
         self.separation = 0.0
@@ -50,7 +50,7 @@ class Follower:
         self.failure = ''
         """Why it ended without having arrived; empty if it did not"""
         self._law = self.parameters.make_law()
-        self._leash = Leash(self.parameters.leash)
+        self._pace = PaceController(self.parameters.pace)
         self._aborting = False
         self._correction: Ghost | None = None
         self._corrections = 0
@@ -91,41 +91,45 @@ class Follower:
             fresh.lock(self.held)
         else:
             trajectory = plan(self.ghost)
-        self.state = Following.LOCKED if self.held else Following.DRIVING
+        self.state = FollowerState.LOCKED if self.held else FollowerState.DRIVING
         self._aborting, self.failure = False, ''
         self._correction, self._corrections = None, 0
         self._approach.restart()
         return trajectory
 
-    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
-        """Ease the Ghost to a halt where it is, or let it go on; a new one starts held too."""
-        self.held = state
+    def ease_to_halt(self) -> None:
+        """Ease the Ghost to a halt where it is; a new one starts held too, until :meth:`go_on`."""
+        self.held = True
 
-    def abort(self) -> None:
+    def go_on(self) -> None:
+        """Let a Ghost that was held go on."""
+        self.held = False
+
+    def brake_and_end(self) -> None:
         """Brake to rest on the way; when that is done the state is `ABORTED`."""
         if self.at_rest:
             return
         self.held, self._aborting = False, True
-        if self._leash.pace == 1.0:
-            self.leader.abort()  # at full pace, with the ramps of the trajectory
+        if self._pace.pace == 1.0:
+            self.leader.brake_and_end()  # at full pace, with the ramps of the trajectory
 
-    def halt(self) -> None:
+    def freeze(self) -> None:
         """Stand at once and without a ramp, as long as something is wrong; `step` goes on."""
         self._start_from_rest(moving=False)
         self.leader.lock(True)  # noqa: FBT003 - the name says what the flag is
         if self._aborting:
-            self._end(Following.ABORTED)
+            self._end(FollowerState.ABORTED)
 
     def retune(self, parameters: FollowerParameters) -> None:
-        """Go on with other gains and another leash; limits count from the next trajectory on."""
+        """Go on with other gains and distances; limits count from the next trajectory on."""
         self.parameters = parameters
         self._law = parameters.make_law()
-        self._leash.parameters = parameters.leash
+        self._pace.parameters = parameters.pace
 
-    def stop(self) -> None:
+    def end_now(self) -> None:
         """End it at once and without a ramp."""
         if not self.at_rest:
-            self._end(Following.ABORTED)
+            self._end(FollowerState.ABORTED)
 
     def step(self, pose: Pose, dt: float) -> Twist:
         """Return the twist for the next cycle.
@@ -142,24 +146,26 @@ class Follower:
         if self.at_rest:
             return REST
         leader = self.leader
-        leader.advance(dt, self._leash.pace)
+        leader.advance(dt, self._pace.pace)
         place, linear, angular = leader.controller_kinetics(self.parameters.delay)
         self.error = tracking_error(place, pose)
-        self.separation = self._leash.separation(self.error)
-        if self._leash.is_lost(self.separation):
+        self.separation = self._pace.separation(self.error)
+        if self._pace.is_lost(self.separation):
             return self._lose()
-        self._pace(dt)
-        if self.state is Following.LOCKED:
+        self._set_pace(dt)
+        if self.state is FollowerState.LOCKED:
             self._heed = 0.0
             return REST  # the robot stands, as near as it came
         twist = self._twist(Speeds(linear, angular), dt)
         if leader.finished and leader.aborted:
-            return self._end(Following.ABORTED)
+            return self._end(FollowerState.ABORTED)
         return self._close_in(twist, dt)
 
     def _lose(self) -> Twist:
-        limit = self.parameters.leash.lost_beyond
-        return self._end(Following.LOST, f'{self.separation:.2f} m off its way, limit {limit:g} m')
+        limit = self.parameters.pace.lost_beyond
+        return self._end(
+            FollowerState.LOST, f'{self.separation:.2f} m off its way, limit {limit:g} m'
+        )
 
     def _twist(self, reference: Speeds, dt: float) -> Twist:
         """Return what the law asks for, within the limits of the robot.
@@ -167,26 +173,26 @@ class Follower:
         From rest on it heeds the error by and by: the robot may have been moved meanwhile.
         """
         given = self.parameters
-        self._heed = min(self._heed + dt / given.leash.ease, 1.0)
+        self._heed = min(self._heed + dt / given.pace.ease, 1.0)
         error = TrackingError(*(self._heed * part for part in self.error))
         return given.ghost.hold(self._law.twist(error, reference))
 
-    def _pace(self, dt: float) -> None:
+    def _set_pace(self, dt: float) -> None:
         """Let the Ghost go on, dawdle or wait, and say so."""
-        ghost, leash = self.leader, self._leash
+        ghost, pace = self.leader, self._pace
         if not ghost.aborted:  # its braking must not be stretched
-            leash.ease(self.separation, dt, hold=self.held or self._aborting)
-        ghost.lock(leash.pace == 0.0)
+            pace.ease(self.separation, dt, hold=self.held or self._aborting)
+        ghost.lock(pace.pace == 0.0)
         if self._aborting and ghost.locked:
-            ghost.abort()
+            ghost.brake_and_end()
         if ghost.locked and self.held and not ghost.finished:
-            self.state = Following.LOCKED
+            self.state = FollowerState.LOCKED
         elif self._correction:
-            self.state = Following.CORRECTING
+            self.state = FollowerState.CORRECTING
         elif ghost.finished:
-            self.state = Following.SETTLING
+            self.state = FollowerState.SETTLING
         else:
-            self.state = Following.WAITING if ghost.locked else Following.DRIVING
+            self.state = FollowerState.WAITING if ghost.locked else FollowerState.DRIVING
 
     def _close_in(self, twist: Twist, dt: float) -> Twist:
         """Return what to drive instead, where the leader stands and the robot comes no nearer."""
@@ -217,7 +223,7 @@ class Follower:
     def _come_up(self) -> Twist:
         """Arrive; or go on behind the first Ghost, if it has only waited."""
         if self.ghost.finished:
-            return self._end(Following.ARRIVED)
+            return self._end(FollowerState.ARRIVED)
         self._correction, self._corrections = None, 0
         self._start_from_rest(moving=False)
         return REST
@@ -226,7 +232,7 @@ class Follower:
         """Lead the robot from where it is to where the first Ghost stands, or give up."""
         given = self.parameters
         if given.law == 'holonomic' or self._corrections >= given.corrections:
-            return self._end(Following.NOT_ARRIVED, self._shortfall())
+            return self._end(FollowerState.NOT_ARRIVED, self._shortfall())
         here = compose(self.leader.pose, inverse(Pose(*self._approach.error)))
         second = Ghost(here, given.ghost)
         if self._only_turns():
@@ -256,11 +262,11 @@ class Follower:
 
     def _start_from_rest(self, *, moving: bool) -> None:
         """Note that the robot stands; the leader starts at full pace, or is eased into it."""
-        self._leash.restart(moving=moving)
+        self._pace.restart(moving=moving)
         self._heed = 0.0
         self._approach.restart()
 
-    def _end(self, state: Following, failure: str = '') -> Twist:
+    def _end(self, state: FollowerState, failure: str = '') -> Twist:
         self.leader.lock(True)  # noqa: FBT003 - the name says what the flag is
         self.state, self.failure = state, failure
         self._correction = None

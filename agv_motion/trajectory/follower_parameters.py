@@ -9,7 +9,7 @@ from agv_motion.parameters import Spec, check
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
 from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
-from agv_motion.trajectory.leash import LeashParameters
+from agv_motion.trajectory.pace import PaceParameters
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class FollowerParameters:
     kanayama: KanayamaGains = field(default_factory=KanayamaGains)
     ramsete: RamseteGains = field(default_factory=RamseteGains)
     holonomic: HolonomicGains = field(default_factory=HolonomicGains)
-    leash: LeashParameters = field(default_factory=LeashParameters)
+    pace: PaceParameters = field(default_factory=PaceParameters)
     ghost: GhostParameters = field(default_factory=GhostParameters)
 
     def __post_init__(self) -> None:

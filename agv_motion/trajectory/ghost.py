@@ -236,10 +236,10 @@ class Ghost:
             self._rate = rate
 
     def lock(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
-        """Stop the time at once, or let it pass; a controlled stop is :meth:`abort`."""
+        """Stop the time at once, or let it pass; a controlled stop is :meth:`brake_and_end`."""
         self._locked = state
 
-    def abort(self) -> None:
+    def brake_and_end(self) -> None:
         """Brake with the ramps of the trajectory to rest on its way; finished when at rest."""
         if not self.finished:
             time = self._time

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from agv_motion.parameters import Spec
 from agv_motion.trajectory.limits import (
+    BendLimit,
     LateralAcceleration,
-    Limit,
     LinearSpeed,
     TurnRate,
     TurnStep,
@@ -42,7 +42,7 @@ class GhostParameters(TwistLimits):
         int, Spec('a path of more poses is refused: it takes too long to plan', '1', (1, 5000))
     ] = 1000
 
-    def limits(self) -> tuple[Limit, ...]:
+    def limits(self) -> tuple[BendLimit, ...]:
         """Return what holds in the bends of a way."""
         return (
             LateralAcceleration(self.lateral_acceleration),

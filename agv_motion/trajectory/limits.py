@@ -20,7 +20,7 @@ STRAIGHT = 1e-12
 """[1/m] Curvatures below this are no bend; it keeps the quotients finite."""
 
 
-class Limit(Protocol):
+class BendLimit(Protocol):
     """A highest speed for every curvature."""
 
     @property
@@ -174,7 +174,7 @@ def require_between(
     return value
 
 
-def lowest_ceiling(limits: Sequence[Limit], curvature: Column, cruising_speed: float) -> Column:
+def lowest_ceiling(limits: Sequence[BendLimit], curvature: Column, cruising_speed: float) -> Column:
     """Return the highest speed that all ``limits`` and ``cruising_speed`` [m/s] allow."""
     ceiling = np.full(len(curvature), cruising_speed)
     for limit in limits:
@@ -182,7 +182,7 @@ def lowest_ceiling(limits: Sequence[Limit], curvature: Column, cruising_speed: f
     return ceiling
 
 
-def joint_ceiling(limits: Sequence[Limit], step: Column) -> Column:
+def joint_ceiling(limits: Sequence[BendLimit], step: Column) -> Column:
     """Return the highest speed that all ``limits`` allow where the curvature jumps by ``step``."""
     ceiling = np.full(len(step), np.inf)
     for limit in limits:

@@ -40,7 +40,7 @@ class Curve(Protocol):
         """Return its second derivative."""
 
 
-class Course(Protocol):
+class ArcLengthCurve(Protocol):
     """A way to drive along, by its length."""
 
     length: float
@@ -87,7 +87,7 @@ class Motion(Protocol):
         """Return the same motion until ``time`` [s], then braked to rest."""
 
 
-class Turn:
+class TurnMotion:
     """A rotation on the spot, by ``angle`` [rad] without sign."""
 
     rotating = True
@@ -125,24 +125,24 @@ class Turn:
             return STILL
         return Speeds(0.0, self._sign * self._profile.at(time).speed)
 
-    def stopped(self, time: float) -> Turn:
+    def stopped(self, time: float) -> TurnMotion:
         """Return the same turn until ``time`` [s], then braked to rest."""
         if time >= self.duration:
             return self
         profile = self._profile.stopped(time, self._ramp)
         angle = self._sign * profile.at(profile.duration).way
         end = self.start._replace(theta=wrap(self.start.theta + angle))
-        return Turn(self.start, end, self._sign, profile, self._ramp)
+        return TurnMotion(self.start, end, self._sign, profile, self._ramp)
 
 
-class Drive:
+class DriveMotion:
     """A drive of ``length`` [m] along curves, the heading on the tangent; or opposite to it."""
 
     rotating = False
 
     def __init__(
         self,
-        course: Course,
+        course: ArcLengthCurve,
         ends: tuple[Pose, Pose],
         profile: Profile,
         ramp: float,
@@ -191,11 +191,11 @@ class Drive:
         cross = velocity.real * bend.imag - velocity.imag * bend.real
         return Speeds(self._sense * speed, speed * cross / (length * length * length))
 
-    def stopped(self, time: float) -> Drive:
+    def stopped(self, time: float) -> DriveMotion:
         """Return the same drive until ``time`` [s], then braked to rest on its curve."""
         if time >= self.duration:
             return self
         profile = self.profile.stopped(time, self._ramp)
         end = self.at_way(profile.at(profile.duration).way)
         ends = self.start, end
-        return Drive(self.course, ends, profile, self._ramp, backward=self._sense < 0.0)
+        return DriveMotion(self.course, ends, profile, self._ramp, backward=self._sense < 0.0)

@@ -16,7 +16,14 @@ from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.limits import joint_ceiling, lowest_ceiling
 from agv_motion.trajectory.line import Line
-from agv_motion.trajectory.motions import STILL, Course, Drive, Motion, Speeds, Turn
+from agv_motion.trajectory.motions import (
+    STILL,
+    ArcLengthCurve,
+    DriveMotion,
+    Motion,
+    Speeds,
+    TurnMotion,
+)
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
 from agv_motion.trajectory.trajectory import Trajectory
@@ -26,7 +33,7 @@ if TYPE_CHECKING:
 
     from agv_motion.trajectory.arc import Arc
     from agv_motion.trajectory.bezier import Column
-    from agv_motion.trajectory.limits import Limit
+    from agv_motion.trajectory.limits import BendLimit
 
 NOTHING = 1e-9
 """[m], [rad], [m/s], [rad/s] What is shorter or slower than this is none."""
@@ -205,8 +212,8 @@ class Planner:
         return motions + self._turn(ends[1], there, corner, STILL)
 
     def _along(
-        self, course: Course, ends: tuple[Pose, Pose], request: Request, present: Speeds
-    ) -> Drive:
+        self, course: ArcLengthCurve, ends: tuple[Pose, Pose], request: Request, present: Speeds
+    ) -> DriveMotion:
         """Return the fastest drive along ``course``.
 
         Raises:
@@ -228,7 +235,7 @@ class Planner:
             max(speed, 0.0),
             self.parameters.s_curve,
         )
-        return Drive(course, ends, profile, ramp, backward=request.backward)
+        return DriveMotion(course, ends, profile, ramp, backward=request.backward)
 
     def _turn(self, start: Pose, end: Pose, request: Request, present: Speeds) -> list[Motion]:
         """Return the turn on the spot, the shorter way round, as :meth:`_spin`."""
@@ -256,10 +263,10 @@ class Planner:
             max(sign * present.angular, 0.0),
             self.parameters.s_curve,
         )
-        return [Turn(start, end, sign, profile, ramp)]
+        return [TurnMotion(start, end, sign, profile, ramp)]
 
 
-def _ceiling(course: Course, limits: Sequence[Limit], cruising_speed: float) -> Column:
+def _ceiling(course: ArcLengthCurve, limits: Sequence[BendLimit], cruising_speed: float) -> Column:
     """Return the highest speed at the nodes such that the limits hold between them too.
 
     The plan runs straight between nodes in the squared speed. Where the true ceiling hangs below

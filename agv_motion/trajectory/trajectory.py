@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from agv_motion.planar import Pose
     from agv_motion.trajectory.braking import Braking
-    from agv_motion.trajectory.limits import Limit
+    from agv_motion.trajectory.limits import BendLimit
     from agv_motion.trajectory.request import Request
 
 
@@ -25,7 +25,7 @@ class Trajectory:
         ends: tuple[Pose, Pose],
         motions: Sequence[Motion] = (),
         request: Request | None = None,
-        limits: Sequence[Limit] = (),
+        limits: Sequence[BendLimit] = (),
     ) -> None:
         """Chain ``motions``; without any the robot stays where it is.
 

@@ -12,15 +12,15 @@ from std_msgs.msg import String
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.demo.recorder import DemoRecorder, Topic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.errors import SourceError
 from agv_motion.ros.qos import LATCHED, SENSOR
 
 TOPICS = [
-    Topic('way', String, latched=True),
-    Topic('/fix', String),
-    Topic('turned', String, latched=True),
-    Topic('silent', String, latched=True),
+    RecordedTopic('way', String, latched=True),
+    RecordedTopic('/fix', String),
+    RecordedTopic('turned', String, latched=True),
+    RecordedTopic('silent', String, latched=True),
 ]
 
 
@@ -58,7 +58,9 @@ def test_a_full_disk_ends_the_bag_whole_and_is_told(graph, tmp_path, monkeypatch
         write(self, *message)
 
     monkeypatch.setattr(BagWriter, 'write', write_one)
-    recorder = DemoRecorder(tmp_path / 'bag', [Topic('fix', String)], int, context=graph.context)
+    recorder = DemoRecorder(
+        tmp_path / 'bag', [RecordedTopic('fix', String)], int, context=graph.context
+    )
     graph.add(recorder)
     graph.meet()
     for i in range(3):

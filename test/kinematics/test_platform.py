@@ -7,7 +7,7 @@ from math import inf, nan
 import pytest
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.platform import Outline, PlatformParameters
+from agv_motion.kinematics.platform import PlatformOutline, PlatformParameters
 
 pytest.importorskip('rclpy')
 
@@ -15,9 +15,9 @@ from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
 
 
 def test_the_octagon_reaches_as_far_as_its_turrets():
-    assert Outline().rim == pytest.approx(1.18)
-    assert Outline(turret_x=(2.0, -1.0), turret_y=(0.0, 1.0)).rim == 2.0
-    assert Outline(platform_radius=1.5).rim == 1.5
+    assert PlatformOutline().rim == pytest.approx(1.18)
+    assert PlatformOutline(turret_x=(2.0, -1.0), turret_y=(0.0, 1.0)).rim == 2.0
+    assert PlatformOutline(platform_radius=1.5).rim == 1.5
 
 
 @pytest.mark.parametrize('kind', [PlatformParameters, MotionGeneratorParameters])

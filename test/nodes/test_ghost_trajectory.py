@@ -265,7 +265,7 @@ def test_impossible_arcs_and_empty_paths_are_refused(course):
 def test_gains_may_change_on_the_way_but_not_to_anything(course):
     change = course.node.set_parameters
     (taken,) = change([Parameter('follow.kanayama.along', value=2.0)])
-    (refused,) = change([Parameter('follow.leash.wait_beyond', value=0.05)])
+    (refused,) = change([Parameter('follow.pace.wait_beyond', value=0.05)])
     assert taken.successful
     assert 'in this order, rising' in refused.reason
     assert course.node.plain._follower.parameters.kanayama.along == 2.0  # noqa: SLF001

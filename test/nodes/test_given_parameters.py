@@ -14,6 +14,7 @@ from rcl_interfaces.srv import SetParameters
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
+from agv_motion.nodes.ghost_trajectory import GhostTrajectory
 from agv_motion.nodes.granier_probe import GranierProbe
 
 NODE = 'agv_motion.nodes.differential_kinematics'
@@ -72,6 +73,11 @@ def test_a_value_of_another_type_is_refused_with_what_to_write(tester, kind, giv
         (GranierProbe, {'csv__fiel': 'x'}, "no parameter 'csv.fiel'; did you mean 'csv.file'?"),
         (GranierProbe, {'autostrat': False}, "did you mean 'autostart'?"),
         (GranierProbe, {'zzz': 1}, "no parameter 'zzz'"),
+        (
+            GhostTrajectory,
+            {'follow__leash__ease': 1.0},
+            "no parameter 'follow.leash.ease' any more; it is 'follow.pace.ease' now",
+        ),
     ],
 )
 def test_a_misspelt_parameter_is_told(tester, kind, given, meant):

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from agv_motion.odometry.alignment import UNKNOWN, Sighting, align, thin
+from agv_motion.odometry.alignment import UNKNOWN, FixAtPose, align, thin
 from agv_motion.odometry.belief import Drift, covariance_at
 from agv_motion.odometry.covariance import CERTAIN, Covariance, rotate
 from agv_motion.odometry.fix import Fix, position_fix
@@ -31,7 +31,7 @@ def sightings(rng, truth, places, outliers=(), heading_noise=None):
             heading = wrap(robot.theta + heading_noise * float(rng.standard_normal()))
             covariance = fix.covariance._replace(tt=heading_noise**2)
             fix = Fix(fix.stamp, fix.x, fix.y, covariance, heading)
-        found.append(Sighting(fix, waypoint))
+        found.append(FixAtPose(fix, waypoint))
     return found
 
 
@@ -104,7 +104,7 @@ def test_the_noise_of_odometry_since_makes_old_fixes_count_less():
     truth = Pose(0.0, 0.0, 0.0)
     old, new = sightings(np.random.default_rng(1), truth, [(0.0, 0.0), (0.0, 0.0)])
     walked = new.waypoint._replace(noise=Covariance(1.0, 0.0, 0.0, 1.0, 0.0, 0.0))
-    belief = align([old, Sighting(new.fix, walked)], heading=0.0, needed=2)
+    belief = align([old, FixAtPose(new.fix, walked)], heading=0.0, needed=2)
     found = compose(belief.map_to_odom, walked.pose)
     share = 0.15**2 / (2 * 0.15**2 + 1.0)
     assert found.x == pytest.approx((1 - share) * new.fix.x + share * old.fix.x, abs=1e-12)

@@ -13,7 +13,7 @@ from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.calibration import calibrate
 from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel, TurretModel
-from agv_motion.odometry.calibration_recording import Recording
+from agv_motion.odometry.calibration_recording import CalibrationDrive
 from agv_motion.odometry.calibration_stretch import Stretch
 from agv_motion.odometry.columns import pose_columns
 from agv_motion.simulation.trials.calibration import (
@@ -58,7 +58,7 @@ def test_a_robot_that_was_carried_slowly_loses_the_places_on_the_way():
     reference = recording.reference.copy()
     reference[0, 60:66] += np.linspace(0.0, 4.0, 6)
     reference[0, 66:] += 4.0
-    spoilt = Recording(recording.turned, recording.reference_step, reference, 0.02, 0.01)
+    spoilt = CalibrationDrive(recording.turned, recording.reference_step, reference, 0.02, 0.01)
     found = calibrate(model, spoilt, SLIP)
     assert found.carried == 1
     assert 3 <= found.outliers <= 8
@@ -101,7 +101,7 @@ def test_without_noise_the_truth_is_found():
     taken = np.arange(0, 1001, 10)
     turned, reference = (matrix @ way) / truth[:3, None], pose_columns(way)[:, taken]
     found = calibrate(
-        OmniModel(wheels, [0.05] * 3), Recording(turned, taken, reference, 1e-4, 1e-4)
+        OmniModel(wheels, [0.05] * 3), CalibrationDrive(turned, taken, reference, 1e-4, 1e-4)
     )
     values = [unknown.value for unknown in found.unknowns]
     assert values == pytest.approx(truth, rel=1e-3)
@@ -155,7 +155,7 @@ def test_outliers_among_the_references_are_left_out():
     model, truth, recording = simulate(OMNI, 3)
     reference = recording.reference.copy()
     reference[:2, 7::15] += 3.0
-    spoilt = Recording(recording.turned, recording.reference_step, reference, 0.02, 0.01)
+    spoilt = CalibrationDrive(recording.turned, recording.reference_step, reference, 0.02, 0.01)
     found = calibrate(model, spoilt, SLIP)
     assert found.outliers == len(reference[0, 7::15])
     errors = [
@@ -190,7 +190,9 @@ def test_at_rest_the_slip_is_as_assumed():
 
 def test_noise_that_is_worse_than_told_widens_the_intervals():
     model, _, recording = simulate(OMNI, 3)
-    told = Recording(recording.turned, recording.reference_step, recording.reference, 0.005, 0.01)
+    told = CalibrationDrive(
+        recording.turned, recording.reference_step, recording.reference, 0.005, 0.01
+    )
     honest, boasting = calibrate(model, recording, SLIP), calibrate(model, told, SLIP)
     assert boasting.misfit > 3.0
     assert boasting.unknowns[0].deviation > 0.6 * honest.unknowns[0].deviation
@@ -209,13 +211,13 @@ def test_malformed_recordings_are_refused():
         ((turned, steps, reference, 0.1, 0.1, turned[:2]), SignalError, 'steering has shape'),
     ]:
         with pytest.raises(error, match=message):
-            Recording(*given)
+            CalibrationDrive(*given)
 
 
 def test_what_cannot_be_calibrated_is_refused():
     wheels = OmniWheels(wheels_on_circle(ANGLES, [0.2] * 3))
     model = OmniModel(wheels, [0.05] * 3)
-    short = Recording(np.zeros((3, 10)), np.array([0, 5]), np.zeros((3, 2)), 0.1)
+    short = CalibrationDrive(np.zeros((3, 10)), np.array([0, 5]), np.zeros((3, 2)), 0.1)
     with pytest.raises(ConfigurationError, match='2 references are too few for 6 unknowns'):
         calibrate(model, short)
     with pytest.raises(ConfigurationError, match=r'wheel_noise = 0\.0'):

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.continuity import Continuity, Step
+from agv_motion.odometry.continuity import Continuity, Succession
 
 
 def order(speed=1.0, max_gap=0.5):
@@ -27,7 +27,7 @@ def test_between_leaps_time_never_runs_back(readings):
     found, last = order(), -inf
     for stamp, value in readings:
         step = found.judge(stamp, value)
-        if step in {Step.MOVED, Step.GAP}:
+        if step in {Succession.MOVED, Succession.GAP}:
             assert stamp > last
         if step.used:
             last = stamp
@@ -47,24 +47,45 @@ def test_of_a_shuffled_second_the_newest_count(places):
 
 def test_a_leap_is_believed_once_the_next_goes_on_from_it():
     readings = [(0.0, 0.0), (0.1, 0.0), (1e9, 0.0), (0.2, 0.0), (1e9, 0.0), (1e9 + 1, 0.0)]
-    expected = [Step.FIRST, Step.MOVED, Step.DOUBTED, Step.MOVED, Step.DOUBTED, Step.LEAP]
+    expected = [
+        Succession.FIRST,
+        Succession.MOVED,
+        Succession.DOUBTED,
+        Succession.MOVED,
+        Succession.DOUBTED,
+        Succession.LEAP,
+    ]
     assert steps(readings) == expected
 
 
 def test_a_jump_is_believed_once_the_next_goes_on_from_it():
     readings = [(0.0, 0.0), (0.1, 9.0), (0.2, 0.1), (0.3, 9.0), (0.4, 9.1), (0.5, 9.2)]
-    expected = [Step.FIRST, Step.DOUBTED, Step.MOVED, Step.DOUBTED, Step.RESET, Step.MOVED]
+    expected = [
+        Succession.FIRST,
+        Succession.DOUBTED,
+        Succession.MOVED,
+        Succession.DOUBTED,
+        Succession.RESET,
+        Succession.MOVED,
+    ]
     assert steps(readings) == expected
 
 
 def test_a_clock_and_a_value_that_leap_together_are_a_reset():
     readings = [(0.0, 0.0), (-99.0, 500.0), (-98.9, 500.0)]
-    assert steps(readings) == [Step.FIRST, Step.DOUBTED, Step.RESET]
+    assert steps(readings) == [Succession.FIRST, Succession.DOUBTED, Succession.RESET]
 
 
 def test_late_readings_in_a_row_are_late_until_they_span_a_gap():
     late = [(-1.0 + 0.2 * i, 0.0) for i in range(5)]
-    expected = [Step.FIRST, Step.LATE, Step.LATE, Step.LATE, Step.LEAP, Step.MOVED]
+    expected = [
+        Succession.FIRST,
+        Succession.LATE,
+        Succession.LATE,
+        Succession.LATE,
+        Succession.LEAP,
+        Succession.MOVED,
+    ]
     assert steps([(0.0, 0.0), *late]) == expected
 
 
@@ -82,4 +103,4 @@ def test_a_stamp_that_is_not_finite_is_refused_and_nothing_has_changed(stamp):
     for _ in range(2):
         with pytest.raises(SignalError, match='stamp must be finite'):
             found.judge(stamp, 0.0)
-        assert found.judge(1.0, 0.0) in {Step.FIRST, Step.DUPLICATE}
+        assert found.judge(1.0, 0.0) in {Succession.FIRST, Succession.DUPLICATE}

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.encoders import Encoders
 from agv_motion.odometry.parameters import OdometryParameters
 
@@ -19,13 +19,13 @@ TURN = st.floats(-1.0, 1.0)
 
 def started(**parameters):
     encoders = Encoders(RADII, OdometryParameters(**parameters))
-    assert encoders.read(10.0, [1.0, 2.0]) is Step.FIRST
+    assert encoders.read(10.0, [1.0, 2.0]) is Succession.FIRST
     return encoders
 
 
 def test_angles_times_radii_are_travels():
     encoders = started()
-    assert encoders.read(10.1, [1.5, 1.0]) is Step.MOVED
+    assert encoders.read(10.1, [1.5, 1.0]) is Succession.MOVED
     assert encoders.travel == pytest.approx([0.05, -0.2], abs=1e-15)
     assert encoders.rolled == pytest.approx(0.25, abs=1e-15)
     assert encoders.duration == pytest.approx(0.1, abs=1e-14)
@@ -34,16 +34,16 @@ def test_angles_times_radii_are_travels():
 def test_the_first_reading_tells_nothing():
     encoders = Encoders(RADII, OdometryParameters())
     assert encoders.stamp is None
-    assert encoders.read(10.0, [1.0, 2.0]) is Step.FIRST
+    assert encoders.read(10.0, [1.0, 2.0]) is Succession.FIRST
     assert (encoders.stamp, list(encoders.travel), encoders.rolled) == (10.0, [], 0.0)
 
 
-@pytest.mark.parametrize(('stamp', 'step'), [(10.0, Step.DUPLICATE), (9.9, Step.LATE)])
+@pytest.mark.parametrize(('stamp', 'step'), [(10.0, Succession.DUPLICATE), (9.9, Succession.LATE)])
 def test_a_stamp_that_is_not_new_changes_nothing(stamp, step):
     encoders = started()
     assert encoders.read(stamp, [5.0, 5.0]) is step
     assert encoders.stamp == 10.0
-    assert encoders.read(10.1, [1.1, 2.0]) is Step.MOVED
+    assert encoders.read(10.1, [1.1, 2.0]) is Succession.MOVED
     assert encoders.travel == pytest.approx([0.01, 0.0], abs=1e-15)
 
 
@@ -53,7 +53,7 @@ def test_encoders_that_go_round_lose_nothing(turns):
     for i, turn in enumerate(turns):
         angles = [a + t for a, t in zip(angles, turn, strict=True)]
         step = encoders.read(10.1 + 0.1 * i, [angle % tau for angle in angles])
-        assert step is Step.MOVED
+        assert step is Succession.MOVED
         rolled = [a + b for a, b in zip(rolled, encoders.travel, strict=True)]
     expected = [(a - b) * r for a, b, r in zip(angles, [1.0, 2.0], RADII, strict=True)]
     assert rolled == pytest.approx(expected, abs=1e-12)
@@ -63,35 +63,35 @@ def test_encoders_that_start_again_are_noticed():
     """Rolling 0.15 m/s before, over 0.1 s, each wheel may have gone 15 mm meanwhile."""
     encoders = started(max_wheel_speed=1.0)
     encoders.read(10.1, [1.1, 2.1])
-    assert encoders.read(10.2, [0.0, 0.0]) is Step.DOUBTED
+    assert encoders.read(10.2, [0.0, 0.0]) is Succession.DOUBTED
     assert encoders.stamp == 10.1
-    assert encoders.read(10.3, [0.1, 0.0]) is Step.RESET
+    assert encoders.read(10.3, [0.1, 0.0]) is Succession.RESET
     assert encoders.travel == pytest.approx([0.01, 0.0], abs=1e-15)
     assert encoders.duration == pytest.approx(0.1)
     assert encoders.doubt == pytest.approx(0.015, abs=1e-9)
-    assert encoders.read(10.4, [0.2, 0.0]) is Step.MOVED
+    assert encoders.read(10.4, [0.2, 0.0]) is Succession.MOVED
     assert encoders.travel == pytest.approx([0.01, 0.0], abs=1e-15)
     assert encoders.doubt == 0.0
 
 
 def test_one_impossible_reading_costs_nothing():
     encoders = started()
-    assert encoders.read(10.1, [900.0, 2.0]) is Step.DOUBTED
-    assert encoders.read(10.2, [1.2, 2.0]) is Step.MOVED
+    assert encoders.read(10.1, [900.0, 2.0]) is Succession.DOUBTED
+    assert encoders.read(10.2, [1.2, 2.0]) is Succession.MOVED
     assert encoders.travel == pytest.approx([0.02, 0.0], abs=1e-15)
     assert encoders.doubt == 0.0
 
 
 def test_a_gap_keeps_the_travel_and_says_so():
     encoders = started(max_gap=0.5)
-    assert encoders.read(20.0, [2.0, 2.0]) is Step.GAP
+    assert encoders.read(20.0, [2.0, 2.0]) is Succession.GAP
     assert encoders.travel == pytest.approx([0.1, 0.0], abs=1e-15)
 
 
 def test_a_gap_in_which_the_encoders_may_have_gone_round_loses_the_travel():
     encoders = started(max_gap=0.5, encoder_range=tau, max_wheel_speed=0.1)
-    assert encoders.read(12.0, [2.0, 2.0]) is Step.GAP
-    assert encoders.read(20.0, [3.0, 2.0]) is Step.RESET
+    assert encoders.read(12.0, [2.0, 2.0]) is Succession.GAP
+    assert encoders.read(20.0, [3.0, 2.0]) is Succession.RESET
 
 
 @pytest.mark.parametrize('stamp', [-500.0, 7200.0, 2.1e9])
@@ -101,13 +101,13 @@ def test_a_clock_that_leaps_loses_no_travel_and_costs_certainty(stamp):
     The pose is as unsure as the rest, no more.
     """
     encoders = started()
-    assert encoders.read(stamp, [1.1, 2.1]) is Step.DOUBTED
-    assert encoders.read(stamp + 0.1, [1.3, 2.2]) is Step.LEAP
+    assert encoders.read(stamp, [1.1, 2.1]) is Succession.DOUBTED
+    assert encoders.read(stamp + 0.1, [1.3, 2.2]) is Succession.LEAP
     assert encoders.beyond == pytest.approx([0.01, 0.02], abs=1e-15)
     assert encoders.travel == pytest.approx([0.02, 0.02], abs=1e-15)
     assert encoders.duration == pytest.approx(0.1, abs=1e-6)
     assert encoders.doubt == pytest.approx(0.015, abs=1e-12)
-    assert encoders.read(stamp + 0.2, [1.4, 2.2]) is Step.MOVED
+    assert encoders.read(stamp + 0.2, [1.4, 2.2]) is Succession.MOVED
 
 
 def test_a_clock_set_back_a_little_loses_no_travel():
@@ -116,8 +116,10 @@ def test_a_clock_set_back_a_little_loses_no_travel():
     for i in range(1, 101):
         step = encoders.read(5.0 + 0.1 * i, [1.0 + 0.05 * i, 2.0])
         if step.used:
-            rolled += encoders.travel[0] + (encoders.beyond[0] if step is Step.LEAP else 0.0)
-        assert step is (Step.LATE if i <= 6 else Step.LEAP if i == 7 else Step.MOVED)
+            rolled += encoders.travel[0] + (encoders.beyond[0] if step is Succession.LEAP else 0.0)
+        assert step is (
+            Succession.LATE if i <= 6 else Succession.LEAP if i == 7 else Succession.MOVED
+        )
     assert rolled == pytest.approx(100 * 0.05 * 0.1, abs=1e-12)
 
 
@@ -127,7 +129,7 @@ def test_angles_that_are_not_finite_change_nothing(angles):
     with pytest.raises(SignalError, match='wheel angles must be finite'):
         encoders.read(10.1, angles)
     assert encoders.stamp == 10.0
-    assert encoders.read(10.1, [1.1, 2.0]) is Step.MOVED
+    assert encoders.read(10.1, [1.1, 2.0]) is Succession.MOVED
 
 
 @pytest.mark.parametrize('count', [0, 1, 3])

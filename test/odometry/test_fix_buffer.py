@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.odometry.alignment import Sighting
+from agv_motion.odometry.alignment import FixAtPose
 from agv_motion.odometry.belief import Drift, believe
 from agv_motion.odometry.covariance import Covariance, scale
 from agv_motion.odometry.fix import position_fix
@@ -32,7 +32,7 @@ def sightings(seed, count, outliers=0.2):
     for i in range(1, count + 1):
         far = 5.0 if chance.random() < outliers else 0.0
         x, y = chance.gauss(i, 0.15) + far, chance.gauss(0.0, 0.15)
-        found.append(Sighting(position_fix(float(i), x, y, 0.15), at(float(i))))
+        found.append(FixAtPose(position_fix(float(i), x, y, 0.15), at(float(i))))
     return found
 
 
@@ -56,9 +56,9 @@ def test_the_order_of_arrival_does_not_matter(seed, count):
 def test_an_outlier_changes_nothing():
     buffer = started()
     before = buffer.belief
-    assert not buffer.take(Sighting(position_fix(1.0, 9.0, 0.0, 0.15), at(1.0)))
+    assert not buffer.take(FixAtPose(position_fix(1.0, 9.0, 0.0, 0.15), at(1.0)))
     assert buffer.belief == before
-    assert buffer.take(Sighting(position_fix(2.0, 2.0, 0.0, 0.15), at(2.0)))
+    assert buffer.take(FixAtPose(position_fix(2.0, 2.0, 0.0, 0.15), at(2.0)))
     assert buffer.belief != before
 
 
@@ -66,8 +66,8 @@ def test_an_outlier_that_passed_a_wide_gate_is_outvoted():
     """After a silence one is 2 m unsure: an outlier of 4 m passes, then four sound fixes do not."""
     wide = believe(Pose(0.0, 0.0, 0.0), Covariance(4.0, 0.0, 0.0, 4.0, 0.0, 0.01), at(0.0))
     fooled, spared = FixBuffer(wide, DRIFT, 0.999), FixBuffer(wide, DRIFT, 0.999)
-    assert fooled.take(Sighting(position_fix(1.0, 5.0, 0.0, 0.15), at(1.0)))
-    sound = [Sighting(position_fix(2.0 + i, 2.1 + i, 0.0, 0.15), at(2.0 + i)) for i in range(4)]
+    assert fooled.take(FixAtPose(position_fix(1.0, 5.0, 0.0, 0.15), at(1.0)))
+    sound = [FixAtPose(position_fix(2.0 + i, 2.1 + i, 0.0, 0.15), at(2.0 + i)) for i in range(4)]
     passed = []
     for sighting in sound:
         passed.append(fooled.take(sighting))
@@ -79,11 +79,11 @@ def test_an_outlier_that_passed_a_wide_gate_is_outvoted():
 
 def test_a_sound_fix_is_not_outvoted_by_outliers():
     buffer = started()
-    sound = Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0))
+    sound = FixAtPose(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0))
     assert buffer.take(sound)
     belief = buffer.belief
     for i in range(6):
-        buffer.take(Sighting(position_fix(2.0 + i, 9.0 + i, 9.0, 0.15), at(2.0 + i)))
+        buffer.take(FixAtPose(position_fix(2.0 + i, 9.0 + i, 9.0, 0.15), at(2.0 + i)))
     assert buffer.belief == belief
 
 
@@ -115,11 +115,11 @@ def test_what_is_forgotten_stays_believed():
 def test_rejected_fixes_are_kept_that_span_the_last_seconds(period):
     """However often they come: few of them, over 10 s, the newest and the oldest among them."""
     buffer = started()
-    assert buffer.take(Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
+    assert buffer.take(FixAtPose(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
     far = []
     for i in range(round(60.0 / period)):
         stamp = 2.0 + period * i
-        far.append(Sighting(position_fix(stamp, -50.0, 0.0, 0.15), at(stamp)))
+        far.append(FixAtPose(position_fix(stamp, -50.0, 0.0, 0.15), at(stamp)))
         buffer.take(far[-1])
         buffer.forget(stamp - 1.0)
     kept = buffer.rejected()
@@ -132,8 +132,8 @@ def test_rejected_fixes_are_kept_that_span_the_last_seconds(period):
 
 def test_few_rejected_fixes_are_kept_however_old():
     buffer = started()
-    assert buffer.take(Sighting(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
-    far = [Sighting(position_fix(20.0 * i, -50.0, 0.0, 0.15), at(20.0 * i)) for i in range(1, 9)]
+    assert buffer.take(FixAtPose(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0)))
+    far = [FixAtPose(position_fix(20.0 * i, -50.0, 0.0, 0.15), at(20.0 * i)) for i in range(1, 9)]
     for sighting in far:
         buffer.take(sighting)
         buffer.forget(sighting.fix.stamp - 1.0)

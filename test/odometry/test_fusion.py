@@ -12,7 +12,7 @@ from agv_motion.odometry.covariance import CERTAIN, Covariance, scale
 from agv_motion.odometry.fix import Fix, position_fix
 from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_parameters import FusionParameters
-from agv_motion.odometry.fusion_report import State, Verdict
+from agv_motion.odometry.fusion_report import FixVerdict, FusionState
 from agv_motion.planar import Pose, compose, inverse, wrap
 from agv_motion.simulation.trials.omni import OmniTrial, TrialParameters
 from agv_motion.simulation.uwb import UwbParameters
@@ -40,7 +40,7 @@ def run(trial, seconds):
     errors, squares = [], []
     for i in range(round(seconds * trial.given.rate)):
         trial.step()
-        if i % trial.given.rate == 0 and trial.fusion.health().state is not State.SEARCHING:
+        if i % trial.given.rate == 0 and trial.fusion.health().state is not FusionState.SEARCHING:
             if trial.fusion.estimate() is None:
                 continue
             error, square = missed(trial)
@@ -109,7 +109,7 @@ def test_the_heading_is_found_once_the_robot_moves():
     for seed in range(30):
         trial = OmniTrial(TrialParameters(seed=seed))
         run(trial, 12.0)
-        assert trial.fusion.health().state is State.TRACKING
+        assert trial.fusion.health().state is FusionState.TRACKING
         error, square = missed(trial)
         assert abs(error[2]) < 0.6
         assert square < 25.0
@@ -121,9 +121,9 @@ def test_at_rest_the_position_is_told_and_the_heading_is_said_to_be_unknown():
     for i in range(40):
         fusion.add_odometry(float(i), Pose(0.0, 0.0, 0.0), CERTAIN)
         x, y = rng.normal((5.0, 6.0), 0.15)
-        assert fusion.add_fix(position_fix(float(i), x, y, 0.15)) is Verdict.SEARCHING
+        assert fusion.add_fix(position_fix(float(i), x, y, 0.15)) is FixVerdict.SEARCHING
     health, estimate = fusion.health(), fusion.estimate()
-    assert health.state is State.SEARCHING
+    assert health.state is FusionState.SEARCHING
     assert health.heading_deviation > 1.5
     assert health.position_deviation < 0.05
     assert hypot(estimate.pose.x - 5.0, estimate.pose.y - 6.0) < 0.15
@@ -136,11 +136,11 @@ def test_kidnapping_is_noticed_and_the_robot_found_again():
         pose = trial.robot.pose
         trial.robot.carry_to(Pose((pose.x + 8.0) % 20.0, pose.y, wrap(pose.theta + 2.0)))
         run(trial, 5.0)
-        assert trial.fusion.health().state is State.DOUBTFUL
+        assert trial.fusion.health().state is FusionState.DOUBTFUL
         run(trial, 40.0)
         health = trial.fusion.health()
-        assert health.verdicts[Verdict.KIDNAPPED] == 1
-        assert health.state is State.TRACKING
+        assert health.verdicts[FixVerdict.KIDNAPPED] == 1
+        assert health.state is FusionState.TRACKING
         assert missed(trial)[1] < 25.0
 
 
@@ -150,8 +150,8 @@ def test_outliers_are_no_kidnapping():
         x, y = rng.uniform(-30.0, 30.0, 2)
         fusion.add_odometry(100.0 + i, Pose(0.0, 0.0, 0.0), CERTAIN)
         fusion.add_fix(position_fix(100.0 + i, x, y, 0.15))
-    assert fusion.health().verdicts[Verdict.KIDNAPPED] == 0
-    assert fusion.health().state is State.DOUBTFUL
+    assert fusion.health().verdicts[FixVerdict.KIDNAPPED] == 0
+    assert fusion.health().state is FusionState.DOUBTFUL
     assert hypot(fusion.estimate().pose.x - 1.0, fusion.estimate().pose.y - 2.0) < 0.2
 
 
@@ -165,7 +165,7 @@ def test_late_fixes_count_as_if_in_time():
         for fusion, delay in ((in_time, 0), (late, 9)):
             fusion.add_odometry(0.1 * i, Pose(0.1 * i, 0.0, 0.0), CERTAIN)
             if 0 < i - delay < 40:
-                assert fusion.add_fix(fixes[i - delay]) is Verdict.ACCEPTED
+                assert fusion.add_fix(fixes[i - delay]) is FixVerdict.ACCEPTED
     assert late.estimate().pose == pytest.approx(in_time.estimate().pose, abs=1e-12)
     assert late.estimate().covariance == pytest.approx(in_time.estimate().covariance, abs=1e-15)
 
@@ -176,7 +176,7 @@ def test_fixes_out_of_order_count_as_if_in_order():
     for fix in fixes:
         in_order.add_fix(fix)
     for i in (4, 0, 2, 1, 3):
-        assert swapped.add_fix(fixes[i]) is Verdict.ACCEPTED
+        assert swapped.add_fix(fixes[i]) is FixVerdict.ACCEPTED
     assert swapped.estimate() == in_order.estimate()
 
 
@@ -184,21 +184,21 @@ def test_a_fix_waits_for_its_odometry():
     fusion = resting()
     fix = position_fix(0.25, 1.1, 2.0, 0.15)
     before = fusion.estimate().pose
-    assert fusion.add_fix(fix) is Verdict.WAITING
+    assert fusion.add_fix(fix) is FixVerdict.WAITING
     fusion.add_odometry(0.2, Pose(0.0, 0.0, 0.0), CERTAIN)
     assert fusion.estimate().pose == before
     fusion.add_odometry(0.3, Pose(0.0, 0.0, 0.0), CERTAIN)
-    assert fusion.health().verdicts[Verdict.ACCEPTED] == 1
+    assert fusion.health().verdicts[FixVerdict.ACCEPTED] == 1
     assert fusion.estimate().pose.x > before.x
-    assert fusion.add_fix(fix) is Verdict.DUPLICATE
+    assert fusion.add_fix(fix) is FixVerdict.DUPLICATE
 
 
 def test_fixes_beside_the_time_are_ignored_and_counted():
     fusion = resting(10.0)
-    assert fusion.add_fix(position_fix(8.0, 1.0, 2.0, 0.15)) is Verdict.LATE
-    assert fusion.add_fix(position_fix(99.0, 1.0, 2.0, 0.15)) is Verdict.EARLY
+    assert fusion.add_fix(position_fix(8.0, 1.0, 2.0, 0.15)) is FixVerdict.LATE
+    assert fusion.add_fix(position_fix(99.0, 1.0, 2.0, 0.15)) is FixVerdict.EARLY
     verdicts = fusion.health().verdicts
-    assert (verdicts[Verdict.LATE], verdicts[Verdict.EARLY]) == (1, 1)
+    assert (verdicts[FixVerdict.LATE], verdicts[FixVerdict.EARLY]) == (1, 1)
 
 
 def test_the_pose_follows_odometry_between_fixes():
@@ -217,11 +217,11 @@ def test_the_pose_follows_odometry_between_fixes():
 def test_without_fixes_it_says_so_and_widens():
     fusion = resting(3.0, fix_timeout=5.0)
     fusion.add_fix(position_fix(3.0, 1.0, 2.0, 0.15))
-    assert fusion.health().state is State.TRACKING
+    assert fusion.health().state is FusionState.TRACKING
     narrow = fusion.health().position_deviation
     walked = Covariance(0.04, 0.0, 0.0, 0.04, 0.0, 0.0)
     fusion.add_odometry(9.0, Pose(0.0, 0.0, 0.0), walked)
-    assert fusion.health().state is State.ODOMETRY_ONLY
+    assert fusion.health().state is FusionState.ODOMETRY_ONLY
     assert fusion.health().since_fix == pytest.approx(6.0)
     assert fusion.health().position_deviation == pytest.approx(hypot(narrow, 0.2), rel=0.01)
 
@@ -261,16 +261,16 @@ def test_a_clock_and_a_pose_that_both_leap_start_the_search_again():
     assert fusion.estimate().stamp == pytest.approx(30.0)
     fusion.add_odometry(1.1, Pose(500.0, 0.0, 0.0), CERTAIN)
     assert fusion.estimate() is None
-    assert fusion.health().state is State.WAITING
-    assert fusion.add_fix(position_fix(1.1, 0.0, 0.0, 0.15)) is Verdict.SEARCHING
+    assert fusion.health().state is FusionState.WAITING
+    assert fusion.add_fix(position_fix(1.1, 0.0, 0.0, 0.15)) is FixVerdict.SEARCHING
 
 
 def test_before_all_it_knows_nothing():
     fusion = PoseFusion()
     assert fusion.estimate() is None
     health = fusion.health()
-    assert (health.state, health.position_deviation) == (State.WAITING, inf)
-    assert fusion.add_fix(position_fix(1.0, 0.0, 0.0, 0.15)) is Verdict.WAITING
+    assert (health.state, health.position_deviation) == (FusionState.WAITING, inf)
+    assert fusion.add_fix(position_fix(1.0, 0.0, 0.0, 0.15)) is FixVerdict.WAITING
     with pytest.raises(SignalError, match='once there is odometry'):
         fusion.set_pose(Pose(0.0, 0.0, 0.0), KNOWN)
 
@@ -292,7 +292,7 @@ def test_headings_across_the_seam_are_no_surprise():
     fusion.set_pose(Pose(0.0, 0.0, 3.13), KNOWN)
     fusion.add_odometry(1.0, Pose(0.0, 0.0, 0.0), CERTAIN)
     fix = Fix(1.0, 0.0, 0.0, Covariance(0.02, 0.0, 0.0, 0.02, 0.0, 0.001), -3.13)
-    assert fusion.add_fix(fix) is Verdict.ACCEPTED
+    assert fusion.add_fix(fix) is FixVerdict.ACCEPTED
     assert abs(wrap(fusion.estimate().pose.theta - pi)) < 0.01
 
 

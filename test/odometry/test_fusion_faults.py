@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, Covariance, is_positive_definite, scale, shift
 from agv_motion.odometry.fix import Fix, position_fix
 from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_parameters import FusionParameters
-from agv_motion.odometry.fusion_report import State, Verdict
+from agv_motion.odometry.fusion_report import FixVerdict, FusionState
 from agv_motion.odometry.kalman import correct
 from agv_motion.planar import Pose, Twist, compose, integrate, wrap
 
@@ -72,12 +72,12 @@ class Walk:
 def test_a_robot_carried_away_is_searched_for_within_15_seconds(rate):
     walk = Walk(rate)
     walk.run(30.0)
-    assert walk.fusion.health().verdicts[Verdict.KIDNAPPED] == 0
+    assert walk.fusion.health().verdicts[FixVerdict.KIDNAPPED] == 0
     walk.carried = Pose(50.0, 0.0, 0.0)
     walk.run(15.0)
-    assert walk.fusion.health().verdicts[Verdict.KIDNAPPED] == 1
+    assert walk.fusion.health().verdicts[FixVerdict.KIDNAPPED] == 1
     walk.run(20.0)
-    assert walk.fusion.health().state is State.TRACKING
+    assert walk.fusion.health().state is FusionState.TRACKING
     assert walk.missed()[0] < 0.5
 
 
@@ -89,7 +89,7 @@ def test_after_a_leap_of_the_clock_good_fixes_are_soon_taken_again(leap):
     walk.run(3.0)
     assert walk.fusion.estimate() is not None
     verdicts = walk.run(20.0)
-    assert verdicts.count(Verdict.ACCEPTED) >= 0.9 * len(verdicts)
+    assert verdicts.count(FixVerdict.ACCEPTED) >= 0.9 * len(verdicts)
     error, deviation = walk.missed()
     assert error < 4.0 * deviation < 1.0
 
@@ -104,7 +104,7 @@ def test_one_odometry_that_cannot_be_changes_nothing(x):
         with pytest.raises(SignalError, match=r'cannot be beyond 100000 m|covariance'):
             walk.fusion.add_odometry(*message)
     else:
-        assert walk.fusion.add_odometry(*message) is Step.DOUBTED
+        assert walk.fusion.add_odometry(*message) is Succession.DOUBTED
     for each in (walk, other):
         each.run(5.0)
     assert walk.fusion.estimate() == other.fusion.estimate()
@@ -133,7 +133,7 @@ def test_a_covariance_that_does_not_grow_with_the_way_is_doubted():
         x = 0.5 * i
         about_origin = shift(KNOWN, -x, 0.0)
         steps.add(fusion.add_odometry(0.1 * i, Pose(x, 0.0, 0.0), about_origin))
-    assert steps == {Step.DOUBTED}
+    assert steps == {Succession.DOUBTED}
 
 
 @pytest.mark.parametrize('variance', [1e18, 1e100, 0.0, 1e-30, 1e9])
@@ -184,7 +184,7 @@ def test_at_rest_a_tag_off_the_centre_leaves_the_centre_unsure():
     for i in range(40):
         fusion.add_odometry(float(i), Pose(0.0, 0.0, 0.0), CERTAIN)
         fusion.add_fix(position_fix(float(i), 5.0, 6.0, 0.15))
-    assert fusion.health().state is State.SEARCHING
+    assert fusion.health().state is FusionState.SEARCHING
     assert fusion.health().position_deviation > 0.8 * pi / sqrt(3.0) * 0.9
 
 
@@ -192,7 +192,7 @@ def test_fixes_of_another_time_are_told_by_name():
     walk = Walk()
     walk.run(10.0)
     at = walk.time + walk.clock
-    assert walk.fusion.add_fix(position_fix(0.0, 0.0, 0.0, 0.1)) is Verdict.LATE
-    assert walk.fusion.add_fix(position_fix(at - 2.0, 0.0, 0.0, 0.1)) is Verdict.LATE
-    assert walk.fusion.add_fix(position_fix(at + 90.0, 0.0, 0.0, 0.1)) is Verdict.EARLY
+    assert walk.fusion.add_fix(position_fix(0.0, 0.0, 0.0, 0.1)) is FixVerdict.LATE
+    assert walk.fusion.add_fix(position_fix(at - 2.0, 0.0, 0.0, 0.1)) is FixVerdict.LATE
+    assert walk.fusion.add_fix(position_fix(at + 90.0, 0.0, 0.0, 0.1)) is FixVerdict.EARLY
     assert walk.fusion.newest_stamp == pytest.approx(at)

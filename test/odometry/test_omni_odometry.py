@@ -10,7 +10,7 @@ import pytest
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.omniwheel_placement import mecanum_wheels, wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.odometry.wheel_monitor import ENOUGH, WheelMonitor
@@ -47,7 +47,7 @@ def test_wheels_may_come_and_go_while_the_rest_can_tell():
             angles[4] = None
         if i >= 20:
             angles[1] = angles[1] - 300.0  # its encoder began again meanwhile
-        assert odometry.update(drive.stamp, angles) is Step.MOVED
+        assert odometry.update(drive.stamp, angles) is Succession.MOVED
         assert odometry.left_out == {w for w, angle in enumerate(angles) if angle is None}
     assert odometry.reckoning.pose == pytest.approx(drive.pose, abs=1e-9)
 
@@ -73,10 +73,10 @@ def test_what_it_cannot_use_changes_nothing():
         odometry.update(0.1, [1.0, 1.0, None, None])
     with pytest.raises(SignalError, match='wheel angles must be finite'):
         odometry.update(0.1, [1.0, nan, 1.0, 1.0])
-    assert odometry.update(0.0, [9.0] * 4) is Step.DUPLICATE
-    assert odometry.update(-0.1, [9.0, None, 9.0, 9.0]) is Step.LATE
+    assert odometry.update(0.0, [9.0] * 4) is Succession.DUPLICATE
+    assert odometry.update(-0.1, [9.0, None, 9.0, 9.0]) is Succession.LATE
     assert not odometry.left_out
-    assert odometry.update(0.1, [1.0] * 4) is Step.MOVED
+    assert odometry.update(0.1, [1.0] * 4) is Succession.MOVED
     assert odometry.reckoning.pose.x == pytest.approx(RADIUS)
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.turrets import Turrets
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.planar import Twist
 
@@ -74,7 +74,7 @@ def rolling(stamps, speed=1.0, reckoning=None):
 def test_a_state_that_is_not_newer_does_not_move_the_pose():
     reckoning = TurretOdometry(TURRETS, 0.02)
     steps = [rolling([time], reckoning=reckoning).step for time in (1.0, 1.0, 0.9, 1.25)]
-    assert steps == [Step.FIRST, Step.DUPLICATE, Step.LATE, Step.MOVED]
+    assert steps == [Succession.FIRST, Succession.DUPLICATE, Succession.LATE, Succession.MOVED]
     assert rolling([1.25], reckoning=reckoning).pose == pytest.approx((0.25, 0, 0))
 
 

@@ -13,11 +13,11 @@ from agv_motion.kinematics.omniwheel_placement import mecanum_wheels, wheels_on_
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.base import DifferentialBase, OmniBase, TurretBase
-from agv_motion.odometry.continuity import Step
+from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import Covariance
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.odometry.wheel_odometry import WheelOdometry
-from agv_motion.odometry.yaw_rate import Turn
+from agv_motion.odometry.yaw_rate import GyroTurn
 from agv_motion.planar import Pose, Twist, integrate
 
 THREE = OmniWheels(wheels_on_circle([pi / 6, 5 * pi / 6, 3 * pi / 2], [0.2] * 3))
@@ -33,7 +33,7 @@ def drive(odometry, wheels, twists, radius=0.05, period=0.1):
     for i, twist in enumerate(twists):
         speeds = wheels.command(twist).speed
         angles = [a + v * period / radius for a, v in zip(angles, speeds, strict=True)]
-        assert odometry.update(period * (i + 1), angles) is Step.MOVED
+        assert odometry.update(period * (i + 1), angles) is Succession.MOVED
     return period * len(twists), angles
 
 
@@ -99,7 +99,7 @@ def test_the_rounding_of_encoders_is_no_slip():
 def test_a_gap_is_bridged_with_doubt():
     odometry = WheelOdometry(DifferentialBase(0.4), [0.1, 0.1], OdometryParameters(gap_noise=0.5))
     odometry.update(0.0, [0.0, 0.0])
-    assert odometry.update(5.0, [10.0, 10.0]) is Step.GAP
+    assert odometry.update(5.0, [10.0, 10.0]) is Succession.GAP
     assert odometry.pose == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
     assert odometry.covariance().xx == pytest.approx(0.5**2 / 2, rel=0.01)
 
@@ -114,7 +114,7 @@ def test_what_was_rolled_while_the_clock_leapt_is_travel_but_no_speed(leap):
     for stamp, way in zip(stamps, rolled, strict=True):
         steps.append(odometry.update(stamp + 100.0, [way / 0.05, way / 0.05]))
         twists.append(odometry.twist.vx)
-    assert steps[3:] == [Step.DOUBTED, Step.LEAP, Step.MOVED]
+    assert steps[3:] == [Succession.DOUBTED, Succession.LEAP, Succession.MOVED]
     assert twists[1:] == pytest.approx([0.2] * 5)
     assert odometry.pose.x == pytest.approx(3.08)
     assert sqrt(odometry.covariance().xx) >= 3.0
@@ -129,13 +129,13 @@ def test_a_reset_leaves_the_pose_and_doubts_it_by_the_way_it_may_have_gone():
     for i in range(3):
         odometry.update(0.1 * i, [1.0 * i, 1.0 * i])
     before = odometry.pose, odometry.covariance()
-    assert odometry.update(0.4, [-900.0, -900.0]) is Step.DOUBTED
+    assert odometry.update(0.4, [-900.0, -900.0]) is Succession.DOUBTED
     assert (odometry.pose, odometry.covariance()) == before
-    assert odometry.update(0.5, [-899.0, -899.0]) is Step.RESET
+    assert odometry.update(0.5, [-899.0, -899.0]) is Succession.RESET
     assert odometry.pose == pytest.approx((0.3, 0.0, 0.0), abs=1e-12)
     assert odometry.twist == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)
     assert odometry.covariance().xx == pytest.approx(0.2**2, rel=0.01)
-    assert odometry.update(0.6, [-898.0, -898.0]) is Step.MOVED
+    assert odometry.update(0.6, [-898.0, -898.0]) is Succession.MOVED
     assert odometry.pose.x == pytest.approx(0.4, abs=1e-12)
 
 
@@ -144,7 +144,10 @@ def test_duplicates_and_late_readings_move_nothing(stamp):
     odometry = WheelOdometry(OmniBase(THREE), [0.05] * 3)
     _, angles = drive(odometry, THREE, [Twist(1.0, 0.0, 0.5)] * 3)
     before = odometry.pose, odometry.covariance(), odometry.twist
-    assert odometry.update(stamp, [a + 1.0 for a in angles]) in {Step.DUPLICATE, Step.LATE}
+    assert odometry.update(stamp, [a + 1.0 for a in angles]) in {
+        Succession.DUPLICATE,
+        Succession.LATE,
+    }
     assert (odometry.pose, odometry.covariance(), odometry.twist) == before
 
 
@@ -163,7 +166,7 @@ def test_a_gyroscope_corrects_the_heading():
     """Wheels that skid say 0.5 rad; a gyroscope a thousand times as sure says 0.4 rad."""
     odometry = WheelOdometry(DifferentialBase(0.4), [0.1, 0.1])
     odometry.update(0.0, [0.0, 0.0])
-    odometry.update(0.1, [0.0, 2.0], turn=Turn(0.4, 1e-9, 0.1))
+    odometry.update(0.1, [0.0, 2.0], turn=GyroTurn(0.4, 1e-9, 0.1))
     assert odometry.pose.theta == pytest.approx(0.4, abs=1e-5)
     assert odometry.covariance().tt == pytest.approx(1e-9, rel=1e-4)
 

@@ -7,7 +7,7 @@ import pytest
 
 from agv_motion.errors import SignalError
 from agv_motion.odometry.covariance import Covariance
-from agv_motion.odometry.yaw_rate import Turn, YawRate, YawRateParameters
+from agv_motion.odometry.yaw_rate import GyroTurn, YawRate, YawRateParameters
 
 
 def test_a_ramp_of_the_rate_is_added_up_exactly():
@@ -71,14 +71,16 @@ def test_over_a_gap_and_back_in_time_it_tells_nothing():
 def test_the_say_of_each_is_its_information():
     """Hand calculation: 3 parts of wheels and 1 of gyroscope, x following by its correlation."""
     wheels = Covariance(0.02, 0.0, 0.01, 0.03, 0.0, 0.01)
-    displacement, covariance = Turn(0.4, 0.03, 0.1).correct((1.0, 2.0, 0.0), wheels, 0.1)
+    displacement, covariance = GyroTurn(0.4, 0.03, 0.1).correct((1.0, 2.0, 0.0), wheels, 0.1)
     assert displacement == pytest.approx((1.1, 2.0, 0.1), abs=1e-15)
     expected = (0.02 - 0.0025, 0.0, 0.0075, 0.03, 0.0, 0.0075)
     assert covariance == pytest.approx(expected, abs=1e-15)
 
 
 def test_a_turn_is_stretched_to_the_time_of_the_wheels():
-    displacement, _ = Turn(0.2, 1e-12, 0.05).correct((0, 0, 0), Covariance(1, 0, 0, 1, 0, 1), 0.1)
+    displacement, _ = GyroTurn(0.2, 1e-12, 0.05).correct(
+        (0, 0, 0), Covariance(1, 0, 0, 1, 0, 1), 0.1
+    )
     assert displacement[2] == pytest.approx(0.4, abs=1e-9)
 
 

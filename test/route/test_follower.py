@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose
-from agv_motion.route.follower import Limiter, RouteFollower
+from agv_motion.route.follower import RouteFollower, RouteLimiter
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.prediction import predict
 from agv_motion.route.route import Route
@@ -49,14 +49,14 @@ def test_towards_a_waypoint_far_away_it_slows_down_by_the_way_to_it():
     assert found.limits.bend == pytest.approx(pi / 2)
     assert found.limits.to_go == pytest.approx(6.0)
     assert found.twist == pytest.approx((0.9, 0.0, 0.0))
-    assert found.limits.limiter is Limiter.WAYPOINT
+    assert found.limits.limiter is RouteLimiter.WAYPOINT
 
 
 def test_near_a_waypoint_the_bend_says_how_slow():
     """Virtual point at 3.5: dn = 0.5, v(dn) = 0.5 < v(alpha) = 0.55."""
     found = step(Pose(2.5, 0.0, 0.0))
     assert found.twist.vx == pytest.approx(0.55)
-    assert found.limits.limiter is Limiter.BEND
+    assert found.limits.limiter is RouteLimiter.BEND
 
 
 def test_straight_on_a_waypoint_does_not_slow_it_down():
@@ -69,7 +69,7 @@ def test_before_a_hairpin_it_is_slowest():
     """With dn = 0.1: v(dn) = 0.18; alpha = 0: v(alpha) = 0.1; the larger counts."""
     found = step(Pose(2.9, 0.0, 0.0), Route([(0, 0), (4, 0), (0, 0)]))
     assert found.twist.vx == pytest.approx(0.18)
-    assert found.limits.limiter is Limiter.WAYPOINT
+    assert found.limits.limiter is RouteLimiter.WAYPOINT
 
 
 def test_looking_elsewhere_it_slows_down_and_turns():
@@ -77,7 +77,7 @@ def test_looking_elsewhere_it_slows_down_and_turns():
     found = step(Pose(2.0, 0.0, 1.0))
     assert found.limits.heading_error == pytest.approx(-1.0)
     assert found.twist == pytest.approx((0.6, 0.0, -1.0))
-    assert found.limits.limiter is Limiter.HEADING
+    assert found.limits.limiter is RouteLimiter.HEADING
 
 
 def test_holonomic_it_drives_straight_at_the_point():
@@ -92,7 +92,7 @@ def test_at_the_end_it_brakes_by_the_route_to_go():
     assert found.virtual_point == (4.0, 4.0)
     assert found.limits.bend == pi
     assert found.twist.vx == pytest.approx(0.25)
-    assert found.limits.limiter is Limiter.TO_GO
+    assert found.limits.limiter is RouteLimiter.TO_GO
     assert not found.arrived
 
 
@@ -141,7 +141,7 @@ def test_the_coupling_starts_anew_on_each_segment():
     follower = RouteFollower(Route([(0, 0), (4, 0), (20, 0)]), coupled)
     speeds = [follower.update(Pose(x, 0.0, 0.0), 0.1) for x in (0.5, 1.0, 1.5, 2.0, 2.5)]
     assert [found.twist.vx for found in speeds] == pytest.approx([0.25, 0.5, 0.75, 1.0, 1.0])
-    assert [found.limits.limiter for found in speeds[:3]] == [Limiter.COUPLING] * 3
+    assert [found.limits.limiter for found in speeds[:3]] == [RouteLimiter.COUPLING] * 3
     turned = [follower.update(Pose(x, 0.0, 1.0), 0.1) for x in (3.5, 3.6, 3.7, 3.8)]
     assert [found.limits.speed for found in turned] == pytest.approx([0.6] * 4)
     assert [found.twist.vx for found in turned] == pytest.approx([0.9, 0.8, 0.7, 0.6])

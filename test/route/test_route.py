@@ -7,7 +7,7 @@ from math import inf, nan, pi
 import pytest
 
 from agv_motion.errors import GeometryError
-from agv_motion.route.route import Place, Route
+from agv_motion.route.route import Route, RoutePlace
 
 TRIANGLE = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]
 
@@ -69,8 +69,8 @@ def test_laps_close_the_route():
     assert route.lap_length == pytest.approx(12.0)
     assert route.length == pytest.approx(36.0)
     assert [route.is_last(number) for number in (2, 7, 8)] == [False, False, True]
-    assert route.way(Place(4, 1.0)) == pytest.approx(17.0)
-    assert route.point(Place(4, 1.0)) == (4.0, 1.0)
+    assert route.way(RoutePlace(4, 1.0)) == pytest.approx(17.0)
+    assert route.point(RoutePlace(4, 1.0)) == (4.0, 1.0)
     assert route.bend(2) == pytest.approx(route.bend(5))
     assert route.bend(2) < pi
     assert route.bend(8) == pi

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.route.parameters import FollowParameters
-from agv_motion.route.table import Table
+from agv_motion.route.table import ProfileTable
 
 
 @pytest.mark.parametrize(
     ('x', 'y'), [(0.0, 1.0), (1.0, 1.0), (1.5, 2.0), (2.0, 3.0), (3.0, 2.5), (9.0, 2.0), (inf, 2.0)]
 )
 def test_straight_between_the_rows_and_constant_outside(x, y):
-    assert Table('t', (1.0, 1.0, 2.0, 3.0, 4.0, 2.0))(x) == y
+    assert ProfileTable('t', (1.0, 1.0, 2.0, 3.0, 4.0, 2.0))(x) == y
 
 
 @given(
@@ -27,7 +27,7 @@ def test_straight_between_the_rows_and_constant_outside(x, y):
 )
 def test_never_outside_of_its_rows(xs, ys, x):
     rows = [number for row in zip(sorted(xs), ys, strict=False) for number in row]
-    assert min(rows[1::2]) - 1e-12 <= Table('t', rows)(x) <= max(rows[1::2]) + 1e-12
+    assert min(rows[1::2]) - 1e-12 <= ProfileTable('t', rows)(x) <= max(rows[1::2]) + 1e-12
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_never_outside_of_its_rows(xs, ys, x):
 )
 def test_a_malformed_table_is_refused_by_name(rows, reason):
     with pytest.raises(ConfigurationError, match=f'v_dn: .*{reason}'):
-        Table('v_dn', rows, highest=3.0)
+        ProfileTable('v_dn', rows, highest=3.0)
 
 
 @pytest.mark.parametrize('name', ['v_dphi', 'v_dn', 'v_alpha'])

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.route.route import Place, Route
+from agv_motion.route.route import Route, RoutePlace
 from agv_motion.route.virtual_point import VirtualPoint
 
 STRAIGHT = [(0, 0), (10, 0)]
@@ -194,7 +194,7 @@ def sampled(route, begin, end, count=200):
         while way > route.segment(number).length and not route.is_last(number):
             way -= route.segment(number).length
             number += 1
-        found.append(route.point(Place(number, way)))
+        found.append(route.point(RoutePlace(number, way)))
     return found
 
 

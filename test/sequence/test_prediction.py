@@ -12,14 +12,16 @@ from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Route
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
 from agv_motion.sequence.prediction import predict
-from agv_motion.sequence.sequence import OnFailure, Sequence, Step
+from agv_motion.sequence.sequence import OnFailure, Sequence, SequenceStep
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 FREE = GhostParameters(track=0.5, wheel_speed=100.0, lateral_acceleration=100.0, turn_rate=100.0)
 
 
 def predicted(*actions, start=(0.0, 0.0, 0.0), timeout=60.0):
-    steps = tuple(Step('x', action, timeout, OnFailure(), 'm.yaml:1:1') for action in actions)
+    steps = tuple(
+        SequenceStep('x', action, timeout, OnFailure(), 'm.yaml:1:1') for action in actions
+    )
     return predict(Sequence('test', steps), Pose(*start), FREE, FollowParameters())
 
 

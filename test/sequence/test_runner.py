@@ -13,8 +13,8 @@ from agv_motion.planar import REST, Pose, Twist, integrate, wrap
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Route
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
-from agv_motion.sequence.runner import Running, SequenceRunner
-from agv_motion.sequence.sequence import OnFailure, Sequence, Step
+from agv_motion.sequence.runner import SequenceRunner, SequenceState
+from agv_motion.sequence.sequence import OnFailure, Sequence, SequenceStep
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 
 ROUTE = Route([(0, 0), (2, 0), (2, 2)])
@@ -26,7 +26,7 @@ class Drive:
 
     def __init__(self, *actions, timeout=60.0, on_failure=STOP):
         steps = tuple(
-            Step(type(action).__name__, action, timeout, on_failure, f'm.yaml:{i}:1')
+            SequenceStep(type(action).__name__, action, timeout, on_failure, f'm.yaml:{i}:1')
             for i, action in enumerate(actions)
         )
         self.runner = SequenceRunner(
@@ -61,7 +61,7 @@ def test_all_actions_end_where_they_should_whatever_the_rate(dt):
         GoTo(2.0, 1.0, 90.0), Rotate(by=270.0), DriveArc(-180.0, 0.7), Wait(0.5),
         GoTo(0.0, 0.0, 180.0), FollowRoute(ROUTE), Rotate(to=45.0),
     )  # fmt: skip
-    assert drive.run(dt=dt) is Running.DONE
+    assert drive.run(dt=dt) is SequenceState.DONE
     assert drive.twist == REST
     wanted = [(2.0, 1.0, 90.0), (2.0, 1.0, 0.0), (2.0, 0.0, -180.0), (2.0, 0.0, -180.0),
               (0.0, 0.0, 180.0)]  # fmt: skip
@@ -75,7 +75,7 @@ def test_all_actions_end_where_they_should_whatever_the_rate(dt):
 def test_small_errors_do_not_add_up():
     """Sixty turns of 90 deg end at the heading of the start, within the error of one."""
     drive = Drive(*[Rotate(by=90.0, speed=180.0, acceleration=720.0)] * 60)
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
     assert abs(drive.pose.theta) < 0.02
 
 
@@ -107,7 +107,7 @@ def test_a_timeout_stops_the_robot_with_a_ramp_and_ends_it():
     while not drive.runner.ended:
         drive.tick()
         speeds.append(drive.twist.vx)
-    assert drive.runner.status.state is Running.FAILED
+    assert drive.runner.status.state is SequenceState.FAILED
     assert drive.runner.status.number == 0
     assert 'm.yaml:0:1: GoTo: not done within 5 s' in drive.runner.status.reason
     assert 0.8 < 0.05 * len(speeds) < 2.0
@@ -116,7 +116,7 @@ def test_a_timeout_stops_the_robot_with_a_ramp_and_ends_it():
 
 def test_a_failure_may_be_skipped():
     drive = Drive(GoTo(9.0, 0.0, 0.0), Rotate(by=90.0), timeout=5.0, on_failure=SKIP)
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
     assert 1.0 < drive.pose.x < 4.0
     assert drive.pose.theta == pytest.approx(radians(90.0), abs=0.02)
     assert 'not done within' in drive.runner.status.reason
@@ -125,11 +125,11 @@ def test_a_failure_may_be_skipped():
 def test_a_retry_goes_on_to_the_same_end():
     """9 m take 24 s; three times 10 s are enough, two are not."""
     enough = Drive(GoTo(9.0, 0.0, 0.0), timeout=10.0, on_failure=OnFailure(2))
-    assert enough.run() is Running.DONE
+    assert enough.run() is SequenceState.DONE
     assert enough.runner.status.attempt == 3
     assert enough.pose.x == pytest.approx(9.0, abs=0.01)
     too_few = Drive(GoTo(9.0, 0.0, 0.0), timeout=10.0, on_failure=OnFailure(1))
-    assert too_few.run() is Running.FAILED
+    assert too_few.run() is SequenceState.FAILED
 
 
 @pytest.mark.parametrize(
@@ -143,7 +143,7 @@ def test_a_retry_goes_on_to_the_same_end():
 )
 def test_every_action_may_be_tried_again(action, end):
     drive = Drive(action, timeout=4.0, on_failure=OnFailure(5))
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
     assert drive.runner.status.attempt > 1
     assert hypot(drive.pose.x - end[0], drive.pose.y - end[1]) < 0.03
     assert abs(wrap(drive.pose.theta - radians(end[2]))) < 0.1
@@ -152,7 +152,7 @@ def test_every_action_may_be_tried_again(action, end):
 def test_a_robot_that_is_stuck_has_failed():
     """The Ghost waits for it, until the time is over."""
     drive = Drive(GoTo(2.0, 0.0, 0.0), timeout=5.0)
-    assert drive.run(stuck=True) is Running.FAILED
+    assert drive.run(stuck=True) is SequenceState.FAILED
     assert drive.time < 8.0
 
 
@@ -162,7 +162,7 @@ def test_a_robot_carried_away_has_failed_at_once():
     drive.pose = Pose(0.0, 3.0, 0.0)
     drive.tick()
     assert drive.twist == REST
-    assert drive.runner.status.state is Running.FAILED
+    assert drive.runner.status.state is SequenceState.FAILED
     assert 'off its way' in drive.runner.status.reason
 
 
@@ -172,13 +172,13 @@ def test_pause_eases_to_a_halt_and_its_time_does_not_count(action):
     drive.run(2.0)
     drive.runner.pause()
     drive.run(1.0)
-    assert drive.runner.status.state is Running.PAUSED
+    assert drive.runner.status.state is SequenceState.PAUSED
     assert drive.twist == REST
     place = drive.pose
     drive.run(100.0)
     assert drive.pose == place
     drive.runner.resume()
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
 
 
 def test_pause_changes_the_speed_without_a_jump():
@@ -202,7 +202,7 @@ def test_abort_ends_it_at_rest(action, paused):
         drive.runner.pause()
         drive.run(1.0)
     drive.runner.abort()
-    assert drive.run(3.0) is Running.ABORTED
+    assert drive.run(3.0) is SequenceState.ABORTED
     assert drive.twist == REST
     assert drive.runner.status.number == 0
 
@@ -213,17 +213,17 @@ def test_without_a_pose_it_stands_at_once_and_goes_on_when_it_comes_back(action)
     drive.run(2.0)
     drive.tick(seen=False)
     assert drive.twist == REST
-    assert drive.runner.status.state is Running.BLIND
+    assert drive.runner.status.state is SequenceState.BLIND
     drive.run(2.0, seen=False)
     drive.tick()
     assert drive.twist.vx < 0.1
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
 
 
 @pytest.mark.parametrize('action', [GoTo(4.0, 0.0, 0.0), FollowRoute(ROUTE), Wait(9.0)])
 def test_a_pose_that_never_comes_is_a_timeout(action):
     drive = Drive(action, timeout=5.0)
-    assert drive.run(seen=False) is Running.FAILED
+    assert drive.run(seen=False) is SequenceState.FAILED
     assert drive.time == pytest.approx(5.1, abs=0.2)
 
 
@@ -251,16 +251,16 @@ def test_failed_from_outside_it_stands_at_once_and_a_retry_leaves_from_where_the
     drive.tick()
     assert hypot(drive.twist.vx, drive.twist.vy) < 0.1
     assert abs(drive.twist.wz) < 0.3
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
     drive.runner.fail('too late')
-    assert drive.runner.status.state is Running.DONE
+    assert drive.runner.status.state is SequenceState.DONE
 
 
 def test_failed_from_outside_without_a_retry_it_ends():
     drive = Drive(GoTo(2.0, 0.0, 0.0), Wait(1.0))
     drive.run(2.0)
     drive.runner.fail('blocked: held')
-    assert drive.runner.status.state is Running.FAILED
+    assert drive.runner.status.state is SequenceState.FAILED
     assert drive.runner.update(drive.pose, 0.05) == REST
 
 
@@ -271,7 +271,7 @@ def test_failed_from_outside_without_a_retry_it_ends():
 def test_with_wheels_that_slip_each_action_ends_within_the_tolerances(action, share):
     drive = Drive(action)
     drive.share = share
-    assert drive.run() is Running.DONE
+    assert drive.run() is SequenceState.DONE
     end = {GoTo: (2.0, 1.0, 0.0), Rotate: (0.0, 0.0, 90.0), DriveArc: (0.65, 0.65, 90.0)}
     x, y, heading = end[type(action)]
     assert hypot(drive.pose.x - x, drive.pose.y - y) <= 0.03
@@ -283,5 +283,5 @@ def test_an_action_that_does_not_come_to_its_end_has_failed_by_so_much():
     while drive.pose.x < 0.9:
         drive.tick()
     drive.pose = Pose(0.94, 0.0, 0.0)
-    assert drive.run(stuck=True) is Running.FAILED
+    assert drive.run(stuck=True) is SequenceState.FAILED
     assert re.search(r'GoTo: 6\.\d cm short, .* tolerance 3 cm', drive.runner.status.reason)

@@ -148,7 +148,7 @@ def test_aborted_on_an_arc_it_brakes_on_its_circle():
     ghost.lock(False)  # noqa: FBT003
     ghost.compute_arc(pi, 2.0, 0.5, 0.5)
     ghost.advance(2.0)
-    ghost.abort()
+    ghost.brake_and_end()
     ghost.advance(5.0)
     assert ghost.finished
     assert abs(complex(ghost.pose.x, ghost.pose.y) - 1.15j) == pytest.approx(1.15, abs=1e-9)

@@ -14,11 +14,11 @@ from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose, Twist, integrate
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.follower_state import FollowerState
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.holonomic import HolonomicGains
 from agv_motion.trajectory.kanayama import KanayamaGains
-from agv_motion.trajectory.leash import LeashParameters
+from agv_motion.trajectory.pace import PaceParameters
 from agv_motion.trajectory.ramsete import RamseteGains
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
@@ -59,7 +59,7 @@ EACH_LAW = pytest.mark.parametrize('law', ['kanayama', 'ramsete', 'holonomic'])
 def test_it_arrives_where_it_was_sent(law, kind):
     robot = Ideal(Pose(0.0, 0.0, 0.2), law=law)
     robot.go(**kind)
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     goal = Pose(0.0, 0.0, 0.5) if 'pure_rotation' in kind else GOAL
     assert hypot(robot.pose.x - goal.x, robot.pose.y - goal.y) < 0.015
     assert abs(robot.pose.theta - goal.theta) < 0.03
@@ -73,7 +73,7 @@ def test_with_slow_or_slipping_wheels_it_arrives_within_its_tolerances(law, shar
     robot = Ideal(Pose(0.0, 0.0, 0.2), law=law)
     robot.share = share
     robot.go(**kind)
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     goal = Pose(0.0, 0.0, 0.5) if 'pure_rotation' in kind else GOAL
     assert hypot(robot.pose.x - goal.x, robot.pose.y - goal.y) <= 0.03
     assert abs(robot.pose.theta - goal.theta) <= 0.06
@@ -90,9 +90,9 @@ def test_a_robot_beside_its_goal_is_led_there():
     robot.go(Pose(1.0, 0.0, 0.0), delta=0.0)
     robot.run(until=nearly_there)
     robot.pose = robot.pose._replace(y=0.05)
-    robot.run(until=lambda robot: robot.follower.state is Following.CORRECTING)
-    assert robot.follower.state is Following.CORRECTING
-    assert robot.run() is Following.ARRIVED
+    robot.run(until=lambda robot: robot.follower.state is FollowerState.CORRECTING)
+    assert robot.follower.state is FollowerState.CORRECTING
+    assert robot.run() is FollowerState.ARRIVED
     assert hypot(robot.pose.x - 1.0, robot.pose.y) <= 0.03
     assert abs(robot.pose.theta) <= 0.06
 
@@ -105,14 +105,14 @@ def test_a_robot_that_cannot_come_up_has_not_arrived_and_says_how_far_it_is(law)
     robot.share = 0.0
     robot.run(until=lambda robot: robot.follower.ghost.finished)
     robot.pose = Pose(0.94, 0.0, 0.0)
-    assert robot.run() is Following.NOT_ARRIVED
+    assert robot.run() is FollowerState.NOT_ARRIVED
     assert robot.twists[-1] == REST
     said = r'6\.[0-4] cm short, 0\.0 cm to the side, 0\.0 deg turned off; tolerance 3 cm, 3\.4 deg'
     assert re.fullmatch(said, robot.follower.failure)
     robot.share = 1.0
     robot.go()
     assert robot.follower.failure == ''
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
 
 
 def test_beyond_its_goal_it_says_so():
@@ -120,7 +120,7 @@ def test_beyond_its_goal_it_says_so():
     robot.go(Pose(-1.0, 0.0, 0.0), delta=0.0, backward=True)
     robot.run(until=nearly_there)
     robot.pose, robot.share = Pose(-1.05, 0.0, 0.0), 0.0
-    assert robot.run() is Following.NOT_ARRIVED
+    assert robot.run() is FollowerState.NOT_ARRIVED
     assert robot.follower.failure.startswith('5.0 cm too far')
 
 
@@ -132,7 +132,7 @@ def test_pushed_aside_while_the_ghost_waits_it_is_led_back_to_its_way(law):
     robot.run(seconds=3.0)
     x, y, theta = robot.pose
     robot.pose = Pose(x, y + 0.35, theta)
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     assert hypot(robot.pose.x - 3.0, robot.pose.y) <= 0.03
 
 
@@ -140,13 +140,13 @@ def test_a_zero_move_arrives_at_once():
     robot = Ideal(GOAL)
     robot.go()
     robot.run(seconds=DT)
-    assert robot.follower.state is Following.ARRIVED
+    assert robot.follower.state is FollowerState.ARRIVED
 
 
 def test_before_and_after_it_stands():
     robot = Ideal()
     assert robot.follower.step(ORIGIN, DT) == REST
-    assert robot.follower.state is Following.IDLE
+    assert robot.follower.state is FollowerState.IDLE
     robot.go()
     robot.run()
     assert robot.follower.step(robot.pose, DT) == REST
@@ -160,14 +160,14 @@ def test_the_ghost_waits_for_a_robot_that_is_held_and_goes_on_with_it(law, secon
     robot.run(seconds=2.0)
     robot.share = 0.0  # somebody stands in the way
     robot.run(seconds=seconds)
-    assert robot.follower.state is Following.WAITING
+    assert robot.follower.state is FollowerState.WAITING
     assert robot.follower.ghost.locked
     assert 0.2 < robot.follower.separation < 0.6
     where = robot.follower.ghost.pose
     robot.run(seconds=1.0)
     assert robot.follower.ghost.pose == where
     robot.share = 1.0
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
 
 
 def test_a_robot_carried_away_is_lost_and_stops_until_there_is_a_new_goal():
@@ -176,21 +176,21 @@ def test_a_robot_carried_away_is_lost_and_stops_until_there_is_a_new_goal():
     robot.run(seconds=2.0)
     robot.pose = Pose(robot.pose.x, robot.pose.y + 0.7, robot.pose.theta)
     robot.run(seconds=DT)
-    assert robot.follower.state is Following.LOST
+    assert robot.follower.state is FollowerState.LOST
     assert robot.twists[-1] == REST
     assert robot.follower.separation >= 0.6
     robot.go()
     assert robot.follower.ghost.pose == robot.pose
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
 
 
 def test_a_robot_turned_away_is_lost_too():
-    robot = Ideal(leash=LeashParameters(heading_arm=0.3))
+    robot = Ideal(pace=PaceParameters(heading_arm=0.3))
     robot.go()
     robot.run(seconds=1.0)
     robot.pose = robot.pose._replace(theta=-pi)
     robot.run(seconds=DT)
-    assert robot.follower.state is Following.LOST
+    assert robot.follower.state is FollowerState.LOST
 
 
 def excess(twist, limits):
@@ -212,7 +212,7 @@ def test_held_it_asks_for_no_more_than_the_robot_can_do_and_goes_no_faster_when_
     robot.run(seconds=50.0)
     assert hypot(*robot.twists[-1][:2]) > 0.1
     robot.share = 1.0
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     assert max(excess(t, robot.follower.parameters.ghost) for t in robot.twists) < 1.0 + 1e-9
 
 
@@ -240,7 +240,7 @@ def test_whatever_the_gains_and_the_offset_the_twist_holds_every_limit(
         kanayama=KanayamaGains(first, second, second),
         ramsete=RamseteGains(b=first, at_rest=max(second, 0.01)),
         holonomic=HolonomicGains(first, second),
-        leash=LeashParameters(lost_beyond=50.0),
+        pace=PaceParameters(lost_beyond=50.0),
     )
     robot.go()
     for dx, dy, turn in offsets:
@@ -258,26 +258,26 @@ def test_held_it_eases_to_a_halt_and_goes_on_again():
     robot = Ideal()
     robot.go()
     robot.run(seconds=3.0)
-    robot.follower.hold(True)  # noqa: FBT003
+    robot.follower.ease_to_halt()
     robot.run(seconds=2.0)
-    assert robot.follower.state is Following.LOCKED
+    assert robot.follower.state is FollowerState.LOCKED
     assert robot.follower.ghost.locked
     assert robot.follower.ghost.speeds == (0.0, 0.0)
     assert abs(robot.twists[-1].vx) < 0.01
-    robot.follower.hold(False)  # noqa: FBT003
-    assert robot.run() is Following.ARRIVED
+    robot.follower.go_on()
+    assert robot.run() is FollowerState.ARRIVED
     assert greatest_change(robot.twists) < 1.6
 
 
 def test_held_beforehand_it_waits_for_the_word():
     robot = Ideal()
-    robot.follower.hold(True)  # noqa: FBT003
+    robot.follower.ease_to_halt()
     robot.go()
-    assert robot.follower.state is Following.LOCKED
+    assert robot.follower.state is FollowerState.LOCKED
     robot.run(seconds=1.0)
     assert robot.pose == ORIGIN
-    robot.follower.hold(False)  # noqa: FBT003
-    assert robot.run() is Following.ARRIVED
+    robot.follower.go_on()
+    assert robot.run() is FollowerState.ARRIVED
 
 
 @pytest.mark.parametrize('held', [False, True])
@@ -285,11 +285,12 @@ def test_aborted_it_brakes_and_stays(held):
     robot = Ideal()
     robot.go()
     robot.run(seconds=3.0)
-    robot.follower.hold(held)
+    if held:
+        robot.follower.ease_to_halt()
     robot.run(seconds=0.1)
-    robot.follower.abort()
+    robot.follower.brake_and_end()
     assert not robot.follower.at_rest
-    assert robot.run(seconds=3.0) is Following.ABORTED
+    assert robot.run(seconds=3.0) is FollowerState.ABORTED
     assert greatest_change(robot.twists) < 1.6
     assert robot.twists[-1] == REST
     assert robot.pose.x < 1.9
@@ -299,9 +300,9 @@ def test_stopped_it_stands_at_once():
     robot = Ideal()
     robot.go()
     robot.run(seconds=2.0)
-    robot.follower.stop()
+    robot.follower.end_now()
     assert robot.follower.step(robot.pose, DT) == REST
-    assert robot.follower.state is Following.ABORTED
+    assert robot.follower.state is FollowerState.ABORTED
 
 
 def test_a_new_goal_in_motion_is_taken_up_without_a_jump():
@@ -311,7 +312,7 @@ def test_a_new_goal_in_motion_is_taken_up_without_a_jump():
     robot.run(seconds=3.0)
     del robot.twists[:-1]
     robot.go(Pose(3.0, 0.0, -0.5))
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     assert hypot(robot.pose.x - 3.0, robot.pose.y) < 0.015
     assert greatest_change(robot.twists) < 1.05 * 0.5 * (0.03 + 0.02) / 0.02 + 0.03
 
@@ -322,7 +323,7 @@ def test_a_refused_goal_changes_nothing():
     robot.run(seconds=2.0)
     with pytest.raises(SignalError, match='finite'):
         robot.go(Pose(nan, 0.0, 0.0))
-    assert robot.run() is Following.ARRIVED
+    assert robot.run() is FollowerState.ARRIVED
     assert hypot(robot.pose.x - GOAL.x, robot.pose.y - GOAL.y) < 0.015
 
 

@@ -118,7 +118,7 @@ def test_no_ramp_by_name_is_at_full_speed_at_once(order):
     linear, angular = ghost.speeds
     expected = {'trajectory': 0.4, 'turn': 0.4, 'arc': 0.4 * 0.65 / 0.8}[order]
     assert (angular if order == 'turn' else linear) == pytest.approx(expected)
-    ghost.abort()
+    ghost.brake_and_end()
     assert ghost.finished
     assert ghost.speeds == (0.0, 0.0)
 

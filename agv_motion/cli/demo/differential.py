@@ -71,7 +71,7 @@ def _perform(
     from agv_motion.demo.recorder import DemoRecorder
     from agv_motion.ros.run import spin, start
     from agv_motion.ros.stop import Stop
-    from agv_motion.sequence.runner import ENDS, Running
+    from agv_motion.sequence.runner import ENDS, SequenceState
 
     status: Status | None = None
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
@@ -99,7 +99,7 @@ def _perform(
         if last is None:
             return 'interrupted before anything moved', False
         place = last.pose.pose.position
-        done = status is not None and status.state is Running.DONE
+        done = status is not None and status.state is SequenceState.DONE
         why = actions.refusal or (status.reason if status is not None else '') or 'interrupted'
         where = f'ends at {place.x:.3f} m, {place.y:.3f} m after {robot.elapsed:.1f} s'
         return f'{"done" if done else why}: {where}', done
@@ -140,16 +140,16 @@ def _topics() -> list[Any]:
     from sensor_msgs.msg import JointState
     from std_msgs.msg import Float64, String
 
-    from agv_motion.demo.recorder import Topic
+    from agv_motion.demo.recorder import RecordedTopic
 
     return [
-        Topic('cmd_vel', TwistStamped),
-        Topic('wheels/command', JointState),
-        Topic('wheels/state', JointState),
-        Topic('odom', Odometry),
-        Topic('fix', PoseWithCovarianceStamped),
-        Topic('ground_truth', Odometry),
-        Topic('sequence/path', PathMessage, latched=True),
-        Topic('sequence/progress', Float64),
-        Topic('sequence/state', String, latched=True),
+        RecordedTopic('cmd_vel', TwistStamped),
+        RecordedTopic('wheels/command', JointState),
+        RecordedTopic('wheels/state', JointState),
+        RecordedTopic('odom', Odometry),
+        RecordedTopic('fix', PoseWithCovarianceStamped),
+        RecordedTopic('ground_truth', Odometry),
+        RecordedTopic('sequence/path', PathMessage, latched=True),
+        RecordedTopic('sequence/progress', Float64),
+        RecordedTopic('sequence/state', String, latched=True),
     ]

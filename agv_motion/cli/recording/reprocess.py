@@ -15,7 +15,7 @@ from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from agv_motion.reprocess.one_bag import Outcome
+    from agv_motion.reprocess.one_bag import ReprocessOutcome
 
 NODES = ('granier_probe', 'motion_generator', 'wheel_kinematics')
 
@@ -76,7 +76,7 @@ def reprocess(
         if not parameters(config, name, robot) and config:
             typer.echo(f'note: {config} has nothing for {name}, which takes its defaults', err=True)
     jobs = _jobs(sources, target)
-    found: list[Outcome] = []
+    found: list[ReprocessOutcome] = []
     with Progress(console=terminal(stderr=True), transient=True) as progress:
         bar = progress.add_task('Reprocessing', total=len(jobs))
 
@@ -129,7 +129,7 @@ def _is_bag(path: Path) -> bool:
     return path.suffix in {'.mcap', '.db3'}
 
 
-def _tell(found: list[Outcome]) -> None:
+def _tell(found: list[ReprocessOutcome]) -> None:
     """Print what came of each bag, then what the nodes warned of."""
     table = Table(box=None, pad_edge=False)
     for title in ('bag', 'in', 'out', 'of time', 'took'):
@@ -157,7 +157,7 @@ def _tell(found: list[Outcome]) -> None:
     _tell_complaints(found)
 
 
-def _tell_complaints(found: list[Outcome]) -> None:
+def _tell_complaints(found: list[ReprocessOutcome]) -> None:
     complaints: dict[str, int] = {}
     for one in found:
         for text, count in one.complaints.items():

@@ -35,7 +35,7 @@ Config = Annotated[str, typer.Option(help='With --dry-run: parameter file of the
 Namespace = Annotated[str, typer.Option(help='Of the robot, such as /hare.')]
 
 
-class Goal(NamedTuple):
+class DriveGoal(NamedTuple):
     """What the node is to do, as a dry run and as the graph do it."""
 
     plan: Callable[[Ghost, GhostTrajectoryParameters], Trajectory]
@@ -82,7 +82,7 @@ def to(
     changes = {
         'cruising_speed': speed, 'speed_ramps': ramps, 'delta_curve': delta, 'backward': backward,
     }  # fmt: skip
-    goal = Goal(plan, poses, None, {k: v for k, v in changes.items() if v is not None})
+    goal = DriveGoal(plan, poses, None, {k: v for k, v in changes.items() if v is not None})
     _act(goal, namespace, dry_run=dry_run, start=start, config=config, plot=plot)
 
 
@@ -118,12 +118,12 @@ def arc(
         return ghost.compute_arc(turn, diameter, given.speed_ramps, pace)
 
     changes: dict[str, float | bool] = {} if ramps is None else {'speed_ramps': ramps}
-    goal = Goal(plan, [], (turn, diameter), changes)
+    goal = DriveGoal(plan, [], (turn, diameter), changes)
     _act(goal, namespace, speed=speed, dry_run=dry_run, start=start, config=config, plot=plot)
 
 
 def _act(
-    goal: Goal,
+    goal: DriveGoal,
     namespace: str,
     *,
     speed: float | None = None,
@@ -138,13 +138,13 @@ def _act(
     if plot is not None:
         msg = '--plot draws a plan: give --dry-run too; of a drive, record it and use `agv plot`'
         raise ConfigurationError(msg)
-    from agv_motion.cli.robot.drive_graph import Drive
+    from agv_motion.cli.robot.drive_graph import DriveOrders
 
-    if not Drive(namespace).run(goal, speed, terminal()):
+    if not DriveOrders(namespace).run(goal, speed, terminal()):
         raise typer.Exit(1)
 
 
-def _tell(goal: Goal, start: str, config: str, plot: Path | None) -> None:
+def _tell(goal: DriveGoal, start: str, config: str, plot: Path | None) -> None:
     """Print what a goal asks for, and draw it."""
     from agv_motion.nodes.ghost_trajectory import GhostTrajectoryParameters
     from agv_motion.ros.config import find_config

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from agv_motion.cli.robot.drive import Goal
+    from agv_motion.cli.robot.drive import DriveGoal
 
 PATIENCE = 5.0
 """[s] For the node to be found, and for each of its answers."""
@@ -43,7 +43,7 @@ ENDS = ('arrived', 'aborted', 'lost', 'not arrived')
 """How a drive ends, as `ghost/state` begins then."""
 
 
-class Drive:
+class DriveOrders:
     """One goal, from the question to the end of the drive."""
 
     def __init__(self, namespace: str) -> None:
@@ -55,7 +55,7 @@ class Drive:
         self._way: list[tuple[float, float]] = []
         self._passed = 0
 
-    def run(self, goal: Goal, speed: float | None, console: Console) -> bool:
+    def run(self, goal: DriveGoal, speed: float | None, console: Console) -> bool:
         """Drive to ``goal``; return whether the robot has arrived.
 
         Raises:
@@ -79,7 +79,7 @@ class Drive:
             self._node.destroy_node()
             rclpy.try_shutdown()
 
-    def _join(self, goal: Goal) -> Any:
+    def _join(self, goal: DriveGoal) -> Any:
         """Find the node, and hear what it has told before."""
         node, prefix = self._node, self._prefix
         kind, topic = (Vector3Stamped, 'arc') if goal.arc else (
@@ -112,7 +112,7 @@ class Drive:
         self._state = ''
         return publisher
 
-    def _message(self, goal: Goal, speed: float | None) -> Any:
+    def _message(self, goal: DriveGoal, speed: float | None) -> Any:
         """Return the goal as a message, in the frame in which the node drives."""
         frame, cruising = self._parameters(['frame', 'cruising_speed'])
         if goal.arc:

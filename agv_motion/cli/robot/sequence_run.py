@@ -70,13 +70,13 @@ class Watch:
 
     def over(self) -> bool:
         """Show how far it is; return whether it is over."""
-        from agv_motion.sequence.runner import Running
+        from agv_motion.sequence.runner import SequenceState
 
         node, runner = self._node, self._node.runner
         self._show(node.told if runner or node.refusal else f'waiting: {node.lost}')
         if runner is None:
             return self._stop.requested or bool(node.refusal)
-        self.done = runner.status.state is Running.DONE
+        self.done = runner.status.state is SequenceState.DONE
         if self._stop.requested and self._braking_since is None:
             self._braking_since = time.monotonic()
             runner.abort()

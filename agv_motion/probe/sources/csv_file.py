@@ -14,7 +14,13 @@ from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.parameters import Spec, check
 from agv_motion.probe.sources.csv_table import read_table
 from agv_motion.probe.sources.recorded_time import iso, parse_time
-from agv_motion.probe.sources.source import KELVIN_PER_MILLIVOLT, MOST, UNITS, Sample, kelvin_per
+from agv_motion.probe.sources.source import (
+    KELVIN_PER_MILLIVOLT,
+    MOST,
+    UNITS,
+    ProbeSample,
+    kelvin_per,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -85,13 +91,13 @@ class CsvSource:
         self.period = float(np.median(steps)) / parameters.speed if len(steps) else inf
         self._began: float | None = None
 
-    def history(self, now: float) -> Iterator[Sample]:  # noqa: ARG002 - the file has its own time
+    def history(self, now: float) -> Iterator[ProbeSample]:  # noqa: ARG002 - the file has its own time
         """Yield the rows before the start, as far back as the warm-up reaches."""
         first = bisect_left(self._times, self._start - self._warm_up)
         for row in range(first, self._row):
             yield self._sample(row)
 
-    def read(self, now: float) -> list[Sample]:
+    def read(self, now: float) -> list[ProbeSample]:
         """Return the rows due since the last call."""
         if self._began is None:
             self._began = now
@@ -111,11 +117,11 @@ class CsvSource:
     def close(self) -> None:
         """Hold nothing: the file was read at once."""
 
-    def _sample(self, row: int) -> Sample:
-        return Sample(self._times[row], tuple(self._values[row].tolist()))
+    def _sample(self, row: int) -> ProbeSample:
+        return ProbeSample(self._times[row], tuple(self._values[row].tolist()))
 
 
-class Recording(NamedTuple):
+class CsvRecording(NamedTuple):
     """What a file tells, in the order of time."""
 
     times: list[float]
@@ -128,7 +134,7 @@ class Recording(NamedTuple):
     """what was wrong with the file; empty if nothing"""
 
 
-def start_of(start: str, recording: Recording, file: str) -> float:
+def start_of(start: str, recording: CsvRecording, file: str) -> float:
     """Return where to start [s since 1970]: at a time in words, or at the first row.
 
     Raises:
@@ -153,7 +159,7 @@ def start_of(start: str, recording: Recording, file: str) -> float:
     return min(max(time, times[0]), times[-1])
 
 
-def load(parameters: CsvParameters) -> Recording:
+def load(parameters: CsvParameters) -> CsvRecording:
     """Return what a file tells.
 
     A probe read with an offset takes the row nearest to its shifted time, and NaN where that is
@@ -186,4 +192,4 @@ def load(parameters: CsvParameters) -> Recording:
     if wild.any():
         problem = f'{problem}; {wild.sum()} values of more than {MOST:g} K are no temperature'
     values = np.where(wild, nan, values) * factor
-    return Recording(times.tolist(), lines[keep].tolist(), values, problem.lstrip('; '))
+    return CsvRecording(times.tolist(), lines[keep].tolist(), values, problem.lstrip('; '))

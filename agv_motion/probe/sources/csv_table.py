@@ -64,7 +64,7 @@ class _LeftOut:
         return f'rows of {self._path} left out: {len(self._faults)} ({first}{more})'
 
 
-class Table(NamedTuple):
+class CsvTable(NamedTuple):
     """The rows of a file that can be read, in their order."""
 
     times: NDArray[np.float64]
@@ -77,7 +77,7 @@ class Table(NamedTuple):
     """what was wrong; empty if nothing"""
 
 
-def read_table(path: Path, time_column: str, names: Sequence[str]) -> Table:
+def read_table(path: Path, time_column: str, names: Sequence[str]) -> CsvTable:
     """Return the columns ``names``; a row that cannot be read is left out and told.
 
     Raises:
@@ -103,7 +103,7 @@ def read_table(path: Path, time_column: str, names: Sequence[str]) -> Table:
         columns[name] = np.array([nan if n is None else n for n in numbers], dtype=float)
     cells = f'{unreadable} cells of {path} are no numbers' if unreadable else ''
     problem = '; '.join(filter(None, (left_out.told(), cells)))
-    return Table(np.array(times), np.array([row.line for row in kept]), columns, problem)
+    return CsvTable(np.array(times), np.array([row.line for row in kept]), columns, problem)
 
 
 def _read_times(

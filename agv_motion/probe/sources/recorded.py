@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from agv_motion.probe.sources.source import Sample
+from agv_motion.probe.sources.source import ProbeSample
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from agv_motion.probe.sources.source import Source
+    from agv_motion.probe.sources.source import ProbeSource
 
 PATIENCE = 0.5
 """[s] after which a sample counts as whole though not every probe has told its reading"""
@@ -19,7 +19,7 @@ PATIENCE = 0.5
 class RecordedSource:
     """Puts the readings of single probes, told one by one, together again."""
 
-    def __init__(self, live: Source, probes: int) -> None:
+    def __init__(self, live: ProbeSource, probes: int) -> None:
         """Start without a reading.
 
         Args:
@@ -43,18 +43,18 @@ class RecordedSource:
         """
         self._waiting.setdefault(time, [nan] * self._probes)[probe] = value
 
-    def history(self, now: float) -> Iterable[Sample]:
+    def history(self, now: float) -> Iterable[ProbeSample]:
         """Return what the live source knew before ``now`` [s]."""
         return self._live.history(now)
 
-    def read(self, now: float) -> list[Sample]:
+    def read(self, now: float) -> list[ProbeSample]:
         """Return the samples that are whole."""
         whole = [
             time
             for time, values in self._waiting.items()
             if now - time > PATIENCE or not any(value != value for value in values)  # noqa: PLR0124
         ]
-        return [Sample(time, tuple(self._waiting.pop(time))) for time in sorted(whole)]
+        return [ProbeSample(time, tuple(self._waiting.pop(time))) for time in sorted(whole)]
 
     def complaint(self) -> str:
         """Return nothing: what went wrong is in the recording."""

@@ -19,7 +19,7 @@ from agv_motion.probe.sources.logger_line import EPOCHS, LoggerLine, cleaned, re
 from agv_motion.probe.sources.source import (
     KELVIN_PER_MILLIVOLT,
     UNITS,
-    Sample,
+    ProbeSample,
     kelvin,
     kelvin_per,
 )
@@ -74,11 +74,11 @@ class SerialSource:
         self._told: set[str] = set()
         self._pause, self._retry_at = 1.0, 0.0
 
-    def history(self, now: float) -> Iterable[Sample]:  # noqa: ARG002 - a line has no past
+    def history(self, now: float) -> Iterable[ProbeSample]:  # noqa: ARG002 - a line has no past
         """Return nothing: a serial line remembers nothing; use the node's state file."""
         return ()
 
-    def read(self, now: float) -> list[Sample]:
+    def read(self, now: float) -> list[ProbeSample]:
         """Return the samples of all whole lines that have come, whatever their time."""
         self._fill()
         *lines, self._buffer = re.split(rb'[\r\n]', self._buffer)
@@ -148,7 +148,7 @@ class SerialSource:
             self._pause = min(2.0 * self._pause, LONGEST_PAUSE)
 
 
-def parse_line(text: str, parameters: SerialParameters) -> Sample:
+def parse_line(text: str, parameters: SerialParameters) -> ProbeSample:
     """Return the sample of one line; a field that is no number is NaN.
 
     Raises:
@@ -166,7 +166,7 @@ def _read(text: str, parameters: SerialParameters) -> LoggerLine:
         raise SignalError(msg) from error
 
 
-def _sample(text: str, line: LoggerLine, parameters: SerialParameters) -> Sample:
+def _sample(text: str, line: LoggerLine, parameters: SerialParameters) -> ProbeSample:
     if len(line.values) < max(parameters.fields):
         msg = (
             f"line '{text:.80}' has {len(line.values)} values, probe field "
@@ -174,4 +174,6 @@ def _sample(text: str, line: LoggerLine, parameters: SerialParameters) -> Sample
         )
         raise SignalError(msg)
     factor = kelvin_per(parameters.unit, parameters.kelvin_per_millivolt)
-    return Sample(line.time, tuple(kelvin(line.values[f - 1], factor) for f in parameters.fields))
+    return ProbeSample(
+        line.time, tuple(kelvin(line.values[f - 1], factor) for f in parameters.fields)
+    )

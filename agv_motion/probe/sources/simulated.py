@@ -12,7 +12,7 @@ from math import acos, ceil, cos, exp, floor, pi, radians, sin, sqrt, tan, tau
 from typing import TYPE_CHECKING, Annotated
 
 from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.source import Sample
+from agv_motion.probe.sources.source import ProbeSample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +23,7 @@ STOMATAL_LAG = 900.0
 
 
 @dataclass(frozen=True)
-class SimulatedParameters:
+class SimulatedSourceParameters:
     """The simulated tree and its logger."""
 
     probes: Annotated[int, Spec('number of probes', '1', (1, 16))] = 3
@@ -44,7 +44,7 @@ class SimulatedParameters:
 class SimulatedSource:
     """Readings as a function of time, seed and the light at the place of the tree."""
 
-    def __init__(self, parameters: SimulatedParameters, warm_up_days: float) -> None:
+    def __init__(self, parameters: SimulatedSourceParameters, warm_up_days: float) -> None:
         """Start in full sun.
 
         Args:
@@ -62,12 +62,12 @@ class SimulatedSource:
         """Set the light at the tree's place as a share of that in the open, in [0, 1]."""
         self._light = min(max(factor, 0.0), 1.0)
 
-    def history(self, now: float) -> Iterator[Sample]:
+    def history(self, now: float) -> Iterator[ProbeSample]:
         """Yield a reading every quarter of an hour of the days before ``now``, in full sun."""
         for k in range(ceil((now - self._warm_up) / 900.0), floor(now / 900.0)):
             yield self.sample(900.0 * k, 1.0)
 
-    def read(self, now: float) -> list[Sample]:
+    def read(self, now: float) -> list[ProbeSample]:
         """Return the readings due since the last call; the first call gives the present one."""
         latest = floor(now / self.period)
         first = latest if self._next is None or self._next > latest + 1 else self._next
@@ -82,13 +82,13 @@ class SimulatedSource:
     def close(self) -> None:
         """Hold nothing."""
 
-    def _follow(self, time: float) -> Sample:
+    def _follow(self, time: float) -> ProbeSample:
         """Let the flow follow the light, then read."""
         share = 1.0 - exp(-self.period / STOMATAL_LAG)
         self._followed_light += share * (self._light - self._followed_light)
         return self.sample(time, self._followed_light)
 
-    def sample(self, time: float, light: float) -> Sample:
+    def sample(self, time: float, light: float) -> ProbeSample:
         """Return the readings at ``time`` [s since 1970] in a share ``light`` of the sun."""
         given = self._given
         values = []
@@ -100,7 +100,7 @@ class SimulatedSource:
             flow = self._day(time - 2400.0 * probe) * self._weather(time, side) * light
             noise = given.noise * gauss(side, floor(time * 100.0))
             values.append(zero_flow / (1.0 + given.fair_day_index * flow) + noise)
-        return Sample(time, tuple(values))
+        return ProbeSample(time, tuple(values))
 
     def _day(self, time: float) -> float:
         """Return the course of a fair day in [0, 1], shifted by the lag of the stem."""

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-class Sample(NamedTuple):
+class ProbeSample(NamedTuple):
     """One line of a logger: all probes at one time."""
 
     time: float
@@ -18,16 +18,16 @@ class Sample(NamedTuple):
     """[K] temperature difference of each probe, NaN where there is none"""
 
 
-class Source(Protocol):
+class ProbeSource(Protocol):
     """Delivers samples as they fall due."""
 
     period: float
     """[s] usual time between samples on the node's clock"""
 
-    def history(self, now: float) -> Iterable[Sample]:
+    def history(self, now: float) -> Iterable[ProbeSample]:
         """Return what was measured before ``now`` [s], in order, to learn from."""
 
-    def read(self, now: float) -> list[Sample]:
+    def read(self, now: float) -> list[ProbeSample]:
         """Return the samples that fell due since the last call; never waits.
 
         Args:

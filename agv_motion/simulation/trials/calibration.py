@@ -13,7 +13,7 @@ from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.calibration import calibrate
 from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel, TurretModel
-from agv_motion.odometry.calibration_recording import Recording
+from agv_motion.odometry.calibration_recording import CalibrationDrive
 from agv_motion.odometry.columns import matrix, pose_columns
 from agv_motion.planar import Pose
 
@@ -59,13 +59,13 @@ class Conditions(NamedTuple):
 USUAL = Conditions()
 
 
-class Drive(NamedTuple):
+class TrialDrive(NamedTuple):
     """A simulated drive."""
 
     model: CalibrationModel
     truth: Array
     """(p,) true values of the unknowns"""
-    recording: Recording
+    recording: CalibrationDrive
 
 
 class Coverage(NamedTuple):
@@ -83,7 +83,7 @@ class Coverage(NamedTuple):
     """places at which a robot was thought to have been carried"""
 
 
-def simulate(base: str, seed: int, given: Conditions = USUAL) -> Drive:
+def simulate(base: str, seed: int, given: Conditions = USUAL) -> TrialDrive:
     """Return a drive: the wheels turn as told, the base slips on the way.
 
     Args:
@@ -112,7 +112,7 @@ def simulate(base: str, seed: int, given: Conditions = USUAL) -> Drive:
     if not given.heading:
         reference[2] = nan
     noise = POSITION_NOISE, HEADING_NOISE
-    return Drive(model, truth, Recording(turned, taken, reference, *noise, steering))
+    return TrialDrive(model, truth, CalibrationDrive(turned, taken, reference, *noise, steering))
 
 
 def coverage(base: str, seeds: Sequence[int], *, heading: bool, carried: bool) -> Coverage:

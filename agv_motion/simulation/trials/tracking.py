@@ -23,7 +23,7 @@ from agv_motion.trajectory.follower_parameters import FollowerParameters
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from agv_motion.trajectory.following import Following
+    from agv_motion.trajectory.follower_state import FollowerState
     from agv_motion.trajectory.ghost import Ghost
     from agv_motion.trajectory.trajectory import Trajectory
 
@@ -58,7 +58,7 @@ class TrackingTrialParameters:
         check(self)
 
 
-class Sample(NamedTuple):
+class TrackingSample(NamedTuple):
     """One cycle of a trial."""
 
     time: float
@@ -88,16 +88,18 @@ class TrackingTrial:
             with suppress(GeometryError):  # a cusp: another one then
                 self.trajectory = self.follower.depart(start, plan)
                 break
-        self.samples: list[Sample] = []
+        self.samples: list[TrackingSample] = []
 
-    def run(self) -> Following:
+    def run(self) -> FollowerState:
         """Drive to the end, and return how it ended."""
         given, follower, robot = self.given, self.follower, self.robot
         period = 1.0 / given.rate
         dt = 0.0
         while not follower.at_rest and len(self.samples) * period < LONGEST:
             twist = follower.step(self._measured(), dt)
-            self.samples.append(Sample(len(self.samples) * period, follower.ghost.pose, robot.pose))
+            self.samples.append(
+                TrackingSample(len(self.samples) * period, follower.ghost.pose, robot.pose)
+            )
             speeds = self._drive.command(twist).speed
             for _ in range(given.steps):
                 robot.step(speeds, period / given.steps)

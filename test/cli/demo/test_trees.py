@@ -12,7 +12,7 @@ pytest.importorskip('rclpy')
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-from agv_motion.report.walks import Walk, doing_of, gaps, nearest, read_walks
+from agv_motion.report.walks import RecordedWalk, doing_of, gaps, nearest, read_walks
 
 TRAFFIC = TrafficParameters(body=1.0, margin=0.2)
 
@@ -77,9 +77,9 @@ def test_what_a_tree_does_is_told_by_its_state(state, doing):
 def test_gaps_and_shares_by_hand():
     """Two trees of 1 m on parallel ways, 5 m apart at first and 2.5 m after 10 s."""
     time = np.array([0.0, 10.0])
-    oak = Walk('oak', time, np.array([[0.0, 10.0], [0.0, 0.0]]), [], [(0.0, 'walks')])
+    oak = RecordedWalk('oak', time, np.array([[0.0, 10.0], [0.0, 0.0]]), [], [(0.0, 'walks')])
     doings = [(0.0, 'rests'), (2.5, 'walks'), (7.5, 'waits')]
-    ash = Walk('ash', time, np.array([[0.0, 10.0], [5.0, 2.5]]), [(1.0, 2.0, 3.0)], doings)
+    ash = RecordedWalk('ash', time, np.array([[0.0, 10.0], [5.0, 2.5]]), [(1.0, 2.0, 3.0)], doings)
     times, between = gaps([oak, ash], 1.0)
     assert times[:3] == pytest.approx([0.0, 0.5, 1.0])
     assert between['oak and ash'] == pytest.approx(5.0 - 0.25 * times - 2.0)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import isnan
 
 from agv_motion.probe.sources.recorded import RecordedSource
-from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource
+from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 
-LIVE = SimulatedSource(SimulatedParameters(), 1.0)
+LIVE = SimulatedSource(SimulatedSourceParameters(), 1.0)
 
 
 def test_readings_of_one_time_are_one_sample():

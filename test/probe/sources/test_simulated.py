@@ -6,23 +6,23 @@ import numpy as np
 import pytest
 
 from agv_motion.probe.probe import Probe, ProbeParameters
-from agv_motion.probe.sources.simulated import SimulatedParameters, SimulatedSource, gauss
+from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters, gauss
 
 DAY = 86400.0
 JUNE = 16600 * DAY
 
 
 def test_the_same_seed_says_the_same_whatever_was_asked_before():
-    one, other = (SimulatedSource(SimulatedParameters(), 1.0) for _ in range(2))
+    one, other = (SimulatedSource(SimulatedSourceParameters(), 1.0) for _ in range(2))
     list(other.history(JUNE))
     other.read(JUNE)
     assert one.sample(JUNE + 5e4, 1.0) == other.sample(JUNE + 5e4, 1.0)
-    another = SimulatedSource(SimulatedParameters(seed=2), 1.0)
+    another = SimulatedSource(SimulatedSourceParameters(seed=2), 1.0)
     assert another.sample(JUNE + 5e4, 1.0) != one.sample(JUNE + 5e4, 1.0)
 
 
 def test_readings_come_at_their_period():
-    source = SimulatedSource(SimulatedParameters(period=25.0), 1.0)
+    source = SimulatedSource(SimulatedSourceParameters(period=25.0), 1.0)
     assert [s.time for s in source.read(JUNE)] == [JUNE]
     assert [s.time for s in source.read(JUNE + 60.0)] == [JUNE + 25.0, JUNE + 50.0]
     assert source.read(JUNE + 61.0) == []
@@ -30,7 +30,7 @@ def test_readings_come_at_their_period():
 
 def test_it_looks_like_the_spruce():
     """Zero flow 19 to 21 K, daily range about 1.5 K; nights without flow."""
-    source = SimulatedSource(SimulatedParameters(noise=0.0, drift=0.0), 10.0)
+    source = SimulatedSource(SimulatedSourceParameters(noise=0.0, drift=0.0), 10.0)
     values = np.array([s.values[0] for s in source.history(JUNE)]).reshape(-1, 96)
     assert values.max(axis=1) == pytest.approx(20.0, abs=1e-9)
     depth = 20.0 - values.min(axis=1)
@@ -38,7 +38,7 @@ def test_it_looks_like_the_spruce():
 
 
 def test_shade_makes_the_sap_slow_after_some_minutes():
-    sunny, shady = (SimulatedSource(SimulatedParameters(noise=0.0), 1.0) for _ in range(2))
+    sunny, shady = (SimulatedSource(SimulatedSourceParameters(noise=0.0), 1.0) for _ in range(2))
     noon = JUNE + DAY / 2
     shady.set_light(0.3)
     first = [source.read(noon)[0].values[0] for source in (sunny, shady)]
@@ -48,7 +48,7 @@ def test_shade_makes_the_sap_slow_after_some_minutes():
 
 
 def test_a_probe_that_has_learnt_from_its_history_knows_at_once():
-    source = SimulatedSource(SimulatedParameters(), 8.0)
+    source = SimulatedSource(SimulatedSourceParameters(), 8.0)
     probe = Probe(ProbeParameters())
     noon = JUNE + 12.5 * 3600.0
     probe.warm_up((s.time, s.values[0]) for s in source.history(noon))

@@ -9,7 +9,7 @@ import pytest
 from agv_motion.planar import wrap
 from agv_motion.simulation.trials.tracking import TrackingTrial, TrackingTrialParameters
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.follower_state import FollowerState
 
 
 @pytest.mark.parametrize('law', ['kanayama', 'ramsete'])
@@ -17,7 +17,7 @@ def test_it_follows_within_two_centimetres(law):
     for seed in range(12):
         given = TrackingTrialParameters(seed=seed, follower=FollowerParameters(law=law))
         trial = TrackingTrial(given)
-        assert trial.run() is Following.ARRIVED
+        assert trial.run() is FollowerState.ARRIVED
         assert trial.rms() < 0.02
 
 
@@ -27,7 +27,7 @@ def test_with_wheels_that_lose_up_to_a_third_it_arrives_where_it_says(law):
     for seed in range(5):
         given = TrackingTrialParameters(seed=seed, slip=0.33, follower=FollowerParameters(law=law))
         trial = TrackingTrial(given)
-        assert trial.run() is Following.ARRIVED
+        assert trial.run() is FollowerState.ARRIVED
         end, there = trial.trajectory.end, trial.robot.pose
         turns = all(motion.rotating for motion in trial.trajectory.motions)
         assert turns or hypot(there.x - end.x, there.y - end.y) < 0.04
@@ -49,5 +49,5 @@ def test_without_any_disturbance_it_is_exact():
         follower=FollowerParameters(delay=0.0025),
     )  # fmt: skip
     trial = TrackingTrial(given)
-    assert trial.run() is Following.ARRIVED
+    assert trial.run() is FollowerState.ARRIVED
     assert max(trial.deviations()) < 1e-3

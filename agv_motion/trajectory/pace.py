@@ -22,7 +22,7 @@ SLOWEST = 0.1
 
 
 @dataclass(frozen=True)
-class LeashParameters:
+class PaceParameters:
     """Distances between robot and Ghost, in their order."""
 
     slow_beyond: Annotated[float, Spec('the Ghost dawdles', 'm', (1e-3, 100.0), dynamic=True)] = (
@@ -62,12 +62,12 @@ class LeashParameters:
             raise ConfigurationError(msg)
 
 
-class Leash:
+class PaceController:
     """The pace of the Ghost, in [0, 1]."""
 
-    def __init__(self, parameters: LeashParameters | None = None) -> None:
+    def __init__(self, parameters: PaceParameters | None = None) -> None:
         """Start at rest."""
-        self.parameters = parameters or LeashParameters()
+        self.parameters = parameters or PaceParameters()
         self.pace = 0.0
         """Share of time that passes for the Ghost"""
 

@@ -1,4 +1,4 @@
-"""Actions while they are performed: one cycle after another, from the pose to the twist."""
+"""Actions while they run: one cycle after another, from the pose to the twist."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 from agv_motion.errors import AgvMotionError
 from agv_motion.planar import REST, Pose, Twist
 from agv_motion.route.follower import RouteFollower
-from agv_motion.trajectory.following import Following
+from agv_motion.trajectory.follower_state import FollowerState
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
@@ -19,16 +19,16 @@ EASE = 0.5
 """[s] In which a robot on a route comes from full speed to a pause."""
 
 
-class Performance(Protocol):
+class ActionRun(Protocol):
     """One action on its way."""
 
     @property
     def done(self) -> bool:
-        """Whether it has been performed."""
+        """Whether it has come to its end."""
 
     @property
     def failure(self) -> str:
-        """Why it cannot be performed; empty if it can."""
+        """Why it failed; empty if it has not."""
 
     @property
     def at_rest(self) -> bool:
@@ -44,21 +44,24 @@ class Performance(Protocol):
     def step(self, pose: Pose, dt: float) -> Twist:
         """Return the twist for the next cycle."""
 
-    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
-        """Ease to a halt, or go on."""
+    def ease_to_halt(self) -> None:
+        """Ease to a halt, until :meth:`go_on`."""
 
-    def abort(self) -> None:
+    def go_on(self) -> None:
+        """Go on after a halt."""
+
+    def brake_and_end(self) -> None:
         """Brake; at rest after some steps."""
 
-    def halt(self) -> None:
+    def freeze(self) -> None:
         """Stand at once, as long as the pose is lost; `step` goes on."""
 
 
-class GhostPerformance:
+class GhostRun:
     """Go to, rotate, arc: the robot follows a Ghost."""
 
     def __init__(self, action: GhostAction, follower: Follower) -> None:
-        """Perform ``action`` with ``follower``, which serves one action after another."""
+        """Run ``action`` with ``follower``, which serves one action after another."""
         self._action = action
         self._follower = follower
         self.failure = ''
@@ -68,7 +71,7 @@ class GhostPerformance:
     @property
     def done(self) -> bool:
         """Whether the robot has come to its end."""
-        return self._follower.state is Following.ARRIVED
+        return self._follower.state is FollowerState.ARRIVED
 
     @property
     def at_rest(self) -> bool:
@@ -101,20 +104,24 @@ class GhostPerformance:
         self.failure = self._follower.failure
         return twist
 
-    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
-        """Ease the Ghost to a halt, or let it go on."""
-        self._follower.hold(state)
+    def ease_to_halt(self) -> None:
+        """Ease the Ghost to a halt."""
+        self._follower.ease_to_halt()
 
-    def abort(self) -> None:
+    def go_on(self) -> None:
+        """Let the Ghost go on."""
+        self._follower.go_on()
+
+    def brake_and_end(self) -> None:
         """Brake with the ramps of the trajectory."""
-        self._follower.abort()
+        self._follower.brake_and_end()
 
-    def halt(self) -> None:
+    def freeze(self) -> None:
         """Stand at once."""
-        self._follower.halt()
+        self._follower.freeze()
 
 
-class RoutePerformance:
+class RouteRun:
     """Follow route; tried again, it goes on from where the virtual point waits."""
 
     failure = ''
@@ -157,21 +164,25 @@ class RoutePerformance:
         self.done = found.arrived
         return Twist(*(self._pace * part for part in found.twist))
 
-    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
-        """Ease to a halt, or go on."""
-        self._wanted = 0.0 if state else 1.0
+    def ease_to_halt(self) -> None:
+        """Ease to a halt."""
+        self._wanted = 0.0
 
-    def abort(self) -> None:
+    def go_on(self) -> None:
+        """Go on from there."""
+        self._wanted = 1.0
+
+    def brake_and_end(self) -> None:
         """Ease to a halt for good."""
         self._aborting = True
 
-    def halt(self) -> None:
+    def freeze(self) -> None:
         """Stand at once."""
         self._follower.rest()
         self._pace = 0.0
 
 
-class WaitPerformance:
+class WaitRun:
     """Stand still for a while."""
 
     at_rest = True
@@ -201,12 +212,16 @@ class WaitPerformance:
         self._waited += 0.0 if self._held else dt
         return REST
 
-    def hold(self, state: bool) -> None:  # noqa: FBT001 - the name says what the flag is
+    def ease_to_halt(self) -> None:
         """Let no time pass."""
-        self._held = state
+        self._held = True
 
-    def abort(self) -> None:
+    def go_on(self) -> None:
+        """Let time pass again."""
+        self._held = False
+
+    def brake_and_end(self) -> None:
         """Nothing moves."""
 
-    def halt(self) -> None:
+    def freeze(self) -> None:
         """Nothing moves."""

@@ -1,4 +1,4 @@
-"""The leash: full pace, dawdling, waiting, lost; and never a jump."""
+"""The pace of the Ghost: full pace, dawdling, waiting, lost; and never a jump."""
 
 from __future__ import annotations
 
@@ -9,19 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.trajectory.leash import Leash, LeashParameters
+from agv_motion.trajectory.pace import PaceController, PaceParameters
 from agv_motion.trajectory.tracking import TrackingError
 
-GIVEN = LeashParameters(
-    slow_beyond=0.1, wait_beyond=0.2, lost_beyond=0.5, heading_arm=0.2, ease=0.5
-)
+GIVEN = PaceParameters(slow_beyond=0.1, wait_beyond=0.2, lost_beyond=0.5, heading_arm=0.2, ease=0.5)
 
 
 def eased(separation, seconds=5.0, **kind):
-    leash = Leash(GIVEN)
-    leash.restart(moving=True)
-    leash.ease(separation, seconds, **kind)
-    return leash.pace
+    control = PaceController(GIVEN)
+    control.restart(moving=True)
+    control.ease(separation, seconds, **kind)
+    return control.pace
 
 
 @pytest.mark.parametrize(
@@ -37,29 +35,29 @@ def test_held_it_stops_whatever_the_distance():
 
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 0.1)), max_size=30))
 def test_the_pace_changes_no_faster_than_its_ease(calls):
-    leash = Leash(GIVEN)
+    control = PaceController(GIVEN)
     for separation, dt in calls:
-        before = leash.pace
-        after = leash.ease(separation, dt)
+        before = control.pace
+        after = control.ease(separation, dt)
         assert 0.0 <= after <= 1.0
         assert abs(after - before) <= dt / 0.5 + 1e-12
 
 
 def test_an_error_of_heading_counts_too():
     """Hand calculation: 0.05 m by 3-4-5, and 0.2 m/rad times 0.5 rad."""
-    leash = Leash(GIVEN)
-    assert leash.separation(TrackingError(0.03, -0.04, -0.5)) == pytest.approx(0.15)
-    assert not leash.is_lost(0.499)
-    assert leash.is_lost(0.5)
+    control = PaceController(GIVEN)
+    assert control.separation(TrackingError(0.03, -0.04, -0.5)) == pytest.approx(0.15)
+    assert not control.is_lost(0.499)
+    assert control.is_lost(0.5)
 
 
 @pytest.mark.parametrize('change', [{'slow_beyond': 0.3}, {'lost_beyond': 0.2}])
 def test_distances_out_of_order_are_refused(change):
     with pytest.raises(ConfigurationError, match='in this order, rising'):
-        LeashParameters(**change)
+        PaceParameters(**change)
 
 
 @pytest.mark.parametrize('bad', [nan, inf, 0.0, -1.0])
 def test_distances_that_cannot_be_are_refused(bad):
     with pytest.raises(ConfigurationError, match='slow_beyond'):
-        LeashParameters(slow_beyond=bad)
+        PaceParameters(slow_beyond=bad)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 
-class Following(Enum):
+class FollowerState(Enum):
     """What the robot and its Ghost are doing."""
 
     IDLE = 'idle'
@@ -26,11 +26,11 @@ class Following(Enum):
 
 AT_REST = frozenset(
     {
-        Following.IDLE,
-        Following.ARRIVED,
-        Following.ABORTED,
-        Following.LOST,
-        Following.NOT_ARRIVED,
+        FollowerState.IDLE,
+        FollowerState.ARRIVED,
+        FollowerState.ABORTED,
+        FollowerState.LOST,
+        FollowerState.NOT_ARRIVED,
     }
 )
 """In these states nothing moves until there is a new trajectory."""
