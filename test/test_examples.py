@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import re
 import runpy
-from math import asin, atan2, degrees, hypot, sqrt
+import subprocess
+import sys
+from math import asin, atan2, atanh, degrees, hypot, pi, sin, sqrt
 from pathlib import Path
 
 import pytest
@@ -39,9 +41,9 @@ def test_an_example_is_short_and_says_what_it_shows(path):
     assert ast.get_docstring(ast.parse(text))
 
 
-def test_the_examples_are_numbered_and_each_has_a_test_of_its_numbers():
+def test_the_examples_are_numbered_without_a_gap_and_each_has_a_test_of_its_numbers():
     given = [int(path.name[:2]) for path in EXAMPLES]
-    assert len(set(given)) == len(given)
+    assert given == list(range(1, len(given) + 1))
     tests = Path(__file__).read_text(encoding='utf-8')
     assert [number for number in given if f'told({number})' not in tests] == []
 
@@ -85,6 +87,20 @@ def test_03_steering(told):
     assert lines[5].endswith('left at 1.000 m/min')
 
 
+def test_04_sap_flow(told):
+    lines = told(4)
+    assert len(lines) == 9
+    # 25 K/mV; K = dT_max / dT - 1, and 118.99e-6 K^1.231
+    nine = 0.80 - 0.16 * sin(pi / 4.0)
+    flux = [1e6 * 118.99e-6 * (0.80 / mv - 1.0) ** 1.231 for mv in (nine, 0.64)]
+    assert all(f'{value:.1f} um/s' in lines[i] for i, value in zip((1, 2), flux, strict=True))
+    assert [round(value, 1) for value in flux] == [12.9, 21.6]
+    assert 'dT 20.0 K  flux density unknown' in lines[0]  # no night has ended
+    assert all(line.endswith('unknown: rest') for line in lines[:7])  # nor a day been seen
+    assert lines[7].endswith('flux density 12.9 um/s  sap flow 0.61')
+    assert lines[8].endswith('flux density 21.6 um/s  sap flow 1.00')
+
+
 def test_05_a_tree(told):
     lines = told(5)
     # the tangent from (5, 8) to the circle of margin and rim about the corner (9, 6)
@@ -97,3 +113,123 @@ def test_05_a_tree(told):
     assert min(corners[1::2]) == 4.32  # 6 - 1.68
     assert lines[6].endswith('resting: the sap stands')
     assert len(lines) == 8
+
+
+def test_06_omni_odometry(told):
+    lines = told(6)
+    assert numbers(lines[0]) == [1.0, 1.0, 90.0]  # a quarter of a circle of 1 m
+    assert numbers(lines[1]) == [1.0, 1.5, 90.0, 3.0]  # and 5 s of 0.1 m/s
+    assert 'at least 3 are needed' in lines[2]
+
+
+def test_07_fusion(told):
+    lines = told(7)
+    assert [numbers(line)[1] for line in lines[::2]] == [10.0, 20.0, 30.0, 40.0]  # 2 % of 0.5 m/s
+    assert all(abs(numbers(line)[2]) < 10.0 for line in lines[::2])  # better than one fix
+    assert ['rejected' in line for line in lines[1::2]] == [False, True, False, False]
+
+
+def test_08_arc(told):
+    lines = told(8)
+    outer, inner = 0.9 * pi / 2.0, 0.5 * pi / 2.0
+    assert numbers(lines[0]) == [round(outer, 3), round(inner, 3)]
+    assert numbers(lines[1])[2:] == [0.7, 0.7, 90.0]  # a circle of 0.5 + 0.4 / 2 m
+    duration = outer / 0.3 + 0.3 / 0.3
+    assert numbers(lines[2]) == [round(duration, 2)]
+    means = 0.3 * 0.05, 0.3 * 0.45, 0.3, 0.3 * (duration - 5.45)  # half way in the cycle
+    expected = [[round(0.5 / 0.9 * mean, 3), round(mean, 3)] for mean in means]
+    assert [numbers(line)[1:] for line in lines[3:7]] == expected
+    assert numbers(lines[7]) == [58.0, round(inner, 3), round(outer, 3)]
+
+
+def test_09_ghost(told):
+    lines = told(9)
+    off = [numbers(line)[1] for line in lines[1:5]]
+    assert off == sorted(off, reverse=True)
+    assert off[-1] < 1.0 < off[0] < 10.0
+    error = [numbers(line)[2] for line in lines[1:5]]
+    assert error == sorted(error, reverse=True)  # V of a law never grows
+    assert numbers(lines[5]) == [2.0, 1.0, 90.0]
+
+
+def test_10_route(told):
+    lines = told(10)
+    assert numbers(lines[0]) == [2.0, 7.0]
+    # The tractrix of a robot 1 m behind: x from the new line, L artanh(s) - s from the old one,
+    # s^2 = 1 - x^2; farthest from both where they are equal.
+    x = zero_of(lambda x: atanh(sqrt(1.0 - x * x)) - sqrt(1.0 - x * x) - x)
+    for line, distance in zip(lines[1:], (0.25, 0.5, 1.0), strict=True):
+        assert numbers(line)[2] == pytest.approx(x * distance, abs=0.003)
+
+
+def zero_of(function, low=0.1, high=0.9):
+    """Return where a falling function is zero, by halving."""
+    for _ in range(60):
+        middle = (low + high) / 2.0
+        low, high = (middle, high) if function(middle) > 0.0 else (low, middle)
+    return low
+
+
+def test_11_sequence(told):
+    lines = told(11)
+    # trapezoids: 2 m / 0.4 + 1 s, 90 / 45 + 0.5 s, and the outer wheel's pi 0.6 m / 0.3 + 1 s
+    durations = 6.0, 2.5, 2.0, pi * 0.6 / 0.3 + 1.0
+    begins = 0.0, 6.0, 8.5, 10.5
+    ends = (2.0, 0.0, 0.0), (2.0, 0.0, 90.0), (2.0, 0.0, 90.0), (1.1, 0.0, -90.0)
+    for line, begin, duration, end in zip(lines, begins, durations, ends, strict=False):
+        assert numbers(line)[0] == begin
+        assert tuple(numbers(line)[-3:]) == end
+        assert f': {duration:.2f} s to' in line
+    assert lines[4].endswith('takes 7.3 s, but its timeout is 5 s')
+    assert len(lines) == 5
+
+
+def test_12_bag(told):
+    lines = told(12)
+    assert lines[0].startswith("['metadata.yaml', 'walk_0.mcap']")
+    assert numbers(lines[1]) == [10_000.0, 999.9]
+    assert lines[1].endswith("['x']")
+    assert numbers(lines[2]) == [0.49995, 0.9999, 999.9]
+
+
+def test_13_reprocess(told):
+    pytest.importorskip('rclpy')
+    lines = told(13)
+    assert [line.partition(': ')[2] for line in lines[:2]] == ['50 messages in; done'] * 2
+    assert [numbers(line) for line in lines[3:]] == [
+        [i, round(0.2 / 0.05, 3), round(0.2 / 0.0475, 3)] for i in (0, 1)
+    ]
+
+
+def test_14_trees(told):
+    lines = told(14)
+    for half in (lines[:5], lines[5:]):
+        assert sum(numbers(line)[-1] for line in half[1:4]) > 0  # somebody arrived
+        assert numbers(half[4])[0] > 0.0
+
+
+def test_15_motors(graph, tmp_path):
+    """They do what they are told, and stop when nobody commands."""
+    from rclpy.node import Node
+    from rclpy.qos import qos_profile_sensor_data
+    from sensor_msgs.msg import JointState
+
+    (script,) = FOLDER.glob('15_*.py')
+    node, states = graph.add(Node('wheel_kinematics', context=graph.context)), []
+    node.create_subscription(JointState, 'turrets/state', states.append, qos_profile_sensor_data)
+    commands = node.create_publisher(JointState, 'turrets/command', 1)
+    names = [f'turret_{i}_{part}' for part in ('steering', 'wheel') for i in range(3)]
+    command = JointState(name=names, position=[1.5, 0.5, -0.5, 0.0, 0.0, 0.0])
+    command.velocity = [0.0, 0.0, 0.0, 0.1, 0.2, 0.3]
+    motors = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path)  # noqa: S603 - told(15)
+    try:
+        graph.repeat(
+            lambda: commands.publish(command),
+            lambda: states and list(states[-1].velocity) == list(command.velocity),
+        )
+        assert list(states[-1].name) == names
+        graph.spin_until(lambda: not any(states[-1].velocity))
+        assert list(states[-1].position) == list(command.position)  # the turrets stay
+    finally:
+        motors.terminate()
+        motors.wait()

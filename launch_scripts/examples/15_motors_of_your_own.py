@@ -1,0 +1,39 @@
+"""Your own motors: do `turrets/command`, tell `turrets/state`, stand when nobody commands."""
+# Put your motor controllers where `here` stands, and give them the same time-out.
+
+from time import monotonic
+
+import rclpy
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import JointState
+
+TIMEOUT, NONE = 0.5, [0.0] * 3  # [s], for three turrets
+angles = {f'turret_{i}_steering': 0.0 for i in range(3)}  # [rad]
+rates = {f'turret_{i}_wheel': 0.0 for i in range(3)}  # [rad/s]
+heard = [monotonic()]
+
+
+def on_command(command):
+    """Turn, and roll."""
+    heard[0] = monotonic()
+    told = dict(enumerate(command.name))
+    angles.update({n: command.position[i] for i, n in told.items() if n in angles})  # here
+    rates.update({n: command.velocity[i] for i, n in told.items() if n in rates})  # here
+
+
+def tell():
+    """Stop where nobody commands, and tell what the encoders read."""
+    if monotonic() - heard[0] > TIMEOUT:
+        rates.update(dict.fromkeys(rates, 0.0))  # here
+    state = JointState(name=[*angles, *rates], position=[*angles.values(), *NONE])  # here
+    state.velocity = [*NONE, *rates.values()]
+    state.header.stamp = node.get_clock().now().to_msg()
+    publisher.publish(state)
+
+
+rclpy.init()
+node = rclpy.create_node('motors')
+publisher = node.create_publisher(JointState, 'turrets/state', qos_profile_sensor_data)
+node.create_subscription(JointState, 'turrets/command', on_command, 1)
+node.create_timer(0.05, tell)
+rclpy.spin(node)
