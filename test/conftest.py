@@ -44,6 +44,8 @@ os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['ROS_DOMAIN_ID'] = str(DOMAIN)
 # shared memory left by a killed process can swallow messages of the next one on its port
 os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
+# the matrices here are small: threads of BLAS cost more than they bring, the more on a busy machine
+os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 
 import pytest
 from hypothesis import HealthCheck, settings
