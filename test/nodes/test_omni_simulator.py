@@ -86,7 +86,7 @@ def test_a_dead_encoder_is_found_among_four_and_odometry_does_without(tester):
     message = TwistStamped()
 
     def wiggled():
-        wiggle = int(simulator.elapsed) % 3
+        wiggle = int(simulator.plain.elapsed) % 3
         message.twist.linear.x, message.twist.linear.y = 0.3 - 0.2 * wiggle, 0.2 * wiggle
         message.twist.angular.z = 0.3 * wiggle - 0.2
         cmd_vel.publish(message)
@@ -138,12 +138,12 @@ def test_the_whole_robot_is_kidnapped_and_finds_itself(tester):
         told, real = poses[-1].pose.pose.position, truth[-1].pose.pose.position
         return (told.x - real.x) ** 2 + (told.y - real.y) ** 2 < 0.2**2
 
-    tester.graph.spin_until(lambda: simulator.elapsed > 15.0 and near())
+    tester.graph.spin_until(lambda: simulator.plain.elapsed > 15.0 and near())
     request = SetMap.Request()
     request.initial_pose.pose.pose.position.x = 9.0
     assert tester.ask(SetMap, 'omni_simulator/carry', request).success
     tester.graph.spin_until(
-        lambda: localization.diagnose().values.get('fixes kidnapped') == '1' and near()
+        lambda: localization.plain.diagnose().values.get('fixes kidnapped') == '1' and near()
     )
 
 
