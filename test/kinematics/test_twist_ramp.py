@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.errors import SignalError
 from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.kinematics.omniwheel_placement import OmniWheel
 from agv_motion.kinematics.omniwheels import OmniWheels
@@ -201,10 +201,3 @@ def test_what_is_no_time_and_no_twist_is_refused(bad):
     with pytest.raises(SignalError, match='give less'):
         ramp.set_target(Twist(1.7e308, 0.0, 1.7e308))
     assert ramp.target == REST
-
-
-@pytest.mark.parametrize(('up', 'down'), [(1.0, 0.5), (0.0, 3.0)])
-def test_a_robot_that_cannot_brake_as_it_speeds_up_is_refused(up, down):
-    with pytest.raises(ConfigurationError, match='brake at least as hard'):
-        WheelLimits(1.0, up, down)
-    WheelLimits(1.0, down, 0.0)

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, pi, sin, tan
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agv_motion.kinematics.steering import AtRest, Rolling, SteeringLimits, SteeringPlanner
 from agv_motion.kinematics.steering.chassis import measure
-from agv_motion.kinematics.steering.follow import all_follow, longest_share
+from agv_motion.kinematics.steering.follow import (
+    all_follow,
+    can_brake,
+    longest_share,
+    nearest_velocity,
+)
+from agv_motion.kinematics.steering.state import Stance
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import Twist
 
@@ -34,3 +41,63 @@ def test_all_follow_just_where_the_longest_share_is_the_whole(seed):
         target = tuple(size * chance.uniform(-1.0, 1.0) for _ in range(3))
         share = longest_share(chassis, phase, target, 0.1)
         assert all_follow(chassis, phase, target, 0.1) == (share == 1.0)
+
+
+PAIR = Turrets([(1.0, 0.0), (-1.0, 0.0)])
+
+
+def moving(velocity, direction=(1.0, 0.0, 0.0), rates=(0.0, 0.0), acceleration=4.0):
+    """Return a platform whose direction turns, and what it can do: 2 rad/s at so much."""
+    rolling = Rolling(AtRest.at([0.0, 0.0]).setpoints, Stance(direction, [1.0, 1.0]))
+    rolling.velocity, rolling.setpoints.rates = velocity, list(rates)
+    limits = SteeringLimits(steering_rate=2.0, steering_acceleration=acceleration)
+    return measure(PAIR, limits), rolling
+
+
+@pytest.mark.parametrize(
+    ('before', 'target', 'after'),
+    [(1.0, -1.0, 0.6), (1.0, 0.3, 0.6), (0.2, 3.0, 0.6), (-0.2, -3.0, -0.6), (1.0, 3.0, 0.6)],
+)
+def test_a_rate_changes_by_no_more_than_the_acceleration(before, target, after):
+    """Hand calculation: 4 rad/s2 in 0.1 s; a translation turns all turrets alike.
+
+    At 1.4 rad/s braking would not be certain, so from 1 rad/s it brakes.
+    """
+    platform = moving((0.0, before, 0.0), rates=(before, before))
+    found = nearest_velocity(*platform, (0.0, target, 0.0), 0.1)
+    assert found.velocity == pytest.approx((0.0, tan(0.1 * after) / 0.1, 0.0), rel=1e-5)
+    assert not found.whole
+
+
+def test_a_change_within_reach_is_made_whole():
+    found = nearest_velocity(*moving((0.0, 0.9, 0.0), rates=(0.9, 0.9)), (0.0, 1.0, 0.0), 0.1)
+    assert found == ((0.0, pytest.approx(1.0), 0.0), True)
+
+
+def test_where_it_cannot_turn_aside_so_soon_it_brakes_straight_on():
+    """From 1.9 rad/s only 1.5 can be reached: too much to be certain of braking after an aside."""
+    found = nearest_velocity(*moving((0.0, 1.9, 0.0), rates=(1.9, 1.9)), (0.0, 1.9, 0.5), 0.1)
+    assert found.velocity == pytest.approx((0.0, tan(0.15) / 0.1, 0.0), rel=1e-5)
+    assert not found.whole
+
+
+def test_turrets_that_turn_against_each_other_cannot_follow_a_translation():
+    chassis, rolling = moving((0.0, 0.0, 0.0), rates=(1.0, -1.0))
+    assert longest_share(chassis, rolling, (0.0, 1.0, 0.0), 0.1) is None
+    assert not all_follow(chassis, rolling, (0.0, 1.0, 0.0), 0.1)
+
+
+@pytest.mark.parametrize(
+    ('velocity', 'direction', 'enough'),
+    [
+        # both turrets turn at 0.1 rad/s and near nothing: 4 * 0.1 * 0.1
+        ((0.1, 0.0, 0.0), (0.0, 1.0, 0.0), 0.04),
+        ((0.0, -0.1, 0.0), (1.0, 0.0, 0.0), 0.04),
+        # the second wheel moves at 0.2, turns at 0.02 / 0.04 and vanishes at 0.028 / 0.04
+        ((0.1, -0.06, 0.08), (0.0, 0.8, 0.6), 1.4),
+    ],
+)
+def test_braking_is_certain_up_to_a_quarter_of_the_acceleration(velocity, direction, enough):
+    for share in (0.99, 1.01):
+        chassis, rolling = moving(velocity, direction, acceleration=share * enough)
+        assert can_brake(chassis, rolling, velocity) == (share > 1.0)
