@@ -5,10 +5,16 @@ from __future__ import annotations
 from math import cos, isnan, pi
 from typing import TYPE_CHECKING
 
+from agv_motion.kinematics.steering.state import Rolling
 from agv_motion.planar import wrap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from agv_motion.kinematics.steering.state import Phase
+
+SHARE_ROUNDING = 1.0 - 1e-9
+"""A wheel that gains more than it may by less than this share does not."""
 
 
 def rolling_share(angles: Sequence[float], measured: Sequence[float]) -> float:
@@ -33,3 +39,47 @@ def rolling_share(angles: Sequence[float], measured: Sequence[float]) -> float:
                 return 0.0
             worst = error
     return max(cos(worst), 0.0)
+
+
+class RollingShare:
+    """The share of the planned speeds at which to roll, as the turrets have turned.
+
+    It rises no faster than lets the wheels speed up as they may. It may fall at once: turrets that
+    went astray must not be pulled along.
+    """
+
+    def __init__(self, count: int) -> None:
+        """Stand.
+
+        Args:
+            count: Of the wheels.
+
+        """
+        self._rolled = [0.0] * count  # (n,) speeds commanded last, without sign [m/s]
+        self._most = 1.0
+
+    def stop(self) -> None:
+        """Take note that all wheels stand."""
+        self._rolled = [0.0] * len(self._rolled)
+
+    def of(self, phase: Phase | None, measured: Sequence[float] | None) -> float:
+        """Return the share for the turrets as they are.
+
+        Args:
+            phase: Of the platform; nothing is shared at rest.
+            measured: (n,) angles as they are [rad]; None while nobody measures them.
+
+        """
+        if measured is None or not isinstance(phase, Rolling):
+            return 1.0
+        return min(rolling_share(phase.setpoints.angles, measured), self._most)
+
+    def update(self, phase: Phase, measured: Sequence[float] | None, change: float) -> None:
+        """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step."""
+        speeds = phase.setpoints.speeds
+        self._most = 1.0
+        for speed, before in zip(speeds, self._rolled, strict=True):
+            if abs(speed) * SHARE_ROUNDING > before + change:
+                self._most = min(self._most, (before + change) / abs(speed))
+        share = self.of(phase, measured)
+        self._rolled = [share * abs(speed) for speed in speeds]

@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from math import degrees, pi, tau
+from math import tau
 from typing import TYPE_CHECKING
 
-from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.kinematics.steering.alignment import rolling_share
+from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.steering.alignment import RollingShare
 from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.readings import TurretReadings
 from agv_motion.kinematics.steering.state import AtRest, Rolling
-from agv_motion.planar import REST, Twist, wrap
+from agv_motion.kinematics.steering.step_clock import StepClock
+from agv_motion.kinematics.steering.unwinding import Unwinding, describe, is_wound
+from agv_motion.planar import REST, Twist
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.limits import SteeringLimits
     from agv_motion.kinematics.steering.state import Phase, Setpoints
     from agv_motion.kinematics.turrets import Turrets
-
-LOST_TURRET = 0.35
-"""[rad] At rest, a turret so far from its command was turned by hand or did not follow: the
-planner goes on from where it is."""
-
-MOST_TURNS = 10.0
-"""[turns] beyond its limit that a turret can be: it is unwound from there. More is no angle of a
-turret, and nobody knows how far its cables are turned."""
-
-SHARE_ROUNDING = 1.0 - 1e-9
-"""A wheel that gains more than it may by less than this share does not."""
-
-QUARTER = pi / 2.0
-"""[rad] A turret turned further from straight, either way, can be unwound by half turns."""
 
 
 class SteeringController:
@@ -47,23 +36,32 @@ class SteeringController:
 
         """
         self.planner = SteeringPlanner(turrets, limits)
-        self.measured: list[float] | None = None
-        """(n,) angles as they are [rad]; None while nobody measures them"""
-        self.unbelievable = ''
-        """why the angles measured last cannot be; empty if they can"""
-        self.unwinding = False
         self._phase: Phase | None = None
-        self._turrets, self._period, self._unwind_after = len(turrets), period, unwind_after
         self._target = REST
-        self._rested = 0.0
-        self._planned_at: float | None = None
-        self._rolled = [0.0] * len(turrets)  # (n,) speeds commanded last, without sign [m/s]
-        self._most_share = 1.0
+        self._readings = TurretReadings()
+        self._share = RollingShare(len(turrets))
+        self._unwinding = Unwinding(unwind_after)
+        self._clock = StepClock(period)
 
     @property
     def setpoints(self) -> Setpoints | None:
         """What is commanded; None while nothing is known of the turrets, nor wanted of them."""
         return None if self._phase is None else self._phase.setpoints
+
+    @property
+    def measured(self) -> list[float] | None:
+        """(n,) angles as they are [rad]; None while nobody measures them."""
+        return self._readings.angles
+
+    @property
+    def unbelievable(self) -> str:
+        """Why the angles measured last cannot be; empty if they can."""
+        return self._readings.unbelievable
+
+    @property
+    def unwinding(self) -> bool:
+        """Whether the cables are being unwound."""
+        return self._unwinding.asked
 
     def set_measured(self, angles: list[float]) -> None:
         """Take up the angles as they are, (n,) [rad].
@@ -73,18 +71,10 @@ class SteeringController:
                 nothing else is known stands.
 
         """
-        most = (self.planner.limits.turn_limit + MOST_TURNS) * tau
-        for i, angle in enumerate(angles):
-            if not abs(angle) <= most:  # also true when NaN
-                self.unbelievable = (
-                    f'turret {i} stands at {angle:.6g} rad, beyond {most:.4g} rad, which no cable '
-                    'allows: look at the encoder and its zero'
-                )
-                raise SignalError(self.unbelievable)
-        self.unbelievable = ''
-        if self.measured is None:
+        first = self._readings.angles is None
+        self._readings.update(angles, self.planner.limits.turn_limit)
+        if first:
             self._phase = AtRest.at(angles)
-        self.measured = angles
 
     def overturned(self) -> str:
         """Return which turret stands beyond its turn limit, in words; empty if none does."""
@@ -102,21 +92,21 @@ class SteeringController:
         """Aim at ``twist`` from now on; turrets that nobody measures are taken for straight."""
         self._target = twist
         if any(twist):
-            self.unwinding = False
+            self._unwinding.asked = False
             if self._phase is None and not self.unbelievable:
-                self._phase = AtRest.at(self.measured or [0.0] * self._turrets)
+                self._phase = AtRest.at(self.measured or [0.0] * len(self.planner.turrets))
 
     def stop(self) -> None:
         """Stop all wheels at once, and hold the angles."""
-        self._target, self.unwinding = REST, False
-        self._rolled = [0.0] * self._turrets
+        self._target, self._unwinding.asked = REST, False
+        self._share.stop()
         if self._phase is not None:
             self._phase = self.planner.stop(self._phase)
 
     def start_anew(self) -> None:
         """Go on from where the turrets are, whatever was commanded before."""
         if self._phase is not None:
-            self._phase = AtRest.at(self._measured_turns(self._phase.setpoints))
+            self._phase = AtRest.at(self._readings.turns(self._phase.setpoints))
 
     def unwind(self) -> str:
         """Begin to unwind the cables; return in words what comes of it.
@@ -126,70 +116,31 @@ class SteeringController:
 
         """
         phase = self._phase
-        if phase is None or not _is_wound(phase.setpoints):
+        if phase is None or not is_wound(phase.setpoints):
             return 'nothing to unwind: every turret is within a quarter turn of straight'
         if isinstance(phase, Rolling) or any(self._target):
             msg = 'the platform is driving: send a zero cmd_vel before unwinding'
             raise ConfigurationError(msg)
-        self.unwinding = True
-        furthest = max(phase.setpoints.angles, key=abs)
-        return f'unwinding, the furthest turret by {degrees(pi * round(furthest / pi)):.0f} deg'
+        self._unwinding.asked = True
+        return describe(phase.setpoints)
 
     def step(self, now: float, soonest: float) -> bool:
         """Plan one step if ``soonest`` [s] have passed since the last; return whether they have."""
-        phase, period = self._phase, self._period
-        elapsed = period if self._planned_at is None else now - self._planned_at
-        if phase is None or 0.0 <= elapsed <= soonest:
+        phase, readings = self._phase, self._readings
+        elapsed = None if phase is None else self._clock.elapsed(now, soonest)
+        if phase is None or elapsed is None:
             return False
-        self._planned_at = now
-        if not 0.0 < elapsed < 2.0 * period:  # the clock jumped, or there was nothing to do
-            elapsed = period
-        if isinstance(phase, AtRest) and self._is_astray(phase.setpoints):
-            self._phase = phase = AtRest.at(self._measured_turns(phase.setpoints))
-        self._rested = 0.0 if any(self._target) else self._rested + elapsed
-        due = 0.0 < self._unwind_after < self._rested and _is_wound(phase.setpoints)
-        if self.unwinding or due:
-            rolls = isinstance(phase, Rolling)
-            self.unwinding = rolls or not self.planner.unwind(phase, elapsed)
-        if isinstance(phase, Rolling) or not self.unwinding:
+        if isinstance(phase, AtRest) and readings.are_astray(phase.setpoints):
+            self._phase = phase = AtRest.at(readings.turns(phase.setpoints))
+        rolls, wanted = isinstance(phase, Rolling), any(self._target)
+        if self._unwinding.is_due(phase.setpoints, elapsed, wanted=wanted):
+            self._unwinding.asked = rolls or not self.planner.unwind(phase, elapsed)
+        if rolls or not self.unwinding:
             self._phase = phase = self.planner.step(phase, self._target, elapsed)
-        self._hold_acceleration(phase.setpoints, self.planner.limits.wheel_acceleration * elapsed)
+        gain = self.planner.limits.wheel_acceleration * elapsed
+        self._share.update(phase, readings.angles, gain)
         return True
 
     def share(self) -> float:
         """Return the share of the planned speeds at which to roll, as the turrets have turned."""
-        measured = self.measured
-        if measured is None or not isinstance(self._phase, Rolling):
-            return 1.0
-        return min(rolling_share(self._phase.setpoints.angles, measured), self._most_share)
-
-    def _hold_acceleration(self, setpoints: Setpoints, change: float) -> None:
-        """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step.
-
-        It may fall at once: turrets that went astray must not be pulled along.
-        """
-        self._most_share = 1.0
-        for speed, before in zip(setpoints.speeds, self._rolled, strict=True):
-            if abs(speed) * SHARE_ROUNDING > before + change:
-                self._most_share = min(self._most_share, (before + change) / abs(speed))
-        share = self.share()
-        self._rolled = [share * abs(speed) for speed in setpoints.speeds]
-
-    def _measured_turns(self, setpoints: Setpoints) -> list[float]:
-        """Return the measured angles, the turns of encoders that wrap counted on [rad]."""
-        measured = self.measured or setpoints.angles
-        pairs = zip(setpoints.angles, measured, strict=True)
-        return [planned + wrap(angle - planned) for planned, angle in pairs]
-
-    def _is_astray(self, setpoints: Setpoints) -> bool:
-        """Return whether a turret stands elsewhere than it was told to, and nothing moves."""
-        if self.measured is None or any(setpoints.rates):
-            return False
-        for planned, angle in zip(setpoints.angles, self.measured, strict=True):
-            if abs(wrap(angle - planned)) > LOST_TURRET:
-                return True
-        return False
-
-
-def _is_wound(setpoints: Setpoints) -> bool:
-    return max(setpoints.angles) > QUARTER or min(setpoints.angles) < -QUARTER
+        return self._share.of(self._phase, self._readings.angles)

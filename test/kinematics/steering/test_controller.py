@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.kinematics.steering import SteeringController, SteeringLimits
-from agv_motion.kinematics.steering.controller import LOST_TURRET, MOST_TURNS
+from agv_motion.kinematics.steering.readings import LOST_TURRET, MOST_TURNS
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import REST, Twist
 
