@@ -28,9 +28,7 @@ import pytest
 from hypothesis import Phase, settings
 from mutants import Site, mutated, sites
 from rich.console import Console
-from rich.markup import escape
 from rich.progress import Progress
-from rich.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -152,9 +150,9 @@ def draw(paths: list[Path], count: int, seed: int) -> list[Mutant]:
     return chosen
 
 
-def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> list[Mutant]:
-    """Return the mutants that no test of the first ``stages`` notices."""
-    left, running, survivors = list(reversed(mutants)), {}, []
+def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> int:
+    """Return how many changes no test of the first ``stages`` notices; print each at once."""
+    left, running, survivors = list(reversed(mutants)), {}, 0
     with Progress(console=Console(stderr=True), disable=not sys.stderr.isatty()) as progress:
         bar = progress.add_task('Mutants', total=len(mutants))
         while left or running:
@@ -162,20 +160,26 @@ def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> list[Mutant]:
                 mutant = left.pop()
                 running[child(mutant, list(mutant.tests())[:stages])] = mutant
             pid, status = os.wait()
+            if (asked := running.pop(pid, None)) is None:
+                continue
+            progress.advance(bar)
             verdict = os.waitstatus_to_exitcode(status)
-            if pid in running and verdict == BROKEN:
-                sys.exit(f'could not ask the tests of {running[pid]}: run it alone')
-            if pid in running and verdict == SURVIVED:
-                survivors.append(running[pid])
-            progress.advance(bar, pid in running)
-            running.pop(pid, None)
+            if verdict == BROKEN:
+                sys.exit(f'could not ask the tests of {asked}: run it alone')
+            if verdict == SURVIVED:
+                survivors += 1
+                where = f'{asked.path.relative_to(ROOT)}:{asked.site.line}'
+                print(
+                    f'nobody notices {where}  {asked.site.what}  in  {asked.site.source}',
+                    flush=True,
+                )
     return survivors
 
 
-def passes_as_it_is(mutants: list[Mutant]) -> bool:
+def pass_as_they_are(mutants: list[Mutant], stages: int | None) -> bool:
     """Return whether all tests that are asked pass where nothing is changed."""
-    asked = sorted({test for mutant in mutants for tests in mutant.tests() for test in tests})
-    _, status = os.waitpid(child(None, [asked]), 0)
+    every = {test for each in mutants for tests in list(each.tests())[:stages] for test in tests}
+    _, status = os.waitpid(child(None, [sorted(every)]), 0)
     return os.waitstatus_to_exitcode(status) == SURVIVED
 
 
@@ -196,17 +200,15 @@ def main() -> None:
     os.chdir(ROOT)
     paths = [path.resolve() for path in given.paths]
     mutants = draw(paths or [ROOT / 'agv_motion' / name for name in CORE], given.count, given.seed)
-    if not given.trust and not passes_as_it_is(mutants):
+    if not mutants and given.count:
+        sys.exit(f'nothing to change in {given.paths}: give files or folders of agv_motion')
+    stages = 1 if given.near else None
+    if not given.trust and not pass_as_they_are(mutants, stages):
         sys.exit('the tests fail as they are: launch_scripts/test says which')
     begin = time.monotonic()
-    survivors = judge(mutants, given.jobs, 1 if given.near else None)
-    table = Table('where', 'what', 'was', title='No test notices', title_justify='left')
-    for path, site in sorted(survivors, key=lambda each: (each.path, each.site.line)):
-        table.add_row(f'{path.relative_to(ROOT)}:{site.line}', site.what, escape(site.source))
-    if survivors:
-        Console(width=None if sys.stdout.isatty() else 160).print(table)
-    print(f'{len(survivors)} of {len(mutants)} survived, {time.monotonic() - begin:.0f} s')
-    sys.exit(len(survivors) > given.most)
+    survivors = judge(mutants, given.jobs, stages)
+    print(f'{survivors} of {len(mutants)} survived, {time.monotonic() - begin:.0f} s')
+    sys.exit(survivors > given.most)
 
 
 if __name__ == '__main__':
