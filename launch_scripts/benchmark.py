@@ -193,10 +193,12 @@ def process_rows() -> list[Row]:
     code = (
         'import time; begin = time.perf_counter()\n'
         'from pathlib import Path; import tempfile\n'
-        'from agv_motion.demo.tree import DemoGraph\n'
+        'from agv_motion.demo.frame import Demo\n'
+        'from agv_motion.demo.tree import TreeScenario\n'
         'folder = Path(tempfile.mkdtemp()) / "bag"\n'
-        'graph = DemoGraph({}, "", 1, 1.0, folder)\n'
-        'print(*graph.idle(begin, 20.0))\n'
+        'with Demo(TreeScenario(20.0, {}, "", 1, 1.0), folder) as demo:\n'
+        '    load = demo.idle(20.0)\n'
+        'print(demo.recorder.arrivals["turrets/command"][0] * 1e-9 - begin, load)\n'
     )
     answer = subprocess.run(  # noqa: S603 - our own interpreter
         [sys.executable, '-c', code], capture_output=True, text=True, check=True

@@ -1,12 +1,33 @@
-"""The values of the shipped configuration, as arguments of nodes that a program makes."""
+"""Nodes of a demo with the values of the shipped configuration."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from agv_motion.files import yaml_text
 from agv_motion.ros.config import find_config
+from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import overrides
+
+if TYPE_CHECKING:
+    from agv_motion.ros.plain_node import PlainNode
+
+N = TypeVar('N', bound='PlainNode[Any]')
+
+
+def configured_node(
+    kind: type[N], file: str, changes: dict[str, Any], **kwargs: Any
+) -> LiveNode[N]:
+    """Return a node with its values in ``file`` of config/, then ``changes``.
+
+    Args:
+        kind: Of the plain node.
+        file: Of the configuration.
+        changes: Of parameters, by name; ``__`` stands for the dot of a group.
+        kwargs: Of rclpy, such as ``namespace``.
+
+    """
+    return LiveNode(kind, **configured(file, kind.name, changes), **kwargs)
 
 
 def configured(file: str, node: str, changes: dict[str, Any]) -> dict[str, Any]:

@@ -1,39 +1,34 @@
-"""The graph of the omni demo: robot, wheels, localization, a driver and a recorder."""
+"""`agv demo omni`: an omni robot that loses its way and finds it again."""
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from nav_msgs.msg import Odometry
-from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
-from rclpy.lifecycle import LifecycleNode
-from rclpy.signals import SignalHandlerOptions
-from rich.progress import Progress
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 
-from agv_motion.demo.configured import configured
-from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.configured import configured_node
+from agv_motion.demo.frame import Demo, DemoGraph, Scenario
+from agv_motion.demo.omni_driver import OmniDriver
+from agv_motion.demo.recorder import RecordedTopic
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
-from agv_motion.planar import Pose, Twist
-from agv_motion.ros.live_node import LiveNode
-from agv_motion.ros.messages import fill_twist, pose_of
-from agv_motion.ros.qos import COMMAND, SENSOR
-from agv_motion.ros.run import spin, start
-from agv_motion.ros.stop import Stop
+from agv_motion.planar import Pose
+from agv_motion.report.localization import LocalizationRun, draw, read_localization, summary
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
-    from rich.console import Console
+    from rich.console import RenderableType
 
+    from agv_motion.bag.reader import BagReader
+
+CONFIG = 'omni.yaml'
 
 TOPICS = [
     RecordedTopic('cmd_vel', TwistStamped),
@@ -49,120 +44,63 @@ TOPICS = [
     RecordedTopic('ground_truth', Odometry),
     RecordedTopic('/diagnostics', DiagnosticArray),
 ]
-ROOM = 8.0, 6.0
-"""[m] In which the driver chooses its goals."""
-SPEED = 0.4
-"""[m/s]"""
-SEARCHING = Twist(0.3, 0.0, 0.3)
-"""The circle it drives until it knows where it is."""
+
 CARRIED = Pose(6.5, 5.0, -2.0)
 """Where the robot is set down when it is carried away."""
 
-
-class Driver(LifecycleNode):
-    """Steers by the pose that localization tells, from goal to goal, turning as it likes."""
-
-    def __init__(self, seed: int) -> None:
-        """Start without a pose."""
-        super().__init__('demo_driver')
-        self._random = np.random.default_rng(seed)
-        self._pose: Pose | None = None
-        self._silent = 0
-        self._choose()
-        self._command = self.create_publisher(
-            TwistStamped, 'cmd_vel', COMMAND,
-            event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
-        )  # fmt: skip
-        for kind, topic, act in (
-            (PoseWithCovarianceStamped, 'pose', self._on_pose),
-            (Odometry, 'odom', self._on_odometry),
-        ):
-            self.create_subscription(
-                kind, topic, act, SENSOR,
-                event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
-            )  # fmt: skip
-
-    def _choose(self) -> None:
-        self._goal = self._random.uniform((1.0, 1.0), (ROOM[0] - 1.0, ROOM[1] - 1.0))
-        self._turning = float(self._random.uniform(-0.5, 0.5))
-
-    def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
-        self._pose, self._silent = pose_of(message.pose.pose), 0
-
-    def _on_odometry(self, message: Odometry) -> None:
-        """Drive on, once for each step of the wheels."""
-        self._silent += 1
-        known = self._pose is not None and self._silent < 20
-        command = TwistStamped()
-        command.header.stamp, command.header.frame_id = message.header.stamp, 'base_link'
-        fill_twist(command.twist, self._towards_goal(self._pose) if known else SEARCHING)
-        self._command.publish(command)
-
-    def _towards_goal(self, pose: Pose | None) -> Twist:
-        assert pose is not None
-        x, y = self._goal[0] - pose.x, self._goal[1] - pose.y
-        distance = hypot(x, y)
-        if distance < 0.3:
-            self._choose()
-        c, s = cos(pose.theta), sin(pose.theta)
-        share = SPEED / max(distance, SPEED)
-        return Twist(share * (c * x + s * y), share * (c * y - s * x), self._turning)
+CARRIED_AFTER = 2.0 / 3.0
+"""Share of the time after which that happens."""
 
 
-class OmniGraph:
-    """Builds the graph and runs it."""
+class OmniScenario(Scenario[LocalizationRun]):
+    """Robot, wheels, localization and a driver."""
 
-    def __init__(self, seed: int, time_factor: float, bag: Path) -> None:
-        """Create and start all nodes with the values of ``config/omni.yaml``.
+    figure = 'path.png'
+    doing = 'driving'
+
+    def __init__(self, seconds: float, *, carry: bool, seed: int, time_factor: float) -> None:
+        """Let the robot drive with the values of ``config/omni.yaml``.
 
         Args:
+            seconds: How long, simulated [s].
+            carry: Whether somebody carries it away on its way.
             seed: Of the way and of all noise.
             time_factor: Simulated seconds per second.
-            bag: Folder of the new bag.
 
         """
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-        self._stop = Stop()
-        common: dict[str, Any] = {'use_sim_time': True}
+        super().__init__(seconds)
+        self._to_carry = carry
+        self._seed, self._time_factor = seed, time_factor
+
+    def build(self) -> DemoGraph:
+        """Make the nodes and the driver."""
+        common = {'use_sim_time': True}
         patient = common | {'report_after': 1.0, 'stop_after': 2.0}  # a busy machine runs late
-        self.simulator = LiveNode(
-            OmniSimulator,
-            **configured('omni.yaml', 'omni_simulator', {'time_factor': time_factor, 'seed': seed}),
+        self._simulator = configured_node(
+            OmniSimulator, CONFIG, {'time_factor': self._time_factor, 'seed': self._seed}
         )
-        self._nodes: list[LiveNode[Any]] = [
-            LiveNode(OmniKinematics, **configured('omni.yaml', 'omni_kinematics', patient)),
-            LiveNode(Localization, **configured('omni.yaml', 'localization', common)),
-            self.simulator,
-        ]
-        self._driver = Driver(seed)
-        for node in self._nodes:
-            start(node)
-        self._recorder = DemoRecorder(bag, TOPICS, lambda: self.simulator.plain.time)
+        wheels = configured_node(OmniKinematics, CONFIG, patient)
+        localization = configured_node(Localization, CONFIG, common)
+        nodes = wheels, localization, self._simulator
+        return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
 
-    def run(self, seconds: float, carry_after: float, console: Console) -> None:
-        """Let simulated time pass, or until Ctrl-C.
+    def over(self, elapsed: float, say: Callable[[str], None]) -> bool:
+        """Carry the robot away when it is time."""
+        if self._to_carry and elapsed >= CARRIED_AFTER * self.seconds:
+            self._to_carry = False
+            say(f'{elapsed:.0f} s: somebody carries the robot away')
+            self._simulator.plain.carry_to(CARRIED)
+        return super().over(elapsed, say)
 
-        Args:
-            seconds: How much [s].
-            carry_after: When to carry the robot away [s]; beyond ``seconds``: never.
-            console: For the progress bar.
+    def read(self, bag: BagReader) -> LocalizationRun:
+        """Read the drive back."""
+        return read_localization(bag)
 
-        """
-        carried = False
-        with Progress(console=console, transient=True) as progress:
-            task = progress.add_task('driving', total=seconds)
+    def tell(self, run: LocalizationRun, _: Demo[LocalizationRun]) -> Iterator[RenderableType]:
+        """Yield the figures of the drive."""
+        yield summary(run)
 
-            def finished() -> bool:
-                nonlocal carried
-                elapsed = self.simulator.plain.elapsed
-                progress.update(task, completed=elapsed)
-                if not carried and elapsed >= carry_after:
-                    carried = True
-                    console.print(f'{elapsed:.0f} s: somebody carries the robot away')
-                    self.simulator.plain.carry_to(CARRIED)
-                ended = self._stop.requested or bool(self._recorder.failure)
-                return ended or elapsed >= seconds
-
-            spin([self._recorder, self._driver, *self._nodes], finished)
-        self._recorder.close()
-        rclpy.try_shutdown()
+    def draw(self, run: LocalizationRun, path: Path) -> bool:
+        """Draw the drive."""
+        draw(run, path)
+        return True

@@ -9,41 +9,25 @@ from typing import TYPE_CHECKING
 from rich.columns import Columns
 from rich.panel import Panel
 from rich.table import Table
-from rich.text import Text
 
+from agv_motion.demo.zone_map import Mark, ZoneMap
 from agv_motion.ros.messages import TurretJoints, pose_of
 from agv_motion.simulation.shade import sunlit
 from agv_motion.simulation.sun import sun
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
+    from rich.text import Text
 
     from agv_motion.demo.recorder import DemoRecorder
     from agv_motion.motion.navigation.zone import Zone
     from agv_motion.nodes.simulator import SimulatorParameters
     from agv_motion.planar import Pose
 
-WIDTH, HEIGHT = 56, 20
 ARROWS = '→↗↑↖←↙↓↘'
 
 
-def cell_of(zone: Zone, x: float, y: float) -> tuple[int, int]:
-    """Return row and column of the picture of ``zone`` at (x, y) [m]."""
-    west, south, east, north = zone.bounds
-    column = int((x - west) / (east - west) * (WIDTH - 1) + 0.5)
-    row = int((north - y) / (north - south) * (HEIGHT - 1) + 0.5)
-    return row, column
-
-
-def place_of(zone: Zone, row: int, column: int) -> tuple[float, float]:
-    """Return (x, y) [m] of a cell of the picture of ``zone``."""
-    west, south, east, north = zone.bounds
-    x = west + column * (east - west) / (WIDTH - 1)
-    y = north - row * (north - south) / (HEIGHT - 1)
-    return x, y
-
-
-class DemoView:
+class TreeView:
     """Draws what the recorder has heard."""
 
     def __init__(self, recorder: DemoRecorder, zone: Zone, place: SimulatorParameters) -> None:
@@ -55,39 +39,32 @@ class DemoView:
             place: Where the sun shines and what throws shadows.
 
         """
-        self._recorder, self._zone, self._place = recorder, zone, place
+        self._recorder, self._map, self._place = recorder, ZoneMap(zone), place
         self._obstacles = place.obstacles()
         self._trail: set[tuple[int, int]] = set()
 
-    def draw(self, time: float, factor: float) -> RenderableType:
-        """Return the picture at simulated ``time`` [s], passing ``factor`` times real time."""
-        moment = datetime.fromtimestamp(time, timezone.utc)
+    def draw(self, now: float, factor: float) -> RenderableType:
+        """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
+        moment = datetime.fromtimestamp(now, timezone.utc)
         title = f'{moment:%d %B %Y, %H:%M:%S} UTC, {factor:.0f} times real time'
-        return Columns([Panel(self._map(time), title=title), self._numbers()])
+        return Columns([Panel(self._walk(now), title=title), self._numbers()])
 
-    def _map(self, time: float) -> Text:
+    def _walk(self, now: float) -> Text:
         """Shade as dots, the trail, the goal and the tree."""
-        light = sun(time, self._place.latitude, self._place.longitude)
+        light = sun(now, self._place.latitude, self._place.longitude)
         truth, goal = self._recorder.latest('ground_truth'), self._recorder.latest('goal')
-        marks: dict[tuple[int, int], tuple[str, str]] = {}
+        marks: dict[tuple[int, int], Mark] = {}
         if truth is not None:
-            here = cell_of(self._zone, truth.pose.pose.position.x, truth.pose.pose.position.y)
+            here = self._map.cell_of(truth.pose.pose.position.x, truth.pose.pose.position.y)
             self._trail.add(here)
         marks.update(dict.fromkeys(self._trail, ('•', 'green')))
         if goal is not None:
-            place = goal.pose.position
-            marks[cell_of(self._zone, place.x, place.y)] = ('✕', 'bold red')
+            marks[self._map.cell_of(goal.pose.position.x, goal.pose.position.y)] = ('✕', 'bold red')
         if truth is not None:
             marks[here] = ('♣', 'bold green')
-        text = Text()
-        for row in range(HEIGHT):
-            for column in range(WIDTH):
-                x, y = place_of(self._zone, row, column)
-                shade = sunlit(x, y, light, self._obstacles) < 0.5
-                floor = '#' if not self._zone.contains(x, y) else '░' if shade else ' '
-                text.append(*marks.get((row, column), (floor, 'dim')))
-            text.append('\n')
-        return text
+        return self._map.text(
+            marks, lambda x, y: '░' if sunlit(x, y, light, self._obstacles) < 0.5 else ' '
+        )
 
     def _numbers(self) -> Table:
         table = Table(box=None, show_header=False, pad_edge=False)

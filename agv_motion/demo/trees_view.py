@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime, timezone
 from typing import TYPE_CHECKING
 
 from rich.columns import Columns
@@ -9,7 +10,7 @@ from rich.panel import Panel
 from rich.table import Table
 from rich.text import Text
 
-from agv_motion.demo.tree_view import HEIGHT, WIDTH, cell_of, place_of
+from agv_motion.demo.zone_map import Mark, ZoneMap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,33 +28,26 @@ class TreesView:
 
     def __init__(self, recorder: DemoRecorder, zone: Zone, names: Sequence[str]) -> None:
         """Start with empty trails of the trees ``names``."""
-        self._recorder, self._zone, self._names = recorder, zone, names
-        self._marks: dict[tuple[int, int], tuple[str, str]] = {}
-        for row in range(HEIGHT):
-            for column in range(WIDTH):
-                if not zone.contains(*place_of(zone, row, column)):
-                    self._marks[row, column] = ('#', 'dim')
+        self._recorder, self._map, self._names = recorder, ZoneMap(zone), names
+        self._trails: dict[tuple[int, int], Mark] = {}
 
-    def draw(self) -> RenderableType:
-        """Return the picture."""
-        marks, does = {}, Table(box=None, show_header=False, pad_edge=False)
+    def draw(self, now: float, factor: float) -> RenderableType:
+        """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
+        does = Table(box=None, show_header=False, pad_edge=False)
+        marks: dict[tuple[int, int], Mark] = {}
         for name, colour in zip(self._names, COLOURS, strict=False):
             truth = self._recorder.latest(f'{name}/ground_truth')
             goal = self._recorder.latest(f'{name}/goal')
             state = self._recorder.latest(f'{name}/state')
             if goal is not None:
                 place = goal.pose.position
-                marks[cell_of(self._zone, place.x, place.y)] = ('✕', colour)
+                marks[self._map.cell_of(place.x, place.y)] = ('✕', colour)
             if truth is not None:
                 place = truth.pose.pose.position
-                here = cell_of(self._zone, place.x, place.y)
-                self._marks[here] = ('•', colour)
+                here = self._map.cell_of(place.x, place.y)
+                self._trails[here] = ('•', colour)
                 marks[here] = ('♣', f'bold {colour}')
             does.add_row(Text(name, colour), '' if state is None else state.data)
-        text = Text()
-        for row in range(HEIGHT):
-            for column in range(WIDTH):
-                at = row, column
-                text.append(*marks.get(at, self._marks.get(at, (' ', ''))))
-            text.append('\n')
-        return Columns([Panel(text), does])
+        moment = datetime.fromtimestamp(now, timezone.utc)
+        title = f'{moment:%H:%M:%S} UTC, {factor:.0f} times real time'
+        return Columns([Panel(self._map.text(self._trails | marks), title=title), does])

@@ -53,7 +53,7 @@ class LocalizationRun(NamedTuple):
         return PoseColumns(self.odom.stamp, laid, self.odom.covariance)
 
 
-def read_run(bag: BagReader) -> LocalizationRun:
+def read_localization(bag: BagReader) -> LocalizationRun:
     """Read the bag back."""
     columns = pose_columns(bag, TOPICS)
     begin = columns[0].stamp[0]

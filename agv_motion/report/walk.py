@@ -1,4 +1,4 @@
-"""What the demo has shown: numbers read back from its bag, and one figure."""
+"""The walk of a tree, read back from its bag: columns, and figures of it."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class WalkRun(NamedTuple):
         )
 
 
-def read_run(bag: BagReader, wheel_radius: float) -> WalkRun:
+def read_walk(bag: BagReader, wheel_radius: float) -> WalkRun:
     """Read the bag back."""
     rows: dict[str, list[tuple[float, ...]]] = {name: [] for name in READ}
     states: list[tuple[float, str]] = []

@@ -1,4 +1,4 @@
-"""The walk of a demo in one figure: zone, memory, trail and goals; probes, wheels, residual."""
+"""The walk of a tree in one figure: zone, memory, trail and goals; probes, wheels, residual."""
 
 from __future__ import annotations
 

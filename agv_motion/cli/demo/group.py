@@ -7,11 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.bag.options import opened
+from agv_motion.cli.demo.play import begun, play
 from agv_motion.cli.lazy_group import lazy_group
-from agv_motion.cli.terminal import terminal
-from agv_motion.demo.domain import begin
-from agv_motion.demo.folder import results
 from agv_motion.errors import ConfigurationError
 
 app = typer.Typer(
@@ -51,11 +48,8 @@ def demo(
     """
     if context.invoked_subcommand:
         return
-    console = terminal()
-    begin(console)
-    from agv_motion.demo.tree import DemoGraph
-    from agv_motion.report.walk import read_run, summary
-    from agv_motion.report.walk_figure import draw
+    console = begun()
+    from agv_motion.demo.tree import TreeScenario
 
     given: dict[str, Any] = {'simulated__seed': seed}
     if probes is None and (start or columns or unit):
@@ -70,12 +64,5 @@ def demo(
             f'Playing {days:g} days of {probes} from {given["csv__start"]}: '
             f'{", ".join(given["csv__columns"])} [{given["csv__unit"]}]'
         )
-    with results(output, 'walk.png') as bag:
-        graph = DemoGraph(given, zone, seed, time_factor, bag)
-        graph.run(minutes * 60.0, console, live=live)
-        limit = graph.wheels.max_wheel_speed
-        with opened(bag) as reader:
-            run = read_run(reader, graph.wheels.wheel_radius)
-            console.print(summary(run, graph.outcome, graph.zone, limit, graph.wheels.rim))
-            draw(run, graph.zone, limit, output / 'walk.png', graph.wheels.rim)
-            console.print(f'\nBag: {bag}\nFigure: {output / "walk.png"}')
+    scenario = TreeScenario(minutes * 60.0, given, zone, seed, time_factor)
+    play(scenario, output, console, live=live)

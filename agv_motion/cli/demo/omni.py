@@ -7,10 +7,7 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import terminal
-from agv_motion.demo.domain import begin
-from agv_motion.demo.folder import results
+from agv_motion.cli.demo.play import begun, play
 
 
 def omni(
@@ -35,17 +32,8 @@ def omni(
 
     agv calibrate demo_output/omni/bag
     """
-    from agv_motion.demo.omni import OmniGraph
-    from agv_motion.report.localization import draw, read_run, summary
+    console = begun()
+    from agv_motion.demo.omni import OmniScenario
 
-    console = terminal()
-    begin(console)
-    seconds = 60.0 * minutes
-    carried = seconds / 1.5 if carry else 2 * seconds
-    with results(output, 'path.png') as bag:
-        OmniGraph(seed, time_factor, bag).run(seconds, carried, console)
-        with opened(bag) as reader:
-            run = read_run(reader)
-            console.print(summary(run))
-            draw(run, output / 'path.png')
-            console.print(f'\nBag: {bag}\nFigure: {output / "path.png"}')
+    scenario = OmniScenario(60.0 * minutes, carry=carry, seed=seed, time_factor=time_factor)
+    play(scenario, output, console)

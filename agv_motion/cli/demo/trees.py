@@ -7,10 +7,7 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import terminal
-from agv_motion.demo.domain import begin
-from agv_motion.demo.folder import results
+from agv_motion.cli.demo.play import begun, play
 
 
 def trees(
@@ -37,20 +34,7 @@ def trees(
 
     agv demo trees --count 5 --minutes 60 --seed 7
     """
-    from agv_motion.demo.trees import TreesGraph
-    from agv_motion.report.walks import draw, nearest, read_walks, summary
+    console = begun()
+    from agv_motion.demo.trees import TreesScenario
 
-    console = terminal()
-    begin(console)
-    with results(output, 'trees.png') as bag:
-        graph = TreesGraph(count, zone, seed, time_factor, bag)
-        graph.run(60.0 * minutes, console)
-        with opened(bag) as reader:
-            walks = read_walks(reader, graph.names)
-            if not all(len(walk.time) for walk in walks):
-                console.print(f'Ended before every tree had told where it is.\n\nBag: {bag}')
-                return
-            console.print(summary(walks))
-            console.print(nearest(walks, graph.traffic))
-            draw(walks, graph.zone, graph.traffic, output / 'trees.png')
-            console.print(f'\nBag: {bag}\nFigure: {output / "trees.png"}')
+    play(TreesScenario(60.0 * minutes, count, zone, seed, time_factor), output, console)

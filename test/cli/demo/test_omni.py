@@ -11,7 +11,7 @@ pytest.importorskip('rclpy')
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError
-from agv_motion.report.localization import LocalizationRun, draw, read_run, summary
+from agv_motion.report.localization import LocalizationRun, draw, read_localization, summary
 from agv_motion.report.stamped_columns import PoseColumns, pose_columns
 
 
@@ -23,7 +23,7 @@ def test_a_short_drive_leaves_a_bag_and_a_figure(alone, tmp_path):
     assert status == 0, errors
     assert (tmp_path / 'path.png').stat().st_size > 10_000
     with BagReader(tmp_path / 'bag') as bag:
-        run = read_run(bag)
+        run = read_localization(bag)
         with pytest.raises(ConfigurationError, match=r"no topic '/pos'; did you mean '/pose'\?"):
             pose_columns(bag, ['/pos'])
     told = np.hypot(*run.error(run.pose)[:2])

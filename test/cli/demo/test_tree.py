@@ -15,7 +15,7 @@ from rosbags.highlevel import AnyReader
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.motion.navigation.zone import Zone
-from agv_motion.report.walk import WalkOutcome, read_run, summary
+from agv_motion.report.walk import WalkOutcome, read_walk, summary
 from agv_motion.report.walk_figure import draw
 
 
@@ -81,7 +81,7 @@ def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp
     with BagWriter(tmp_path / 'bag') as bag:
         bag.add_topic('/goal', 'geometry_msgs/msg/PoseStamped')
     with BagReader(tmp_path / 'bag') as bag:
-        run = read_run(bag, 0.1)
+        run = read_walk(bag, 0.1)
     zone = Zone([[0, 0], [4, 0], [4, 3], [0, 3]])
     assert run.distance() == 0.0
     outcome = WalkOutcome(0.0, 0.0, np.empty(0), {})

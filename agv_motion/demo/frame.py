@@ -1,0 +1,200 @@
+"""One frame for every demo: its nodes on one executor, a recorder, a live picture, and the end.
+
+A `Scenario` says what sets one demo apart; `Demo` runs it. Afterwards `read`, `tell` and `draw` of
+the scenario make what is printed and drawn, from the bag alone.
+"""
+
+from __future__ import annotations
+
+import time
+from abc import ABC, abstractmethod
+from math import inf
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
+
+import rclpy
+from rclpy.signals import SignalHandlerOptions
+from rich.console import Group
+from rich.live import Live
+from rich.progress import Progress
+
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.ros.run import spin, start
+from agv_motion.ros.stop import Stop
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from pathlib import Path
+
+    from rclpy.lifecycle import LifecycleNode
+    from rich.console import Console, RenderableType
+
+    from agv_motion.bag.reader import BagReader
+    from agv_motion.ros.live_node import LiveNode
+
+R = TypeVar('R')
+
+REFRESH = 0.25
+"""[s] between two pictures of the live view"""
+
+
+class DemoGraph(NamedTuple):
+    """The nodes of a demo, and what is kept of what they say."""
+
+    nodes: Sequence[LiveNode[Any]]
+    """of this package; they leave their outputs safe in this order"""
+    leader: LiveNode[Any]
+    """the simulator among them whose time is that of the demo"""
+    topics: Sequence[RecordedTopic]
+    others: Sequence[LifecycleNode] = ()
+    """nodes that are none of this package's, such as one that drives"""
+
+
+class LiveView(Protocol):
+    """A picture of the demo as it runs."""
+
+    def draw(self, now: float, factor: float) -> RenderableType:
+        """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
+
+
+class Scenario(ABC, Generic[R]):
+    """What sets one demo apart; ``R`` is what it reads back from its bag."""
+
+    figure: ClassVar[str]
+    """file name of the picture"""
+    doing: ClassVar[str] = ''
+    """word beside the bar that shows how far the demo is; without one there is no bar"""
+
+    def __init__(self, seconds: float = inf) -> None:
+        """Let the demo last so many simulated seconds, or until it is `over`."""
+        self.seconds = seconds
+
+    @abstractmethod
+    def build(self) -> DemoGraph:
+        """Make the nodes; the ROS context is there."""
+
+    def view(self, recorder: DemoRecorder) -> LiveView | None:  # noqa: ARG002 - for those that have one
+        """Return the live view; there may be none."""
+        return None
+
+    def progress(self, elapsed: float) -> tuple[float, str]:
+        """Return the share that is done after ``elapsed`` [s], and what the robot does."""
+        return elapsed / self.seconds, self.doing
+
+    def over(self, elapsed: float, say: Callable[[str], None]) -> bool:  # noqa: ARG002
+        """Return whether the demo ends after ``elapsed`` [s]; asked again and again as it runs."""
+        return elapsed >= self.seconds
+
+    def last_word(self, demo: Demo[R]) -> str:  # noqa: ARG002 - for those that have one
+        """Return how it ended, where there is more to say than the bag tells."""
+        return ''
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the robot did what it was to do."""
+        return True
+
+    @abstractmethod
+    def read(self, bag: BagReader) -> R:
+        """Read the bag of the demo back."""
+
+    @abstractmethod
+    def tell(self, run: R, demo: Demo[R]) -> Iterator[RenderableType]:
+        """Yield what is to be printed of a run."""
+
+    @abstractmethod
+    def draw(self, run: R, path: Path) -> bool:
+        """Draw a run into one picture; return whether there was anything to draw."""
+
+
+class Demo(Generic[R]):
+    """Runs a scenario, and records it: a context, at whose end the ROS graph is left."""
+
+    def __init__(self, scenario: Scenario[R], bag: Path) -> None:
+        """Let the scenario be recorded into the folder ``bag``, which must be new."""
+        self.scenario = scenario
+        self._bag = bag
+        self._begun = self._ended = 0.0
+
+    def __enter__(self) -> Demo[R]:
+        """Make and start all nodes."""
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        self._stop = Stop()
+        try:
+            self.graph = self.scenario.build()
+            for node in self.graph.nodes:
+                start(node)
+            leader = self.graph.leader.plain
+            topics = list(self.graph.topics)
+            self.recorder = DemoRecorder(self._bag, topics, lambda: leader.time)
+        except BaseException:
+            rclpy.try_shutdown()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the graph."""
+        rclpy.try_shutdown()
+
+    @property
+    def elapsed(self) -> float:
+        """Simulated time that has passed [s]."""
+        return float(self.graph.leader.plain.elapsed)
+
+    @property
+    def factor(self) -> float:
+        """Simulated over real time, as achieved."""
+        return self.elapsed / max((self._ended or time.perf_counter()) - self._begun, 1e-9)
+
+    def run(self, console: Console, *, live: bool = True) -> None:
+        """Run until the scenario is over, or until a signal; ``live``: show how it goes.
+
+        Raises:
+            SourceError: The disk did not take everything; what it took is a whole bag.
+
+        """
+        self._begun = time.perf_counter()
+        picture = self._picture(console)
+        next_picture = 0.0 if live and console.is_terminal else inf
+        with Live(console=console, auto_refresh=False, transient=True) as screen:
+
+            def finished() -> bool:
+                nonlocal next_picture
+                now = time.perf_counter()
+                if now >= next_picture:
+                    next_picture = now + REFRESH
+                    screen.update(picture(), refresh=True)
+                over = self.scenario.over(self.elapsed, console.print)
+                return over or self._stop.requested or bool(self.recorder.failure)
+
+            self._spin(finished)
+        self._ended = time.perf_counter()
+        self.recorder.close()
+
+    def idle(self, seconds: float) -> float:
+        """Run for ``seconds`` of real time; return the processor time per second."""
+        used, until = time.process_time(), time.perf_counter() + seconds
+        self._spin(lambda: time.perf_counter() > until)
+        load = (time.process_time() - used) / seconds
+        self.recorder.close()
+        return load
+
+    def _spin(self, until: Callable[[], bool]) -> None:
+        spin([self.recorder, *self.graph.others, *self.graph.nodes], until)
+
+    def _picture(self, console: Console) -> Callable[[], RenderableType]:
+        """Return what makes the live picture: that of the scenario, and a bar below."""
+        view = self.scenario.view(self.recorder)
+        bar = Progress(console=console)
+        task = bar.add_task(self.scenario.doing, total=1.0)
+
+        def picture() -> RenderableType:
+            parts: list[RenderableType] = []
+            if view is not None:
+                parts.append(view.draw(self.graph.leader.plain.time, self.factor))
+            if self.scenario.doing:
+                share, doing = self.scenario.progress(self.elapsed)
+                bar.update(task, completed=share, description=doing)
+                parts.append(bar)
+            return Group(*parts)
+
+        return picture
