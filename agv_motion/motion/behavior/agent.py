@@ -174,10 +174,8 @@ class Agent:
         if self._homing.why:
             return self._go_home(here, flow)
         if asleep:
-            decision = self._stay('resting: the sap stands')
-        else:
-            decision = self._seek(time, here, flow, closed)
-        return decision._replace(yield_speed=self.parameters.home.speed)
+            return self._stay('resting: the sap stands', yields=True)
+        return self._seek(time, here, flow, closed)
 
     def _look(self, pose: Pose) -> None:
         """Ask the zone about a pose, once; poses come less often than decisions."""
@@ -212,7 +210,7 @@ class Agent:
         goal = Goal(*home, f'home at ({home[0]:.1f}, {home[1]:.1f}), {why}')
         if self._near(here, home, given.arrival):
             return self._stay(f'at home: {why}', goal)
-        return self._go(goal, max(flow.s1, given.speed), 0.0)
+        return self._go(goal, max(flow.s1, given.speed), 0.0, yields=False)
 
     def _near(self, here: Point, place: Point, arrival: float) -> bool:
         """Return whether the tree is at ``place``; once it is, noise does not carry it away."""
@@ -230,7 +228,7 @@ class Agent:
         if self.goal is None and time >= self._retry_at:
             self._choose(time, here, closed)
         if self.goal is None and lasting:
-            return self._stay('resting: no goal; send one to goal_pose')
+            return self._stay('resting: no goal; send one to goal_pose', yields=True)
         if self.goal is None:
             return self._turn(flow, 'no goal can be reached: turning on the spot')
         if lasting and self._near(here, self.goal.place, self.rest.arrival):
@@ -272,20 +270,17 @@ class Agent:
     def _take(self, goal: Goal | None) -> None:
         self.goal, self._arrived = goal, False
 
-    # Decisions
+    # Decisions; who seeks gives way to others, at this speed at least
 
-    def _go(self, goal: Goal, speed: float, rotation: float) -> Decision:
-        return Decision(
-            f'walking to {goal.reason}',
-            goal,
-            (goal.x, goal.y),
-            speed,
-            rotation,
-            rules=self._rules,
-        )
+    def _go(self, goal: Goal, speed: float, rotation: float, *, yields: bool = True) -> Decision:
+        least, place = self.parameters.home.speed if yields else 0.0, (goal.x, goal.y)
+        activity = f'walking to {goal.reason}'
+        return Decision(activity, goal, place, speed, rotation, least, rules=self._rules)
 
     def _turn(self, flow: SapFlow, activity: str) -> Decision:
-        return Decision(activity, self.goal, rotation=flow.rotation, rules=self._rules)
+        least = self.parameters.home.speed
+        return Decision(activity, self.goal, None, 0.0, flow.rotation, least, rules=self._rules)
 
-    def _stay(self, activity: str, goal: Goal | None = None) -> Decision:
-        return Decision(activity, goal or self.goal)
+    def _stay(self, activity: str, goal: Goal | None = None, *, yields: bool = False) -> Decision:
+        least = self.parameters.home.speed if yields else 0.0
+        return Decision(activity, goal or self.goal, yield_speed=least)
