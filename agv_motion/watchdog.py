@@ -18,7 +18,9 @@ class Silence(Enum):
 
 
 class Watchdog:
-    """Judges the age of the last input; the ancestor reported after 3 s and stopped after 5 s.
+    """Judges the age of the last input.
+
+    The original installation reported after 3 s and stopped after 5 s.
 
     All times are of one clock that never leaps: a clock that is set must not switch a guard off.
     """

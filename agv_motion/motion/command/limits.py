@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class LimitParameters:
     """How fast the command may change; 0 is no limit.
 
-    A quarter turn of the heading in 6 s is what the ancestor's turrets did.
+    A quarter turn of the heading in 6 s is what the turrets of the original installation did.
     """
 
     v_rate: Annotated[float, Spec('change of v; 0: no limit', '1/s', (0.0, 1e3))] = 0.0

@@ -23,7 +23,10 @@ if TYPE_CHECKING:
     Ring = Sequence[Sequence[float]]
 
 MARGIN = 0.5
-"""[m] between the rim of the platform and every edge; the ancestor counted it from the centre."""
+"""[m] between the rim of the platform and every edge.
+
+The original installation counted it from the centre.
+"""
 
 
 ROUNDING = 1e-6

@@ -26,7 +26,7 @@ KINDS = {'zone': 'Polygon', 'translation_only': 'Polygon', 'home': 'Point'}
 KEYS = ('boundary', 'holes', 'translation_only', 'margin', 'clearance_from', 'home')
 
 CLEARANCES = ('rim', 'centre')
-"""What the margin may count from: the rim of the platform, or its centre, as the ancestor's did."""
+"""What the margin may count from: the rim of the platform, or, as once, its centre."""
 
 DEGREES = 1.0
 """No zone is so small in metres; one in degrees is smaller yet."""
