@@ -44,6 +44,10 @@ def test_the_readme_names_every_node():
     assert [node for node in available() if f'`{node}`' not in readme] == []
 
 
+def test_the_readme_is_short():
+    assert len((ROOT / 'README.md').read_text(encoding='utf-8').splitlines()) <= 250
+
+
 def anchors(page: Path) -> set[str]:
     """Return what GitHub makes of the headings of a page."""
     headings = re.findall(r'^#+ (.+)$', page.read_text(encoding='utf-8'), re.MULTILINE)
