@@ -14,9 +14,8 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
 from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
-from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
-from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
+from agv_motion.probe.sources.simulated import SimulatedSource
+from agv_motion.probe.sources.sources import SourceParameters
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.plain_node import PlainNode
@@ -35,12 +34,9 @@ SAVE_PERIOD = 30.0
 
 
 @dataclass(frozen=True)
-class GranierProbeParameters:
+class GranierProbeParameters(SourceParameters):
     """Where the readings come from and what is made of them."""
 
-    source: Annotated[
-        str, Spec('where the readings come from', choices=('simulated', 'csv', 'serial'))
-    ] = 'simulated'
     rate: Annotated[
         float, Spec('how often the source is read and the sap flow told', 'Hz', (0.01, 100.0))
     ] = 1.0
@@ -55,17 +51,11 @@ class GranierProbeParameters:
             (0, 1e6),
         ),
     ] = 0.0
-    warm_up_days: Annotated[
-        float, Spec("how much of the source's history to learn from at the start", 'd', (0, 366))
-    ] = 8.0
     base_frame: Annotated[str, Spec('frame of the sap flow')] = 'base_link'
     state_file: Annotated[
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
     ] = ''
     probe: ProbeParameters = field(default_factory=ProbeParameters)
-    simulated: SimulatedSourceParameters = field(default_factory=SimulatedSourceParameters)
-    csv: CsvParameters = field(default_factory=CsvParameters)
-    serial: SerialParameters = field(default_factory=SerialParameters)
 
     def __post_init__(self) -> None:
         """Check every row, and that the assigned probes exist."""
@@ -74,22 +64,6 @@ class GranierProbeParameters:
         if len(self.assign) != 3 or not set(self.assign) <= set(names):
             msg = f'assign = {list(self.assign)}: give three names among {", ".join(names)}'
             raise ConfigurationError(msg)
-
-    def probes(self) -> int:
-        """Return the number of probes that the source has."""
-        return {
-            'simulated': self.simulated.probes,
-            'csv': len(self.csv.columns),
-            'serial': len(self.serial.fields),
-        }[self.source]
-
-    def open_source(self) -> ProbeSource:
-        """Open the source that was chosen."""
-        if self.source == 'csv':
-            return CsvSource(self.csv, self.warm_up_days)
-        if self.source == 'serial':
-            return SerialSource(self.serial)
-        return SimulatedSource(self.simulated, self.warm_up_days)
 
 
 class GranierProbe(PlainNode[GranierProbeParameters]):

@@ -127,7 +127,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
             self._step(follower, pose, dt)
 
     def _step(self, follower: RouteFollower, pose: Pose, dt: float) -> None:
-        twist, point, limits, arrived = follower.update(pose, dt)
+        twist, point, limits, arrived = follower.step(pose, dt)
         self.drive(twist)
         self._publish(point, limits)
         if arrived:

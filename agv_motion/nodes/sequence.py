@@ -123,7 +123,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         if self.guard.reason and self.parameters.blocked.then == STOP:
             runner.fail(self.guard.reason)
             self.guard.release()
-        self.drive(runner.update(None if self.obstacle else self.pose_now(), dt))
+        self.drive(runner.step(None if self.obstacle else self.pose_now(), dt))
         if runner.status.reason != reason:
             self.port.error(runner.status.reason)
         self.tell(self._words(runner))
@@ -156,7 +156,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
 
     def _words(self, runner: SequenceRunner) -> str:
         status, count = runner.status, len(runner.sequence.steps)
-        where = f'{status.number + 1} of {count}: {runner.step.name}'
+        where = f'{status.number + 1} of {count}: {runner.present.name}'
         if status.state is SequenceState.RUNNING:
             again = f', attempt {status.attempt}' if status.attempt > 1 else ''
             return f'{where}{again}'
@@ -174,12 +174,12 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         pairs = {
             'sequence': runner.sequence.name,
             'state': status.state.value,
-            'action': runner.step.name,
+            'action': runner.present.name,
             'number': f'{status.number + 1}',
             'of': f'{len(runner.sequence.steps)}',
             'attempt': f'{status.attempt}',
             'elapsed [s]': f'{status.elapsed:.1f}',
-            'timeout [s]': f'{runner.step.timeout:g}',
+            'timeout [s]': f'{runner.present.timeout:g}',
             'action done': f'{status.progress:.3f}',
             'sequence done': f'{share:.3f}',
             'last failure': status.reason,

@@ -1,1 +1,27 @@
-"""SENSE: Granier probes, from the raw voltage to a sap flow in [0, 1]."""
+"""SENSE: Granier probes, from the raw voltage to a sap flow in [0, 1].
+
+`Probe` reads one value at a time and remembers; `read_series` reads a whole series in one call;
+`flow_index` and `flux_density` are Granier's equations alone. Where readings come from:
+:mod:`agv_motion.probe.sources`.
+"""
+
+from agv_motion.probe.granier import flow_index, flux_density, flux_density_columns
+from agv_motion.probe.probe import Normalisation, Polarity, Probe, ProbeParameters, ProbeReading
+from agv_motion.probe.quality import Quality
+from agv_motion.probe.series import ProbeSeries, read_series
+from agv_motion.probe.zero_flow import ZeroFlow
+
+__all__ = [
+    'Normalisation',
+    'Polarity',
+    'Probe',
+    'ProbeParameters',
+    'ProbeReading',
+    'ProbeSeries',
+    'Quality',
+    'ZeroFlow',
+    'flow_index',
+    'flux_density',
+    'flux_density_columns',
+    'read_series',
+]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
@@ -21,22 +22,37 @@ FLOWING = 0.02
 """[-] K above which a coarse logger no longer repeats the same value for hours."""
 
 
+class Polarity(Enum):
+    """What high sap flow becomes."""
+
+    MORE_FLOW_IS_1 = 'more_flow_is_1'
+    MORE_FLOW_IS_0 = 'more_flow_is_0'
+
+
+class Normalisation(Enum):
+    """What sap flow is a share of."""
+
+    QUANTILES = 'quantiles'
+    RANGE = 'range'
+    """of the raw value, as in the original installation"""
+
+
 @dataclass(frozen=True)
 class ProbeParameters:
     """How a probe is read; the defaults suit a conifer with readings every 25 s to 15 min."""
 
     polarity: Annotated[
         str,
-        Spec('what high sap flow becomes', choices=('more_flow_is_1', 'more_flow_is_0')),
-    ] = 'more_flow_is_1'
+        Spec('what high sap flow becomes', choices=tuple(each.value for each in Polarity)),
+    ] = Polarity.MORE_FLOW_IS_1.value
     normalisation: Annotated[
         str,
         Spec(
             'running quantiles of the flux density, or the running minimum and maximum of the raw '
             'value as the ancestor did',
-            choices=('quantiles', 'range'),
+            choices=tuple(each.value for each in Normalisation),
         ),
-    ] = 'quantiles'
+    ] = Normalisation.QUANTILES.value
     window_days: Annotated[
         float, Spec('days over which the quantiles are taken', 'd', (1.0, 366.0))
     ] = 7.0
@@ -78,10 +94,12 @@ class ProbeParameters:
         float, Spec('change against the recent median that is a spike', '1', (0.01, 10.0))
     ] = 0.15
     stuck_flowing: Annotated[
-        float, Spec('the same value for so long while sap flows is stuck', 'h', (0.01, 1e3))
+        float,
+        Spec('how long the same value is believed while sap flows', 'h', (0.01, 1e3)),
     ] = 4.0
     stuck_resting: Annotated[
-        float, Spec('the same value for so long at zero flow is stuck', 'h', (0.01, 1e3))
+        float,
+        Spec('how long the same value is believed at zero flow', 'h', (0.01, 1e3)),
     ] = 18.0
 
     def __post_init__(self) -> None:
@@ -110,6 +128,8 @@ class ProbeReading(NamedTuple):
     quality: Quality
     zero_flow: float | None
     """[K] dT_max; None before the end of the first night"""
+    flow_index: float | None
+    """[-] Granier's K, negative where dT is above dT_max; None where it cannot be known"""
     flux_density: float | None
     """[m/s] sap flux density; None where it cannot be known"""
     sap_flow: float | None
@@ -122,6 +142,8 @@ class Probe:
     def __init__(self, parameters: ProbeParameters) -> None:
         """Start without a past."""
         self._parameters = given = parameters
+        self._polarity = Polarity(given.polarity)
+        self._normalisation = Normalisation(given.normalisation)
         self._judge = ReadingJudge(
             given.off_below,
             given.highest,
@@ -133,7 +155,7 @@ class Probe:
         )
         self._normaliser: Normaliser = (
             RunningRange(given.opening_range)
-            if given.normalisation == 'range'
+            if self._normalisation is Normalisation.RANGE
             else RunningQuantiles(
                 (given.low_quantile, given.high_quantile),
                 given.window_days,
@@ -170,22 +192,21 @@ class Probe:
         share = self._share(time, temperature_difference, flux)
         if index < 0.0:
             quality = Quality.NEGATIVE_FLOW
-        return ProbeReading(time, temperature_difference, quality, zero_flow, flux, share)
+        return ProbeReading(time, temperature_difference, quality, zero_flow, index, flux, share)
 
     def _share(self, time: float, temperature_difference: float, flux: float) -> float | None:
         """Normalise; the ancestor's raw value falls when flow rises, hence its turn."""
-        given = self._parameters
-        if given.normalisation == 'range':
+        if self._normalisation is Normalisation.RANGE:
             raw = self._normaliser.update(time, temperature_difference)
             share = None if raw is None else 1.0 - raw
         else:
             share = self._normaliser.update(time, flux)
-        if share is None or given.polarity == 'more_flow_is_1':
+        if share is None or self._polarity is Polarity.MORE_FLOW_IS_1:
             return share
         return 1.0 - share
 
     def _unknown(self, time: float, value: float, quality: Quality) -> ProbeReading:
-        return ProbeReading(time, value, quality, self._zero_flow.value, None, None)
+        return ProbeReading(time, value, quality, self._zero_flow.value, None, None, None)
 
     def warm_up(self, history: Iterable[tuple[float, float]]) -> None:
         """Learn from past readings, (time [s], dT [K]) in order of time."""

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.report.figure import figure
-from agv_motion.route.follower import RouteLimiter
 from agv_motion.route.prediction import NOTHING
+from agv_motion.route.speeds import RouteLimiter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -16,9 +16,19 @@ left, and at its end the output is the target. The first tick after a reset is t
 
 from __future__ import annotations
 
-FORMS = ('corrected', 'per_tick', 'seed')
-"""By (2), the same at any rate; by (1) once a tick; and as the original has it, with the last
-*target* in place of the last output in (1)."""
+from enum import Enum
+
+
+class CouplingForm(Enum):
+    """How the gap to the target is closed."""
+
+    CORRECTED = 'corrected'
+    """By (2): the same at any rate"""
+    PER_TICK = 'per_tick'
+    """By (1), once a tick"""
+    ORIGINAL = 'seed'
+    """As the original has it: the last *target* stands in place of the last output in (1)"""
+
 
 ROUNDING = 1e-9
 """A share this near to 1 is 1: the sum of many small steps may miss it."""
@@ -27,12 +37,14 @@ ROUNDING = 1e-9
 class Coupling:
     """One coupled speed."""
 
-    def __init__(self, ramp: float = 0.0, form: str = FORMS[0], output: float = 0.0) -> None:
+    def __init__(
+        self, ramp: float = 0.0, form: CouplingForm = CouplingForm.CORRECTED, output: float = 0.0
+    ) -> None:
         """Start coupling.
 
         Args:
             ramp: Time in which c grows from 0 to 1 [s]; 0: no coupling.
-            form: One of :data:`FORMS`.
+            form: How.
             output: Speed at the start.
 
         """
@@ -40,7 +52,7 @@ class Coupling:
         self._target = self.output = output
         self.reset()
 
-    def set(self, ramp: float, form: str) -> None:
+    def set(self, ramp: float, form: CouplingForm) -> None:
         """Go on with another time [s] and form."""
         self._ramp, self._form = ramp, form
 
@@ -59,9 +71,9 @@ class Coupling:
         self.share = before + dt / self._ramp if self._ramp > 0.0 else 1.0
         if self.share > 1.0 - ROUNDING:
             self.share = 1.0
-        last = self._target if self._form == 'seed' else self.output
+        last = self._target if self._form is CouplingForm.ORIGINAL else self.output
         share = self.share
-        if self._form == 'corrected' and before < 1.0:
+        if self._form is CouplingForm.CORRECTED and before < 1.0:
             share = (share - before) / (1.0 - before)
         self.output = target if share == 1.0 else last + share * (target - last)
         self._target = target

@@ -1,38 +1,26 @@
 r"""The route follower: from the pose of a robot to its speed and turn rate.
 
-.. math:: V_p = \min(v(d\varphi), \max(v(d_n), v(\alpha))), \qquad V = \min(v(d), V_p)
-
-with dphi the angle from the heading to the virtual point, dn the way from there to the next
-waypoint, alpha the angle between its segment and the next, and d the route still to go: from the
-robot straight to the virtual point, and on along the route. Arrived when the virtual point is on
-the last segment and v(d) = 0. Speed and turn rate are coupled, from the start and anew at every
-segment that the virtual point enters.
+Its speed is that of :mod:`agv_motion.route.speeds`, with dphi the angle from the heading to the
+virtual point, dn the way from there to the next waypoint, alpha the angle between its segment and
+the next, and d the route still to go: from the robot straight to the virtual point, and on along
+the route. Arrived when the virtual point is on the last segment and v(d) = 0. Speed and turn rate
+are coupled, from the start and anew at every segment that the virtual point enters.
 """
 
 from __future__ import annotations
 
-from enum import Enum
 from math import atan2, copysign, cos, hypot, isfinite, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import REST, Pose, Twist, require_finite, wrap
-from agv_motion.route.coupling import Coupling
+from agv_motion.route.coupling import Coupling, CouplingForm
+from agv_motion.route.speeds import RouteLimiter, route_speeds
 from agv_motion.route.virtual_point import VirtualPoint
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
     from agv_motion.route.route import Point, Route
-
-
-class RouteLimiter(Enum):
-    """What holds the speed down."""
-
-    TO_GO = 'v(d)'
-    HEADING = 'v(dphi)'
-    WAYPOINT = 'v(dn)'
-    BEND = 'v(alpha)'
-    COUPLING = 'coupling'
 
 
 class RouteLimits(NamedTuple):
@@ -124,7 +112,7 @@ class RouteFollower:
         self._profiles = parameters.profiles()
         self._holonomic = parameters.holonomic
         self._arrival_speed = parameters.arrival_speed
-        form = parameters.coupling_form
+        form = CouplingForm(parameters.coupling_form)
         self._speed.set(parameters.speed_coupling_ms / 1000.0, form)
         self._turn.set(parameters.turn_coupling_ms / 1000.0, form)
 
@@ -133,8 +121,8 @@ class RouteFollower:
         for coupling in (self._speed, self._turn):
             coupling.rest()
 
-    def update(self, pose: Pose, dt: float) -> RouteStep:
-        """Return what to do at ``pose``, ``dt`` [s] after the last update (or the start).
+    def step(self, pose: Pose, dt: float) -> RouteStep:
+        """Return what to do at ``pose``, ``dt`` [s] after the last step (or the start).
 
         Once arrived it stays so, with a twist of zero.
 
@@ -176,17 +164,11 @@ class RouteFollower:
         error = wrap(atan2(dy, dx) - pose.theta) if dx or dy else 0.0
         to_waypoint = route.segment(place.segment).length - place.way
         bend = route.bend(place.segment)
-        v_d, v_dphi = self._profiles.v_d(to_go), self._profiles.v_dphi(abs(error))
-        v_dn, v_alpha = self._profiles.v_dn(to_waypoint), self._profiles.v_alpha(bend)
-        candidates = (
-            (v_d, RouteLimiter.TO_GO),
-            (v_dphi, RouteLimiter.HEADING),
-            (v_dn, RouteLimiter.WAYPOINT) if v_dn > v_alpha else (v_alpha, RouteLimiter.BEND),
-        )
-        speed, limiter = min(candidates, key=lambda candidate: candidate[0])
+        found = route_speeds(self._profiles, error, to_waypoint, bend, to_go)
         return RouteLimits(
-            to_go, error, to_waypoint, bend, v_d, v_dphi, v_dn, v_alpha, speed, limiter
-        )
+            to_go, error, to_waypoint, bend,
+            found.v_d, found.v_dphi, found.v_dn, found.v_alpha, found.speed, found.limiter,
+        )  # fmt: skip
 
     def _twist(self, speed: float, turn_rate: float, heading_error: float) -> Twist:
         if self._holonomic:

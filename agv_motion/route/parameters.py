@@ -7,7 +7,7 @@ from math import degrees, pi, sin
 from typing import Annotated, NamedTuple
 
 from agv_motion.parameters import Spec, check
-from agv_motion.route.coupling import FORMS
+from agv_motion.route.coupling import CouplingForm
 from agv_motion.route.table import ProfileTable
 
 HALF_TURN = pi + 1e-4
@@ -102,10 +102,10 @@ class FollowParameters:
         str,
         Spec(
             'the same at any rate, or by the tick, or as the original has it',
-            choices=FORMS,
+            choices=tuple(form.value for form in CouplingForm),
             dynamic=True,
         ),
-    ] = FORMS[0]
+    ] = CouplingForm.CORRECTED.value
     holonomic: Annotated[
         bool,
         Spec(

@@ -91,7 +91,7 @@ def predict(  # noqa: PLR0913 - all but three have a default
     follower, hold = RouteFollower(route, parameters), (limits or NO_LIMITS).hold
 
     def step(pose: Pose, passed: float) -> RouteStep:
-        found = follower.update(pose, passed)
+        found = follower.step(pose, passed)
         return found._replace(twist=hold(found.twist))
 
     poses, steps = [start], [step(start, 0.0)]

@@ -1,1 +1,25 @@
-"""Sequences of actions: read, predicted, performed."""
+"""Actions one after another, from YAML: go to, rotate, arc, follow a route, wait.
+
+`load_sequence` reads one, `SequenceRunner` runs it, a twist a cycle. What it will take:
+:mod:`agv_motion.sequence.prediction`.
+"""
+
+from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
+from agv_motion.sequence.runner import SequenceRunner, SequenceState, Status
+from agv_motion.sequence.sequence import OnFailure, Sequence, SequenceStep
+from agv_motion.sequence.sequence_file import load_sequence
+
+__all__ = [
+    'DriveArc',
+    'FollowRoute',
+    'GoTo',
+    'OnFailure',
+    'Rotate',
+    'Sequence',
+    'SequenceRunner',
+    'SequenceState',
+    'SequenceStep',
+    'Status',
+    'Wait',
+    'load_sequence',
+]

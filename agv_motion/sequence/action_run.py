@@ -159,7 +159,7 @@ class RouteRun:
         if self._pace == 0.0:
             self._follower.rest()
             return REST
-        found = self._follower.update(pose, dt)
+        found = self._follower.step(pose, dt)
         self._to_go = found.limits.to_go
         self.done = found.arrived
         return Twist(*(self._pace * part for part in found.twist))

@@ -89,6 +89,7 @@ class SequenceRunner:
         self._reason = ''
         self._held = False
         self._after_stop = ''
+        self._aborted = False
         self._nominal: Pose | None = None
         self._waiting = True
         self._runs = [self._run_of(step) for step in sequence.steps]
@@ -102,7 +103,7 @@ class SequenceRunner:
         )  # fmt: skip
 
     @property
-    def step(self) -> SequenceStep:
+    def present(self) -> SequenceStep:
         """The present action; at the end, the last one."""
         return self.sequence.steps[self._number]
 
@@ -135,6 +136,7 @@ class SequenceRunner:
     def abort(self) -> None:
         """Brake, and end it."""
         if not self.ended:
+            self._aborted = True
             self._stop('aborted')
 
     def fail(self, reason: str) -> None:
@@ -149,7 +151,7 @@ class SequenceRunner:
         else:
             self._fail(reason)
 
-    def update(self, pose: Pose | None, dt: float) -> Twist:
+    def step(self, pose: Pose | None, dt: float) -> Twist:
         """Return what to drive until the next cycle.
 
         Args:
@@ -199,8 +201,8 @@ class SequenceRunner:
             self._fail(run.failure)
         elif run.done and not self._waiting:
             self._next()
-        elif self._elapsed > self.step.timeout:
-            self._stop(f'not done within {self.step.timeout:g} s')
+        elif self._elapsed > self.present.timeout:
+            self._stop(f'not done within {self.present.timeout:g} s')
 
     def _stop(self, reason: str) -> None:
         """Brake first, then `_after`."""
@@ -209,7 +211,7 @@ class SequenceRunner:
         self._run.brake_and_end()
 
     def _after(self, reason: str) -> None:
-        if reason == 'aborted':
+        if self._aborted:
             self._state = SequenceState.ABORTED
             self._reason = reason
         else:
@@ -217,7 +219,7 @@ class SequenceRunner:
 
     def _fail(self, reason: str) -> None:
         """Try again, skip, or end, as the action says."""
-        step = self.step
+        step = self.present
         self._reason = f'{step.where}: {step.name}: {reason}'
         if self._attempt <= step.on_failure.retries:
             self._attempt += 1

@@ -1,1 +1,45 @@
-"""Trajectories in time: speed profiles, curves, the Ghost, and laws that follow it."""
+"""Trajectories in time: speed profiles, curves, the Ghost, and laws that follow it.
+
+A `Ghost` computes a `Trajectory` and runs along it in exact time; a `Follower` keeps a robot behind
+it, one twist a cycle. `trapezoid`, `Arc` and `ArcRun` serve controllers that know no pose.
+"""
+
+from agv_motion.trajectory.arc import Arc
+from agv_motion.trajectory.arc_run import ArcRun
+from agv_motion.trajectory.follower import Follower
+from agv_motion.trajectory.follower_parameters import FollowerParameters
+from agv_motion.trajectory.follower_state import FollowerState
+from agv_motion.trajectory.ghost import Ghost, Kinetics
+from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
+from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
+from agv_motion.trajectory.pace import PaceParameters
+from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
+from agv_motion.trajectory.request import NO_RAMP
+from agv_motion.trajectory.tracking import TrackingError, TrackingLaw, tracking_error
+from agv_motion.trajectory.trajectory import Trajectory
+from agv_motion.trajectory.trapezoidal import trapezoid
+
+__all__ = [
+    'NO_RAMP',
+    'Arc',
+    'ArcRun',
+    'Follower',
+    'FollowerParameters',
+    'FollowerState',
+    'Ghost',
+    'GhostParameters',
+    'Holonomic',
+    'HolonomicGains',
+    'Kanayama',
+    'KanayamaGains',
+    'Kinetics',
+    'PaceParameters',
+    'Ramsete',
+    'RamseteGains',
+    'TrackingError',
+    'TrackingLaw',
+    'Trajectory',
+    'tracking_error',
+    'trapezoid',
+]

@@ -22,6 +22,7 @@ from agv_motion.kinematics.differential import WheelSpeeds
 from agv_motion.planar import Pose, Twist, integrate, require_finite
 from agv_motion.trajectory.limits import require_between
 from agv_motion.trajectory.request import SPEEDS, require_ramp
+from agv_motion.trajectory.trapezoidal import trapezoid
 
 MOST_ANGLE = 1e9
 """[rad]"""
@@ -94,6 +95,17 @@ class Arc:
     def share(self) -> float:
         """Speed of the middle over that of the outer wheel."""
         return self.radius / (0.5 * self.diameter + self.track)
+
+    @property
+    def turn_rate(self) -> float:
+        """Of the heading at full speed, left positive [rad/s]; the ramps are slower."""
+        rate = self.speed / (0.5 * self.diameter + self.track)
+        return copysign(rate, self.angle * self.speed)
+
+    @property
+    def duration(self) -> float:
+        """Time from rest to rest, ramps included [s]."""
+        return trapezoid(self.outer_distance, abs(self.speed), self.ramp).duration
 
     def wheels(self, outer: float) -> WheelSpeeds:
         """Return what both wheels do while the outer one does ``outer`` (speed or distance).

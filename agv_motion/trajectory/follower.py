@@ -231,7 +231,7 @@ class Follower:
     def _correct(self) -> Twist:
         """Lead the robot from where it is to where the first Ghost stands, or give up."""
         given = self.parameters
-        if given.law == 'holonomic' or self._corrections >= given.corrections:
+        if self._law.goes_sideways or self._corrections >= given.corrections:
             return self._end(FollowerState.NOT_ARRIVED, self._shortfall())
         here = compose(self.leader.pose, inverse(Pose(*self._approach.error)))
         second = Ghost(here, given.ghost)

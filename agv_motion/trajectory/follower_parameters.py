@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from agv_motion.parameters import Spec, check
 from agv_motion.trajectory.ghost_parameters import GhostParameters
@@ -13,20 +13,27 @@ from agv_motion.trajectory.pace import PaceParameters
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from agv_motion.trajectory.tracking import TrackingLaw
+
+LAWS: dict[str, Callable[[Any], TrackingLaw]] = {
+    'kanayama': Kanayama,
+    'ramsete': Ramsete,
+    'holonomic': Holonomic,
+}
+"""A law is added here, as a group of its name in `FollowerParameters`, and in its own file."""
 
 
 @dataclass(frozen=True)
 class FollowerParameters:
     """How the robot follows its Ghost."""
 
-    law: Annotated[
-        str, Spec('law of control', choices=('kanayama', 'ramsete', 'holonomic'), dynamic=True)
-    ] = 'kanayama'
+    law: Annotated[str, Spec('law of control', choices=tuple(LAWS), dynamic=True)] = 'kanayama'
     delay: Annotated[
         float,
         Spec(
-            'speeds are fed forward so much ahead: lag of motors and link',
+            'how far ahead speeds are fed forward: lag of motors and link',
             's',
             (0.0, 2.0),
             dynamic=True,
@@ -71,6 +78,4 @@ class FollowerParameters:
 
     def make_law(self) -> TrackingLaw:
         """Return the law that is chosen."""
-        if self.law == 'kanayama':
-            return Kanayama(self.kanayama)
-        return Ramsete(self.ramsete) if self.law == 'ramsete' else Holonomic(self.holonomic)
+        return LAWS[self.law](getattr(self, self.law))

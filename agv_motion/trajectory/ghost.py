@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.errors import ConfigurationError, GeometryError, SignalError
 from agv_motion.planar import Pose, require_finite, wrap
 from agv_motion.trajectory.arc import Arc
-from agv_motion.trajectory.braking import Braking
+from agv_motion.trajectory.departure import AT_ONCE, DEPARTURES, leave
 from agv_motion.trajectory.feasibility import Feasibility, examine
 from agv_motion.trajectory.motions import STILL, Speeds
 from agv_motion.trajectory.planner import Planner
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from agv_motion.trajectory.ghost_parameters import GhostParameters
-
-DEPARTURES = (0.0, 0.25, 0.5, 0.75, 0.9)
-"""Shares of the way to a stop, in time, at which a new trajectory may leave the old one."""
 
 MANY = 100
 """A path of more poses leaves the old trajectory at once, or from rest: each try takes its time."""
@@ -164,7 +161,7 @@ class Ghost:
         request = Request(speed_ramps, cruising_speed, delta_curve, backward)
         return self._depart(
             lambda start, present: self._planner.drive(start, poses, request, present),
-            DEPARTURES if len(poses) <= MANY else DEPARTURES[:1],
+            DEPARTURES if len(poses) <= MANY else AT_ONCE,
         )
 
     def require_count(self, poses: int) -> None:
@@ -281,19 +278,10 @@ class Ghost:
         plan: Callable[[Pose, Speeds], Trajectory],
         departures: Sequence[float] = DEPARTURES,
     ) -> Trajectory:
-        """Follow ``plan`` from now, or after as little braking as it needs, by quarters."""
+        """Follow ``plan`` from now, or after as little braking as it needs."""
         if self.speeds == STILL:
             return self._follow(plan(self.pose, STILL))
-        stopped = self._trajectory.stopped(self._time)
-        left = (stopped.duration - self._time) / self._rate
-        for share in departures:
-            braking = Braking(stopped, self._time, self._rate, share * left)
-            try:
-                return self._follow(plan(braking.end, braking.end_speeds).after(braking))
-            except GeometryError:
-                continue
-        braking = Braking(stopped, self._time, self._rate, left)
-        return self._follow(plan(stopped.end, STILL).after(braking))
+        return self._follow(leave(self._trajectory, self._time, self._rate, plan, departures))
 
     def _follow(self, trajectory: Trajectory) -> Trajectory:
         self._trajectory, self._time, self._rate, self._aborted = trajectory, 0.0, 1.0, False

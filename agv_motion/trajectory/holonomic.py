@@ -46,6 +46,8 @@ class HolonomicGains:
 class Holonomic:
     """The law; no state."""
 
+    goes_sideways = True
+
     def __init__(self, gains: HolonomicGains | None = None) -> None:
         """Keep the gains."""
         self.gains = gains or HolonomicGains()

@@ -70,6 +70,8 @@ class KanayamaGains:
 class Kanayama:
     """The law; no state."""
 
+    goes_sideways = False
+
     def __init__(self, gains: KanayamaGains | None = None) -> None:
         """Keep the gains."""
         self.gains = gains or KanayamaGains()

@@ -35,7 +35,7 @@ class PaceParameters:
     heading_arm: Annotated[
         float,
         Spec(
-            'an error of heading counts as so many metres a radian',
+            'distance that counts as much as a heading error of one radian',
             'm/rad',
             (0.0, 10.0),
             dynamic=True,

@@ -13,8 +13,8 @@ from agv_motion.planar import Pose, require_finite, wrap
 from agv_motion.trajectory.arc_length import ArcLength
 from agv_motion.trajectory.bezier import connect
 from agv_motion.trajectory.circle import Circle
+from agv_motion.trajectory.curve_ceiling import curve_ceiling
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.limits import joint_ceiling, lowest_ceiling
 from agv_motion.trajectory.line import Line
 from agv_motion.trajectory.motions import (
     STILL,
@@ -25,15 +25,13 @@ from agv_motion.trajectory.motions import (
     TurnMotion,
 )
 from agv_motion.trajectory.request import Request
-from agv_motion.trajectory.speed_plan import SHORTEST, plan_speed
+from agv_motion.trajectory.speed_plan import plan_speed
 from agv_motion.trajectory.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.trajectory.arc import Arc
-    from agv_motion.trajectory.bezier import Column
-    from agv_motion.trajectory.limits import BendLimit
 
 NOTHING = 1e-9
 """[m], [rad], [m/s], [rad/s] What is shorter or slower than this is none."""
@@ -230,7 +228,7 @@ class Planner:
             raise GeometryError(_other_motion(present))
         profile = plan_speed(
             course.way,
-            _ceiling(course, self._limits, request.cruising_speed),
+            curve_ceiling(course, self._limits, request.cruising_speed),
             ramp,
             max(speed, 0.0),
             self.parameters.s_curve,
@@ -264,38 +262,6 @@ class Planner:
             self.parameters.s_curve,
         )
         return [TurnMotion(start, end, sign, profile, ramp)]
-
-
-def _ceiling(course: ArcLengthCurve, limits: Sequence[BendLimit], cruising_speed: float) -> Column:
-    """Return the highest speed at the nodes such that the limits hold between them too.
-
-    The plan runs straight between nodes in the squared speed. Where the true ceiling hangs below
-    that line in the middle of a cell, its ends are lowered by as much, but no more than a tenth;
-    where this is not enough, the higher end comes down until the line meets the middle.
-    """
-    everywhere = np.concatenate((course.curvature, course.middle_curvature))
-    squares = lowest_ceiling(limits, everywhere, cruising_speed) ** 2
-    square, middle = squares[: len(course.way)], squares[len(course.way) :]
-    length = course.way[1:] - course.way[:-1]
-    joint = length <= SHORTEST * course.length  # of two curves, where the curvature may step
-    share = (course.middle_way - course.way[:-1]) / np.where(joint, 1.0, length)
-    first, last = square[:-1], square[1:]
-    if joint.any():
-        most = joint_ceiling(limits, course.curvature[1:][joint] - course.curvature[:-1][joint])
-        first[joint] = np.minimum(first[joint], most * most)
-        last[joint] = np.minimum(last[joint], most * most)
-    excess = np.where(joint, 0.0, np.maximum(first + share * (last - first) - middle, 0.0))
-    either = np.zeros(len(square))
-    either[:-1] = excess
-    np.maximum(either[1:], excess, out=either[1:])
-    square -= np.minimum(either, 0.1 * square)
-    share[joint], middle[joint] = 0.5, np.inf
-    first_most = np.maximum(middle, (middle - share * last) / (1.0 - share))
-    last_most = np.maximum(middle, (middle - (1.0 - share) * first) / share)
-    np.minimum(first, first_most, out=first)
-    np.minimum(last, last_most, out=last)
-    ceiling: Column = np.sqrt(square)
-    return ceiling
 
 
 def _too_many_stops(request: Request) -> str:

@@ -66,6 +66,8 @@ class RamseteGains:
 class Ramsete:
     """The law; no state."""
 
+    goes_sideways = False
+
     def __init__(self, gains: RamseteGains | None = None) -> None:
         """Keep the gains."""
         self.gains = gains or RamseteGains()

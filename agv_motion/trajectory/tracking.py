@@ -38,6 +38,9 @@ class TrackingError(NamedTuple):
 class TrackingLaw(Protocol):
     """What to drive, from the error and from what the Ghost drives."""
 
+    goes_sideways: bool
+    """Whether it closes an error across at rest"""
+
     def twist(self, error: TrackingError, reference: Speeds) -> Twist:
         """Return the twist of the robot, in its own frame."""
 

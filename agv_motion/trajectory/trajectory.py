@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.planar import Pose
-    from agv_motion.trajectory.braking import Braking
     from agv_motion.trajectory.limits import BendLimit
     from agv_motion.trajectory.request import Request
 
@@ -75,7 +74,7 @@ class Trajectory:
             (self.start, last.end), (*self.motions[:number], last), self.request, self.limits
         )
 
-    def after(self, motion: Braking) -> Trajectory:
+    def after(self, motion: Motion) -> Trajectory:
         """Return this trajectory with ``motion`` before it."""
         if motion.duration == 0.0:
             return self

@@ -30,15 +30,15 @@ TABLES = FollowParameters(
 
 
 def step(pose, route=CORNER, **changes):
-    return RouteFollower(route, FollowParameters(**(vars(TABLES) | changes))).update(pose, 0.1)
+    return RouteFollower(route, FollowParameters(**(vars(TABLES) | changes))).step(pose, 0.1)
 
 
 def at_the_end(pose, **changes):
     """Return the step at ``pose`` of a robot that has come up the last leg."""
     follower = RouteFollower(CORNER, FollowParameters(**(vars(TABLES) | changes)))
     for y in (0.0, 1.0, 2.0, 3.0, 3.3):
-        follower.update(Pose(4.0, y, pi / 2), 0.1)
-    return follower.update(pose, 0.1)
+        follower.step(Pose(4.0, y, pi / 2), 0.1)
+    return follower.step(pose, 0.1)
 
 
 def test_towards_a_waypoint_far_away_it_slows_down_by_the_way_to_it():
@@ -120,9 +120,9 @@ def test_a_table_may_end_the_route_before_its_end():
 def test_arrived_it_stays_so():
     follower = RouteFollower(CORNER, TABLES)
     for y in (0.0, 2.0, 3.0):
-        assert not follower.update(Pose(4.0, y, 0.0), 0.1).arrived
-    assert follower.update(Pose(4.0, 4.0, 0.0), 0.1).arrived
-    later = follower.update(Pose(0.0, 0.0, 0.0), 0.1)
+        assert not follower.step(Pose(4.0, y, 0.0), 0.1).arrived
+    assert follower.step(Pose(4.0, 4.0, 0.0), 0.1).arrived
+    later = follower.step(Pose(0.0, 0.0, 0.0), 0.1)
     assert later.arrived
     assert later.twist == REST
 
@@ -131,7 +131,7 @@ def test_at_the_place_of_the_end_it_has_not_arrived_before_its_last_lap():
     square = Route([(0, 0), (4, 0), (4, 4), (0, 4)], laps=2)
     follower = RouteFollower(square, TABLES)
     corners = [(3.5, 0.0), (4.0, 3.5), (0.5, 4.0), (0.0, 3.0), (0.0, 2.0), (0.0, 1.0), (0.0, 0.0)]
-    arrivals = [follower.update(Pose(x, y, 0.0), 0.1).arrived for x, y in corners * 2]
+    arrivals = [follower.step(Pose(x, y, 0.0), 0.1).arrived for x, y in corners * 2]
     assert arrivals == [False] * 13 + [True]
 
 
@@ -139,10 +139,10 @@ def test_the_coupling_starts_anew_on_each_segment():
     """0.4 s: 0.25, 0.5 ... of V; then from 1 towards 0.6, which the heading asks for."""
     coupled = FollowParameters(**(vars(TABLES) | {'speed_coupling_ms': 400.0}))
     follower = RouteFollower(Route([(0, 0), (4, 0), (20, 0)]), coupled)
-    speeds = [follower.update(Pose(x, 0.0, 0.0), 0.1) for x in (0.5, 1.0, 1.5, 2.0, 2.5)]
+    speeds = [follower.step(Pose(x, 0.0, 0.0), 0.1) for x in (0.5, 1.0, 1.5, 2.0, 2.5)]
     assert [found.twist.vx for found in speeds] == pytest.approx([0.25, 0.5, 0.75, 1.0, 1.0])
     assert [found.limits.limiter for found in speeds[:3]] == [RouteLimiter.COUPLING] * 3
-    turned = [follower.update(Pose(x, 0.0, 1.0), 0.1) for x in (3.5, 3.6, 3.7, 3.8)]
+    turned = [follower.step(Pose(x, 0.0, 1.0), 0.1) for x in (3.5, 3.6, 3.7, 3.8)]
     assert [found.limits.speed for found in turned] == pytest.approx([0.6] * 4)
     assert [found.twist.vx for found in turned] == pytest.approx([0.9, 0.8, 0.7, 0.6])
 
@@ -160,14 +160,14 @@ def test_other_tables_may_be_given_on_the_way():
     follower = RouteFollower(CORNER, TABLES)
     slow = FollowParameters(**(vars(TABLES) | {'v_dphi': (0.0, 0.2)}))
     follower.retune(slow)
-    assert follower.update(Pose(2.0, 0.0, 0.0), 0.1).twist.vx == pytest.approx(0.2)
+    assert follower.step(Pose(2.0, 0.0, 0.0), 0.1).twist.vx == pytest.approx(0.2)
 
 
 def test_a_new_route_goes_on_from_the_present_speed():
     """A quarter of the way from 0.5 to V = 0.9."""
     coupled = FollowParameters(**(vars(TABLES) | {'speed_coupling_ms': 400.0}))
     follower = RouteFollower(CORNER, coupled, speed=0.5)
-    assert follower.update(Pose(0.0, 0.0, 0.0), 0.1).twist.vx == pytest.approx(0.6)
+    assert follower.step(Pose(0.0, 0.0, 0.0), 0.1).twist.vx == pytest.approx(0.6)
 
 
 @pytest.mark.parametrize(
@@ -182,8 +182,8 @@ def test_a_new_route_goes_on_from_the_present_speed():
 def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
     follower = RouteFollower(CORNER, TABLES)
     with pytest.raises(SignalError):
-        follower.update(pose, dt)
-    assert follower.update(Pose(0.0, 0.0, 0.0), 0.1).virtual_point == (1.0, 0.0)
+        follower.step(pose, dt)
+    assert follower.step(Pose(0.0, 0.0, 0.0), 0.1).virtual_point == (1.0, 0.0)
 
 
 numbers = st.floats(-10.0, 10.0)
@@ -196,7 +196,7 @@ numbers = st.floats(-10.0, 10.0)
 def test_the_speed_is_never_above_any_table(waypoints, poses):
     follower = RouteFollower(Route(waypoints), TABLES)
     for pose in poses:
-        found = follower.update(Pose(*pose), 0.1)
+        found = follower.step(Pose(*pose), 0.1)
         limits = found.limits
         assert found.twist.vx <= limits.v_d
         assert found.twist.vx <= limits.v_dphi

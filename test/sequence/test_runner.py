@@ -39,7 +39,7 @@ class Drive:
 
     def tick(self, dt=0.05, *, seen=True, stuck=False):
         number = self.runner.status.number
-        self.twist = self.runner.update(self.pose if seen else None, dt)
+        self.twist = self.runner.step(self.pose if seen else None, dt)
         if self.runner.status.number != number or self.runner.ended:
             self.ends.append(self.pose)
         if not stuck:
@@ -111,7 +111,7 @@ def test_a_timeout_stops_the_robot_with_a_ramp_and_ends_it():
     assert drive.runner.status.number == 0
     assert 'm.yaml:0:1: GoTo: not done within 5 s' in drive.runner.status.reason
     assert 0.8 < 0.05 * len(speeds) < 2.0
-    assert drive.runner.update(drive.pose, 0.05) == REST
+    assert drive.runner.step(drive.pose, 0.05) == REST
 
 
 def test_a_failure_may_be_skipped():
@@ -235,7 +235,7 @@ def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
     drive.run(1.0)
     before = drive.runner.status
     with pytest.raises(SignalError):
-        drive.runner.update(pose, dt)
+        drive.runner.step(pose, dt)
     assert drive.runner.status == before
 
 
@@ -261,7 +261,7 @@ def test_failed_from_outside_without_a_retry_it_ends():
     drive.run(2.0)
     drive.runner.fail('blocked: held')
     assert drive.runner.status.state is SequenceState.FAILED
-    assert drive.runner.update(drive.pose, 0.05) == REST
+    assert drive.runner.step(drive.pose, 0.05) == REST
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.arc_run import ArcRun
 from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory.request import NO_RAMP
 
 TRACK = 0.3
 ORIGIN = Pose(0.0, 0.0, 0.0)
@@ -175,3 +176,19 @@ def test_an_impossible_arc_is_refused(values, word):
 def test_time_that_cannot_pass_is_refused(dt):
     with pytest.raises(SignalError, match='dt ='):
         ArcRun(Arc(1.0, 1.0, TRACK, 0.4, 0.5)).advance(dt)
+
+
+@pytest.mark.parametrize(
+    ('angle', 'speed', 'rate'), [(pi, 0.5, 1.0), (-pi, 0.5, -1.0), (pi, -0.5, -1.0)]
+)
+def test_it_tells_duration_and_turn_rate(angle, speed, rate):
+    """Outer radius 0.5 m: pi/2 m at 0.5 m/s, ramps of 0.25 m/s2 add 2 s."""
+    arc = Arc(angle, 0.4, 0.3, speed, 0.25)
+    assert arc.turn_rate == pytest.approx(rate)
+    assert arc.duration == pytest.approx(pi + 2.0)
+    assert arc.duration == pytest.approx(ArcRun(arc).duration, rel=1e-12)
+
+
+def test_without_ramp_it_takes_length_over_speed():
+    assert Arc(pi, 0.4, 0.3, 0.5, NO_RAMP).duration == pytest.approx(pi)
+    assert Arc(0.0, 0.4, 0.3, 0.5, 1.0).duration == 0.0

@@ -1,0 +1,56 @@
+"""The sources of readings by name: the one place that knows them all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+from agv_motion.parameters import Spec
+from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
+from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
+from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from agv_motion.probe.sources.source import ProbeSource
+
+
+class SourceKind(NamedTuple):
+    """One kind of source."""
+
+    open: Callable[[Any, float], ProbeSource]
+    """from its group of parameters, and the days of history to learn from"""
+    probes: Callable[[Any], int]
+    """number of probes that the group speaks of"""
+
+
+SOURCES = {
+    'simulated': SourceKind(SimulatedSource, lambda given: given.probes),
+    'csv': SourceKind(CsvSource, lambda given: len(given.columns)),
+    'serial': SourceKind(lambda given, _: SerialSource(given), lambda given: len(given.fields)),
+}
+"""A source is added here, as a group of its name in `SourceParameters`, and in its own file."""
+
+
+@dataclass(frozen=True)
+class SourceParameters:
+    """Where the readings come from; each source has a group of its name."""
+
+    source: Annotated[str, Spec('where the readings come from', choices=tuple(SOURCES))] = (
+        'simulated'
+    )
+    warm_up_days: Annotated[
+        float, Spec("how much of the source's history to learn from at the start", 'd', (0, 366))
+    ] = 8.0
+    simulated: SimulatedSourceParameters = field(default_factory=SimulatedSourceParameters)
+    csv: CsvParameters = field(default_factory=CsvParameters)
+    serial: SerialParameters = field(default_factory=SerialParameters)
+
+    def probes(self) -> int:
+        """Return the number of probes that the chosen source has."""
+        return SOURCES[self.source].probes(getattr(self, self.source))
+
+    def open_source(self) -> ProbeSource:
+        """Open the source that was chosen."""
+        return SOURCES[self.source].open(getattr(self, self.source), self.warm_up_days)
