@@ -32,7 +32,8 @@ def command_columns(
     """
     speeds = wheels.matrix @ require_columns('twist', twist, 3)
     fastest = np.abs(speeds).max(axis=0, initial=max_wheel_speed)
-    return speeds if np.all(fastest == max_wheel_speed) else speeds * (max_wheel_speed / fastest)
+    speeds *= max_wheel_speed / fastest
+    return speeds
 
 
 def twist_columns(wheels: OmniWheels, speeds: Column) -> TwistColumns:

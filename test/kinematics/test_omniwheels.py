@@ -206,3 +206,12 @@ def test_rates_need_radii_and_one_number_a_wheel():
         base.rates([0.0] * 2)
     with pytest.raises(SignalError, match='wheel rates must be finite'):
         base.speeds([0.0, nan, 0.0])
+
+
+@pytest.mark.parametrize(
+    ('rolling', 'message'),
+    [(pi / 4, r'\(0\.7071, -0\.7071\)'), (-pi / 4, r'\(0\.7071, 0\.7071\)'), (pi / 2, r'\(1, ')],
+)
+def test_a_motion_that_turns_no_wheel_is_named_forwards(rolling, message):
+    with pytest.raises(GeometryError, match=f'moves along {message}'):
+        OmniWheels([OmniWheel(cos(a), sin(a), rolling) for a in (0.0, 1.0, 2.0)])

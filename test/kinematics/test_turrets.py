@@ -138,3 +138,11 @@ def test_polar_positions():
 def test_wheels_that_stand_are_straight_unless_they_were_held_otherwise():
     assert TREE.command(REST) == ([0.0] * 3, [0.0] * 3, 1.0)
     assert TREE.command(Twist(0.1, 0.2, 0.3)) == TREE.command(Twist(0.1, 0.2, 0.3), [0.0] * 3)
+
+
+def test_columns_are_solved_to_the_bit_as_one_by_one():
+    rng = np.random.default_rng(3)
+    angles, speeds = rng.uniform(-3, 3, (3, 10)), rng.uniform(-1, 1, (3, 10))
+    found = np.array(TREE.solve_columns(angles, speeds)).T.tolist()
+    pairs = zip(angles.T.tolist(), speeds.T.tolist(), strict=True)
+    assert found == [list(TREE.solve(angle, speed)) for angle, speed in pairs]

@@ -22,3 +22,7 @@ def test_a_robot_that_cannot_brake_as_it_speeds_up_is_refused(up, down):
 def test_each_limit_has_a_range(name, value):
     with pytest.raises(ConfigurationError, match=f'{name} = '):
         WheelLimits(**{name: value})
+
+
+def test_by_default_there_is_no_limit_of_jerk():
+    assert WheelLimits() == WheelLimits(1.0, 2.0, 4.0, 0.0)
