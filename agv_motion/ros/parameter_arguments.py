@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 VALUES = 'ros__parameters'
 SINGLE = '-p', '--param'
+FILE = ('--params-file',)
 
 
 def meant(name: str, choices: Sequence[str]) -> str:
@@ -42,13 +43,13 @@ def check_arguments(arguments: Sequence[str]) -> None:
         if not name or not value:
             msg = f"-p '{rule}': write -p name:=value"
             raise ConfigurationError(msg)
-    for path in _given(arguments, '--params-file'):
+    for path in _given(arguments, *FILE):
         sections(path)
 
 
 def passed_over(arguments: Sequence[str], node: str) -> Iterator[str]:
     """Yield what of a command line has nothing for ``node``, a name with its namespace."""
-    for path in _given(arguments, '--params-file'):
+    for path in _given(arguments, *FILE):
         keys = [key for key, _ in sections(path)]
         if keys and not any(is_for(key, node) for key in keys):
             yield (
@@ -61,14 +62,52 @@ def passed_over(arguments: Sequence[str], node: str) -> Iterator[str]:
             yield f"-p {rule} is for the node '{key}', this one is {node}{meant(node, ['/' + key])}"
 
 
+def overruled(arguments: Sequence[str], node: str) -> Iterator[str]:
+    """Yield what ``-p name:=value`` asks of ``node`` in vain, since a file counts for more.
+
+    ROS takes it for a value of ``/**``. Of the names in files that fit a node, the one that
+    appeared last counts, and one that is given again stays where it appeared first.
+    """
+    names: dict[str, dict[str, str]] = {}
+    asked: dict[str, str] = {}
+    for option, value in _options(arguments):
+        if option in FILE:
+            for key, values in sections(value):
+                names.setdefault(key, {}).update(dict.fromkeys(_dotted(values), value))
+        elif option in SINGLE and ':' not in value.partition(':=')[0]:
+            names.setdefault('/**', {})
+            asked[value.partition(':=')[0]] = value
+    for name, rule in asked.items():
+        *_, last = ('/**', *(key for key in names if is_for(key, node) and name in names[key]))
+        later = list(names).index(last) > list(names).index('/**')
+        if later:
+            yield (
+                f"-p {rule} counts for nothing: '{names[last][name]}' says {name} for {last}; "
+                'change it there, or give a parameter file of your own after that one'
+            )
+
+
+def _dotted(values: dict[str, Any], prefix: str = '') -> Iterator[str]:
+    for name, value in values.items():
+        if isinstance(value, dict):
+            yield from _dotted(value, f'{prefix}{name}.')
+        else:
+            yield f'{prefix}{name}'
+
+
 def _given(arguments: Sequence[str], *options: str) -> Iterator[str]:
     """Yield the values of an option of ROS."""
+    return (value for option, value in _options(arguments) if option in options)
+
+
+def _options(arguments: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield each word among the arguments of ROS with the one after it."""
     ours = False
     for option, value in pairwise(arguments):
         if option in {'--ros-args', '--'}:
             ours = option == '--ros-args'
-        elif ours and option in options:
-            yield value
+        elif ours:
+            yield option, value
 
 
 def _content(path: str) -> Any:

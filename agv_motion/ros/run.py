@@ -23,7 +23,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.ros.live_node import LiveNode
-from agv_motion.ros.parameter_arguments import check_arguments, passed_over
+from agv_motion.ros.parameter_arguments import check_arguments, overruled, passed_over
 from agv_motion.ros.stop import Stop, end_no_more
 
 if TYPE_CHECKING:
@@ -154,7 +154,10 @@ def run(kind: type[PlainNode[Any]]) -> None:
 
 def _run(node: LiveNode[Any], until: Callable[[], bool]) -> None:
     autostart, executor = declare(node)
-    for text in passed_over(sys.argv, node.get_fully_qualified_name()):
+    name = node.get_fully_qualified_name()
+    for text in overruled(sys.argv, name):
+        raise ConfigurationError(text)
+    for text in passed_over(sys.argv, name):
         node.port.refuse(text)
     if autostart:
         start(node, until)

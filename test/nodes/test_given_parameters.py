@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +19,7 @@ from agv_motion.nodes.ghost_trajectory import GhostTrajectory
 from agv_motion.nodes.granier_probe import GranierProbe
 
 NODE = 'agv_motion.nodes.differential_kinematics'
+CONFIG = Path(__file__).parents[2] / 'config' / 'differential.yaml'
 
 
 def start_process(*arguments):
@@ -36,6 +38,10 @@ def start_process(*arguments):
         (['--params-file', '/no/such.yaml'], '/no/such.yaml'),
         (['--bogus'], '--bogus'),
         (['-p', 'track'], "-p 'track': write -p name:=value"),
+        (
+            ['-p', 'track:=0.5', '--params-file', str(CONFIG)],
+            f"-p track:=0.5 counts for nothing: '{CONFIG}' says track",
+        ),
     ],
 )
 def test_what_cannot_be_is_one_line_and_status_1(arguments, words):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import check_arguments, passed_over
+from agv_motion.ros.parameter_arguments import check_arguments, overruled, passed_over
 
 NODE = '/oak/differential_kinematics'
 
@@ -83,3 +83,49 @@ def test_an_argument_for_another_node():
 
 def test_what_is_no_argument_of_ros_is_left_alone():
     assert not list(passed_over(['node', '--params-file', 'no.yaml', '--ros-args', '--'], NODE))
+
+
+ANYWHERE = '/**: {ros__parameters: {wheel_radius: 0.1}}\n'
+OF_THE_NODE = (
+    '/**/differential_kinematics: {ros__parameters: {track: 0.3, odometry: {max_gap: 1.0}}}\n'
+)
+
+
+@pytest.mark.parametrize(
+    ('text', 'before', 'rule', 'vain'),
+    [
+        (ANYWHERE + OF_THE_NODE, False, 'track:=0.4', True),
+        (ANYWHERE + OF_THE_NODE, True, 'track:=0.4', True),
+        (OF_THE_NODE, True, 'track:=0.4', True),
+        (OF_THE_NODE, False, 'track:=0.4', False),  # ** comes last
+        (OF_THE_NODE + ANYWHERE, False, 'track:=0.4', False),
+        (ANYWHERE + OF_THE_NODE, False, 'odometry.max_gap:=2.0', True),
+        (ANYWHERE + OF_THE_NODE, False, 'wheel_radius:=0.2', False),
+        (ANYWHERE + OF_THE_NODE, False, 'rate:=5.0', False),
+        (ANYWHERE + OF_THE_NODE, False, 'differential_kinematics:track:=0.4', False),
+        (ANYWHERE + OF_THE_NODE.replace('diff', 'x'), False, 'track:=0.4', False),
+    ],
+)
+def test_a_value_that_a_file_overrules_is_told_as_rcl_takes_it(file, text, before, rule, vain):
+    """What rcl makes of the same arguments is the judge."""
+    rclpy = pytest.importorskip('rclpy')
+    path = file(text)[-2:]
+    single = ['-p', rule]
+    given = ['node', '--ros-args', *(single + path if before else path + single)]
+    found = list(overruled(given, NODE))
+    assert len(found) == vain
+    name, _, value = rule.rpartition(':=')
+    if vain:
+        assert f'-p {rule} counts for nothing' in found[0]
+        assert path[1] in found[0]
+    if 'differential_kinematics' not in rule:  # names with a namespace are not for rcl to compare
+        context = rclpy.Context()
+        rclpy.init(args=[*given, '-r', '__ns:=/oak'], context=context)
+        node = rclpy.create_node(
+            'differential_kinematics', context=context,
+            automatically_declare_parameters_from_overrides=True,
+        )  # fmt: skip
+        taken = node.get_parameter(name).value
+        node.destroy_node()
+        rclpy.shutdown(context=context)
+        assert (taken != float(value)) == vain
