@@ -9,7 +9,7 @@ from datetime import datetime, timedelta
 from io import StringIO
 from math import pi, sin
 
-from agv_motion.probe.probe import Probe, ProbeParameters
+from agv_motion.probe import Probe, ProbeParameters
 
 KELVIN_PER_MILLIVOLT = 25.0
 START = datetime.fromisoformat('2015-06-15T00:00:00+00:00')

@@ -8,8 +8,7 @@ from math import degrees, pi, radians
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics import OmniWheels
-from agv_motion.odometry.omni_odometry import OmniOdometry
-from agv_motion.odometry.parameters import OdometryParameters
+from agv_motion.odometry import OdometryParameters, OmniOdometry
 from agv_motion.planar import Twist
 
 RADII = [0.05] * 4

@@ -6,9 +6,7 @@ The robot drives along x at 0.5 m/s; its wheels are 2 % smaller than drawn. Twic
 
 import numpy as np
 
-from agv_motion.odometry.covariance import Covariance
-from agv_motion.odometry.fix import position_fix
-from agv_motion.odometry.fusion import PoseFusion
+from agv_motion.odometry import Covariance, PoseFusion, position_fix
 from agv_motion.planar import Pose
 
 noise = np.random.default_rng(1)

@@ -7,8 +7,7 @@ speeds up with 0.3 m/s2 to 0.3 m/s and brakes as hard; the inner one keeps the r
 from math import degrees, radians
 
 from agv_motion.planar import Pose
-from agv_motion.trajectory.arc import Arc
-from agv_motion.trajectory.arc_run import ArcRun
+from agv_motion.trajectory import Arc, ArcRun
 
 arc = Arc(angle=radians(90), diameter=1.0, track=0.4, speed=0.3, ramp=0.3)
 end = arc.end(Pose(0.0, 0.0, 0.0))

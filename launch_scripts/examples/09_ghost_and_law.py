@@ -7,10 +7,8 @@ good by the law of Kanayama: the function V of the error never grows but by the 
 from math import degrees, hypot, pi
 
 from agv_motion.planar import Pose, Twist, integrate
-from agv_motion.trajectory.ghost import Ghost
-from agv_motion.trajectory.kanayama import Kanayama
+from agv_motion.trajectory import Ghost, Kanayama, tracking_error
 from agv_motion.trajectory.motions import Speeds
-from agv_motion.trajectory.tracking import tracking_error
 
 ghost, law = Ghost(Pose(0.0, 0.0, 0.0)), Kanayama()
 trajectory = ghost.compute_trajectory(

@@ -5,9 +5,8 @@ A robot that drives straight at a point a distance dp ahead goes round a right a
 """
 
 from agv_motion.planar import Pose
-from agv_motion.route.parameters import FollowParameters
+from agv_motion.route import FollowParameters, Route
 from agv_motion.route.prediction import predict
-from agv_motion.route.route import Route
 
 route = Route([(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)])
 print(f'{len(route.segments)} segments, {route.length:.1f} m')

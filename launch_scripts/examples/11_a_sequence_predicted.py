@@ -5,10 +5,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from agv_motion.planar import Pose
-from agv_motion.route.parameters import FollowParameters
+from agv_motion.route import FollowParameters
+from agv_motion.sequence import load_sequence
 from agv_motion.sequence.prediction import predict
-from agv_motion.sequence.sequence_file import load_sequence
-from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory import GhostParameters
 
 TEXT = """
 name: round trip
