@@ -52,6 +52,14 @@ class RunBag(NamedTuple):
     ways: dict[str, list[Column]]
     """(n, 2) places of each path that was shown [m], by topic"""
 
+    def distance(self) -> float:
+        """Return how far the robot went [m]."""
+        return float(np.hypot(*np.diff(self.driven.pose[:, :2], axis=0).T).sum())
+
+    def duration(self) -> float:
+        """Return how long it was on its way [s]."""
+        return float(self.driven.time[-1] - self.driven.time[0])
+
 
 def read_run(bag: BagReader, planned: str = '', driven: str = '') -> RunBag:
     """Read a run.

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import os
-import re
-from collections import Counter
 from filecmp import cmp
-from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
-import numpy as np
 import typer
 from rich.progress import track
 
@@ -20,19 +14,6 @@ from agv_motion.cli.bag.options import Bag, Duration, StartOffset, opened, reada
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.unfinished import hidden_folder, told
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from agv_motion.bag.columns.column import Column
-    from agv_motion.bag.columns.columns import Columns
-
-MOST_COLUMNS = 64
-"""Longer arrays stay in one cell."""
-LONGEST_NAME = 150
-"""Characters of the name of a file before its suffix; most file systems allow 255."""
-_UNFIT = re.compile(r'[^A-Za-z0-9_.+~-]')
-_BLOCK = 10_000
 
 
 def export(
@@ -60,9 +41,10 @@ def export(
     agv bag export walk tables --topics /odom --field header.stamp --field pose.pose -f parquet
     """
     from agv_motion.bag.columns.columns import read_topic
+    from agv_motion.bag.columns.table_files import file_names, write_csv, write_parquet
 
     console = terminal(stderr=True)
-    writers = {'csv': _csv, 'parquet': _parquet}
+    writers = {'csv': write_csv, 'parquet': write_parquet}
     if table not in writers:
         msg = f"--format '{table}': choose csv or parquet"
         raise ConfigurationError(msg)
@@ -112,60 +94,3 @@ def _is_there(path: Path, made: Path) -> bool:
         return True
     msg = f'{path} exists, with other content: choose another folder, nothing is overwritten'
     raise ConfigurationError(msg)
-
-
-def file_names(topics: Iterable[str]) -> dict[str, str]:
-    """Return a file name for each topic: as like it as can be, no two alike, none too long."""
-    plain = {topic: topic.strip('/').replace('/', '__') for topic in topics}
-    counts = Counter(name.lower() for name in plain.values())
-    names = {}
-    for topic, name in plain.items():
-        kept = _UNFIT.sub('_', name)[:LONGEST_NAME]
-        if kept != name or not name.strip('.') or counts[name.lower()] > 1:
-            kept = f'{kept}_{sha256(topic.encode(errors="surrogateescape")).hexdigest()[:8]}'
-        names[topic] = kept
-    return names
-
-
-def _cells(columns: Columns) -> Iterator[tuple[str, Column]]:
-    """Yield name and values of every column of the table."""
-    yield 'log_time', columns.stamps
-    for path, column in columns.fields.items():
-        shape: tuple[int, ...] = getattr(column, 'shape', ())
-        if len(shape) == 1:
-            yield path, column
-        elif len(shape) == 2 and shape[1] <= MOST_COLUMNS:
-            for i in range(shape[1]):
-                yield f'{path}[{i}]', column[:, i]
-        else:
-            yield path, column
-
-
-def _csv(path: Path, columns: Columns) -> None:
-    names, cells = zip(*_cells(columns), strict=True)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file)
-        writer.writerow(names)
-        for first in range(0, len(columns.stamps), _BLOCK):
-            block = [_text(cell[first : first + _BLOCK]) for cell in cells]
-            writer.writerows(zip(*block, strict=True))
-
-
-def _text(column: Column) -> list[Any]:
-    """Return cells; whatever is in a cell, if it is a list, as JSON."""
-    values: list[Any] = column.tolist()
-    return [json.dumps(v) if isinstance(v, list) else v for v in values]
-
-
-def _parquet(path: Path, columns: Columns) -> None:
-    try:
-        import pyarrow as pa
-        from pyarrow import parquet
-    except ImportError as error:
-        msg = 'Parquet needs pyarrow: pip install "agv_motion[parquet]"'
-        raise ConfigurationError(msg) from error
-    found = {
-        name: column if isinstance(column, np.ndarray) and column.ndim == 1 else column.tolist()
-        for name, column in _cells(columns)
-    }
-    parquet.write_table(pa.table(found), path)

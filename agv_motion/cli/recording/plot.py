@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
 from agv_motion.cli.bag.options import opened
@@ -52,9 +51,7 @@ def _told(run: RunBag) -> Errors | None:
     """Print how long and far the robot went, and its errors, which are returned if there are."""
     from agv_motion.report.run_errors import errors_between
 
-    way = float(np.hypot(*np.diff(run.driven.pose[:, :2], axis=0).T).sum())
-    lasted = run.driven.time[-1] - run.driven.time[0]
-    typer.echo(f'{run.driven.topic}: {lasted:.1f} s, {way:.2f} m')
+    typer.echo(f'{run.driven.topic}: {run.duration():.1f} s, {run.distance():.2f} m')
     if run.planned is None:
         return None
     if run.planned.frame != run.driven.frame:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 import yaml
@@ -15,18 +15,10 @@ from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from agv_motion.bag.reader import BagReader
     from agv_motion.odometry.calibration import Calibration
-    from agv_motion.odometry.calibration_models import CalibrationModel
-    from agv_motion.report.calibration_drive import Wheels
 
 NINETY_FIVE = 1.96
 """Standard deviations to either side that hold 95 of 100 truths."""
-
-TURRET_NOISE = 0.005
-"""[m] of a turret's wheel after one metre: its node has no parameter for it."""
 
 CONFIGS = {
     'omni_kinematics': 'omni.yaml',
@@ -34,16 +26,6 @@ CONFIGS = {
     'wheel_kinematics': 'tree.yaml',
 }
 """The node of each kind of base, and the file of config/ with its drawing."""
-
-
-class Drawing(NamedTuple):
-    """A base as its node's parameters draw it."""
-
-    model: CalibrationModel
-    wheels: Wheels
-    wheel_noise: float
-    written: Callable[[dict[str, float]], dict[str, Any]]
-    """parameters of the node, from the unknowns by name"""
 
 
 def calibrate(
@@ -78,17 +60,21 @@ def calibrate(
 
     agv run omni_kinematics --ros-args --params-file calibrated.yaml
     """
+    from agv_motion.nodes.catalogue import parameters_of
     from agv_motion.odometry.calibration import calibrate as fit
+    from agv_motion.report.calibration_drawing import drawing_of, node_of
     from agv_motion.report.calibration_drive import read_drive
     from agv_motion.ros.config import find_config
+    from agv_motion.ros.parameter_file import load_parameters
 
     prefix = f'/{namespace.strip("/")}'.rstrip('/')
     with opened(bag) as reader:
-        name = node or _node_of(reader, prefix)
+        name = node or node_of(reader, prefix)
         if name not in CONFIGS:
             msg = f"node = '{name}': choose one of {', '.join(CONFIGS)}"
             raise ConfigurationError(msg)
-        drawing = _drawing(find_config(config or CONFIGS[name]), name, prefix)
+        given = load_parameters(find_config(config or CONFIGS[name]), name, parameters_of(name))
+        drawing = drawing_of(name, given, prefix)
         drive = read_drive(reader, drawing.wheels, reference, prefix)
         for note in drive.notes:
             typer.echo(note, err=True)
@@ -110,73 +96,6 @@ def calibrate(
         with replacing(output) as made:
             made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
         typer.echo(f'Parameters: {output}')
-
-
-def _node_of(bag: BagReader, prefix: str) -> str:
-    """Return whose robot is in the bag, by its topics and joints."""
-    topics, path = bag.topics, bag.path
-    if f'{prefix}/turrets/state' in topics:
-        return 'wheel_kinematics'
-    if f'{prefix}/wheels/state' in topics:
-        free = f'{prefix}/wheels/free_speed' in topics
-        return 'omni_kinematics' if free else 'differential_kinematics'
-    msg = f'{path} has neither turrets/state nor wheels/state: it has {", ".join(sorted(topics))}'
-    raise ConfigurationError(msg)
-
-
-def _drawing(config: Path, node: str, prefix: str) -> Drawing:
-    from agv_motion.nodes.catalogue import parameters_of
-    from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel, TurretModel
-    from agv_motion.report.calibration_drive import Wheels, joints_of_turrets
-    from agv_motion.ros.parameter_file import load_parameters
-
-    given: Any = load_parameters(config, node, parameters_of(node))
-    if node == 'wheel_kinematics':
-        turrets = given.turrets()
-        rolling, steering = joints_of_turrets(len(turrets))
-        return Drawing(
-            TurretModel(turrets, [given.wheel_radius] * len(turrets)),
-            Wheels(f'{prefix}/turrets/state', rolling, steering),
-            TURRET_NOISE,
-            _turret_parameters,
-        )
-    noise, encoder_range = given.odometry.wheel_noise, given.odometry.encoder_range
-    wheels = Wheels(f'{prefix}/wheels/state', list(given.joint_names), [], encoder_range)
-    if node == 'differential_kinematics':
-        track, track_drawn = given.track, given.track * given.track_multiplier
-        return Drawing(
-            DifferentialModel(track_drawn, given.wheel_radii),
-            wheels,
-            noise,
-            lambda values: _differential_parameters(values, track),
-        )
-    return Drawing(OmniModel(given.wheels(), given.wheel_radii), wheels, noise, _omni_parameters)
-
-
-def _all(values: dict[str, float], start: str) -> list[float]:
-    return [round(value, 6) for name, value in values.items() if name.startswith(start)]
-
-
-def _omni_parameters(values: dict[str, float]) -> dict[str, Any]:
-    return {
-        'wheel_radii': _all(values, 'radius_'),
-        'wheel_distances': _all(values, 'distance_'),
-    }
-
-
-def _differential_parameters(values: dict[str, float], track: float) -> dict[str, Any]:
-    return {
-        'wheel_radii': _all(values, 'radius_'),
-        'track_multiplier': round(values['track'] / track, 6),
-    }
-
-
-def _turret_parameters(values: dict[str, float]) -> dict[str, Any]:
-    radii = _all(values, 'radius_')
-    return {
-        'wheel_radius': round(sum(radii) / len(radii), 6),  # the node has one for all wheels
-        'steering_zero': _all(values, 'zero_'),
-    }
 
 
 def _print(found: Calibration, topic: str) -> None:

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from agv_motion.bag.columns.table_files import LONGEST_NAME, file_names
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.cli.bag.export import LONGEST_NAME, file_names
 from agv_motion.cli.bag.group import app
 from agv_motion.errors import AgvMotionError
 

@@ -1,0 +1,101 @@
+"""Fields of a bag over time, in panels."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.bag.columns.columns import read_topic
+from agv_motion.errors import ConfigurationError
+from agv_motion.report.figure import figure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.columns.columns import Columns
+    from agv_motion.bag.reader import BagReader
+
+MOST_LINES = 24
+"""of one panel"""
+
+
+class FieldLine(NamedTuple):
+    """The numbers of one field."""
+
+    label: str
+    time: NDArray[np.floating[Any]]
+    """(n,) since the start of the bag [s]"""
+    values: Any
+    """(n,)"""
+
+
+def read_panel(
+    bag: BagReader, names: str, start: int | None = None, stop: int | None = None
+) -> list[FieldLine]:
+    """Return all numbers in some fields.
+
+    Args:
+        bag: Open.
+        names: Such as ``/cmd_vel/twist/linear``; several with commas between them.
+        start: First log time [ns]; None: the whole bag.
+        stop: Log time before which to stop [ns].
+
+    Raises:
+        ConfigurationError: A field is not there, or it is no number, or there are too many.
+
+    """
+    panel: list[FieldLine] = []
+    for name in names.split(','):
+        topic, field = _split(bag, name)
+        columns = read_topic(bag, topic, [field] if field else None, start, stop)
+        time = (columns.stamps - bag.start) * 1e-9
+        panel += [FieldLine(f'{topic} {path}', time, y) for path, y in _lines(columns)]
+    if not 0 < len(panel) <= MOST_LINES:
+        msg = f'{names} has {len(panel)} numbers, expected 1 to {MOST_LINES}: be exact'
+        raise ConfigurationError(msg)
+    return panel
+
+
+def draw(panels: Sequence[Sequence[FieldLine]], path: Path) -> None:
+    """Draw panels one below the other.
+
+    Raises:
+        ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
+        SourceError: The file cannot be written.
+
+    """
+    mosaic = [[str(i)] for i in range(len(panels))]
+    size = (10.0, 1.5 + 2.5 * len(panels))
+    with figure(path, mosaic, figsize=size, sharex=True) as axes:
+        for i, panel in enumerate(panels):
+            for line in panel:
+                axes[str(i)].plot(line.time, line.values, label=line.label, linewidth=1.0)
+            axes[str(i)].legend(loc='upper right', fontsize='small')
+            axes[str(i)].grid(alpha=0.3)
+        axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
+
+
+def _split(bag: BagReader, name: str) -> tuple[str, str]:
+    """Return the topic at the beginning of a name, and the path of the field after it."""
+    fits = [topic for topic in bag.topics if name == topic or name.startswith(f'{topic}/')]
+    if not fits:
+        msg = f"'{name}' is in no topic of bag {bag.path}; it has {', '.join(sorted(bag.topics))}"
+        raise ConfigurationError(msg)
+    topic = max(fits, key=len)
+    return topic, name[len(topic) :].strip('/').replace('/', '.')
+
+
+def _lines(columns: Columns) -> Iterator[tuple[str, Any]]:
+    """Yield name and values of everything that can be drawn; not of stamps."""
+    for path, column in columns.fields.items():
+        if not isinstance(column, np.ndarray) or column.dtype.kind not in 'fiub':
+            continue
+        if 'stamp.' in path:
+            continue
+        table = column.reshape(len(columns.stamps), -1)
+        for i in range(table.shape[1]):
+            yield (f'{path}[{i}]' if column.ndim > 1 else path), table[:, i]
