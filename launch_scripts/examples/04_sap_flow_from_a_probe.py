@@ -9,7 +9,7 @@ from datetime import datetime, timedelta
 from io import StringIO
 from math import pi, sin
 
-from agv_motion.probe import Probe, ProbeParameters
+from agv_motion.probe import read_series
 
 KELVIN_PER_MILLIVOLT = 25.0
 START = datetime.fromisoformat('2015-06-15T00:00:00+00:00')
@@ -25,14 +25,13 @@ def recording() -> StringIO:
     return StringIO('\n'.join(rows))
 
 
-probe = Probe(ProbeParameters())
-for row in csv.DictReader(recording()):
-    time = datetime.fromisoformat(row['time'])
-    reading = probe.update(time.timestamp(), KELVIN_PER_MILLIVOLT * float(row['mV']))
+rows = list(csv.DictReader(recording()))
+times = [datetime.fromisoformat(row['time']) for row in rows]
+series = read_series(
+    [time.timestamp() for time in times], [KELVIN_PER_MILLIVOLT * float(row['mV']) for row in rows]
+)
+for i, time in enumerate(times):
     if time.hour in (0, 9, 12) and time.minute == 0:
-        flux, sap = reading.flux_density, reading.sap_flow
-        print(
-            f'{time:%d %b %H:%M}  dT {reading.temperature_difference:.1f} K  flux density '
-            f'{"unknown" if flux is None else f"{1e6 * flux:.1f} um/s"}  sap flow '
-            f'{"unknown: rest" if sap is None else f"{sap:.2f}"}'
-        )
+        kelvin, flux = series.temperature_difference[i], 1e6 * series.flux_density[i]
+        sap = series.sap_flow[i]  # NaN where it cannot be known: then the tree rests
+        print(f'{time:%d %b %H:%M}  dT {kelvin:.1f} K  {flux:.1f} um/s  sap flow {sap:.2f}')
