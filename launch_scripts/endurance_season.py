@@ -6,7 +6,7 @@
 Seeds, zones, weather, errors of position, losses and outages of the network vary. Exits with 1
 when a tree leaves its zone, two come nearer than they may, or one stands for over 30 minutes while
 it has somewhere to go. With --plot the coverage is drawn for one tree, against the choice of the
-ancestor, which only went where it could go straight.
+original installation, which only went where it could go straight.
 """
 
 from __future__ import annotations

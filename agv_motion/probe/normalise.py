@@ -97,7 +97,7 @@ class RunningQuantiles:
 
 
 class RunningRange:
-    """The ancestor's: between the smallest and the largest value ever seen.
+    """As the original installation: between the smallest and the largest value ever seen.
 
     Gives 1 until the range exceeds ``opening_range``, and never forgets a spike.
     """

@@ -49,7 +49,7 @@ class ProbeParameters:
         str,
         Spec(
             'running quantiles of the flux density, or the running minimum and maximum of the raw '
-            'value as the ancestor did',
+            'value as the original installation did',
             choices=tuple(each.value for each in Normalisation),
         ),
     ] = Normalisation.QUANTILES.value
@@ -69,7 +69,7 @@ class ProbeParameters:
         float, Spec('history needed before a sap flow is given', 'h', (0.0, 720.0))
     ] = 24.0
     opening_range: Annotated[
-        float, Spec('range of the raw value before the ancestor opens', 'K', (0.0, 100.0))
+        float, Spec('range of the raw value before the original range opens', 'K', (0.0, 100.0))
     ] = 2.5
     night_start: Annotated[
         float, Spec('start of the hours before dawn, local solar time', 'h', (0.0, 24.0))
@@ -195,7 +195,7 @@ class Probe:
         return ProbeReading(time, temperature_difference, quality, zero_flow, index, flux, share)
 
     def _share(self, time: float, temperature_difference: float, flux: float) -> float | None:
-        """Normalise; the ancestor's raw value falls when flow rises, hence its turn."""
+        """Normalise; the raw value of the original falls when flow rises, hence its turn."""
         if self._normalisation is Normalisation.RANGE:
             raw = self._normaliser.update(time, temperature_difference)
             share = None if raw is None else 1.0 - raw

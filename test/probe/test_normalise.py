@@ -1,4 +1,4 @@
-"""Normalisation: between quantiles of the last days, or as the ancestor did."""
+"""Normalisation: between quantiles of the last days, or as the original installation did."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_the_future_never_changes_the_past(values, cut):
     assert all(share is None or 0.0 <= share <= 1.0 for share in told)
 
 
-def test_the_ancestor_gives_one_until_its_range_opens():
+def test_the_original_gives_one_until_its_range_opens():
     normaliser = RunningRange(0.1)
     assert [normaliser.update(0.0, v) for v in (0.5, 0.55, 0.6)] == [1.0, 1.0, 1.0]
     assert normaliser.update(0.0, 0.7) == 1.0

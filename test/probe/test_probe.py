@@ -51,7 +51,7 @@ def test_polarity_turns_the_share_round():
     assert turned[-40].sap_flow == pytest.approx(1.0 - straight[-40].sap_flow)
 
 
-def test_the_ancestors_range_follows_the_raw_value():
+def test_the_original_range_follows_the_raw_value():
     _, seen, _ = readings(3, normalisation='range', opening_range=1.0)
     flows = [r.sap_flow for r in seen[96:]]
     assert min(f for f in flows if f is not None) == pytest.approx(0.0, abs=0.01)

@@ -19,7 +19,7 @@ TRAFFIC = TrafficParameters(body=1.0, margin=0.2)
 
 def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     status, out, errors = alone(
-        'demo', 'trees', '--count', 2, '--minutes', 3, '--time-factor', 60, '--output', tmp_path,
+        'demo', 'trees', '--count', 2, '--minutes', 3, '--time-factor', 15, '--output', tmp_path,
         timeout=120.0,
     )  # fmt: skip
     assert status == 0, errors
