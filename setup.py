@@ -45,7 +45,7 @@ setup(
     python_requires='>=3.10',
     install_requires=[
         'isal>=1.6; platform_machine in "x86_64 AMD64 aarch64 arm64"',
-        'mcap>=1.1',
+        'lz4>=4',
         'numpy>=1.26',
         'pyserial>=3.5',
         'pyyaml>=6',
@@ -72,6 +72,7 @@ setup(
             'distributed>=2024.5',
             'hypothesis>=6.100',
             'matplotlib>=3.8',
+            'mcap>=1.1',
             'mcap-ros2-support>=0.5',
             'mpmath>=1.3',
             'mypy>=1.11',
@@ -85,7 +86,7 @@ setup(
             'types-pyserial',
             'types-pyyaml',
         ],
-        'benchmark': ['mcap-ros2-support-fast>=0.8', 'robotpy-wpimath'],
+        'benchmark': ['mcap>=1.1', 'mcap-ros2-support-fast>=0.8', 'robotpy-wpimath'],
         'cluster': ['distributed>=2024.5'],
     },
     data_files=[

@@ -25,7 +25,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from sensor_msgs.msg import JointState
 
-from agv_motion.bag.columns.columns import read
+from agv_motion.bag.columns.columns import read_topics
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.ros.cdr import codec
@@ -85,7 +85,7 @@ def columns(
 ) -> None:
     """Read every message into columns; the peers do not compare CRCs, we do by default."""
     with BagReader(path, validate=validate) as bag:
-        read(bag, fields)
+        read_topics(bag, fields)
 
 
 def rosbags(path: Path) -> None:
@@ -128,7 +128,7 @@ def weigh(path: str) -> None:
     with BagReader(path) as bag:
         Path('/proc/self/clear_refs').write_text('5')  # the peak begins anew
         before = resident('VmRSS')
-        found = read(bag)
+        found = read_topics(bag)
         taken = resident('VmHWM') - before
     size = sum(f.nbytes for topic in found.values() for f in topic.fields.values())
     print(taken, size + sum(topic.stamps.nbytes for topic in found.values()))

@@ -23,7 +23,8 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 from rosbags.typesys import Stores, get_typestore
 from sensor_msgs.msg import JointState
 
-from agv_motion.bag.playback.playback import Playback, PlaybackParameters
+from agv_motion.bag.playback.playback import Playback
+from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.nodes.granier_probe import GranierProbe

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.checks.check import Limits, check
-from agv_motion.bag.columns.columns import read
+from agv_motion.bag.columns.columns import read_topics
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
@@ -99,14 +99,14 @@ def messages(path: Path) -> None:
 def columns(path: Path) -> None:
     """Read into columns."""
     with BagReader(path) as bag:
-        read(bag)
+        read_topics(bag)
 
 
 def careless(path: Path) -> None:
     """Read into columns though CRCs are wrong, so that damage comes further in."""
     with BagReader(path, validate=False) as bag:
         for topic in bag.topics:
-            told(path, partial(read, bag, [topic]))
+            told(path, partial(read_topics, bag, [topic]))
 
 
 def findings(path: Path) -> None:

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, SupportsIndex, final
 
 from agv_motion.bag.bag_files import find, unpack_file
-from agv_motion.bag.columns.batch import unpack_message
+from agv_motion.bag.columns.message_batches import unpack_message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.file_kind import MCAP, SQLITE, ZSTD, kind
 from agv_motion.bag.mcap.file import McapFile
@@ -29,8 +29,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from agv_motion.bag.connection import Connection, Message
-
-    File = McapFile | SqliteFile
+    from agv_motion.bag.storage import Storage
 
 FOREVER = 2**64
 
@@ -54,7 +53,7 @@ class BagReader:
         found = find(self.path)
         self._found = found
         self._unpacked: TemporaryDirectory[str] | None = None
-        self.files: list[File] = []
+        self.files: list[Storage] = []
         try:
             for file in found.paths:
                 self.files.append(self._open(file, kind(file), validate=validate))
@@ -178,7 +177,7 @@ class BagReader:
 
     def _open(
         self, path: Path, found: str, *, validate: bool, unpacked: Path | None = None
-    ) -> File:
+    ) -> Storage:
         if found == SQLITE:
             return SqliteFile(path, unpacked)
         if found == MCAP:
@@ -238,10 +237,10 @@ def span_of(start: int | None, stop: int | None) -> tuple[int, int]:
     return begin, FOREVER if stop is None else max(whole('stop', stop), 0)
 
 
-def _overlapping(files: list[File]) -> Iterator[list[File]]:
+def _overlapping(files: list[Storage]) -> Iterator[list[Storage]]:
     """Yield groups of files that overlap in time, in the order of time."""
     filled = [(span, file) for file in files if (span := file.span)]
-    group: list[File] = []
+    group: list[Storage] = []
     latest = -1
     for (start, end), file in sorted(filled, key=lambda item: item[0][0]):
         if group and start > latest:

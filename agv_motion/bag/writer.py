@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from math import inf, isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from agv_motion.bag import metadata
 from agv_motion.bag.cdr import definitions
+from agv_motion.bag.finished_files import FinishedFiles
 from agv_motion.bag.mcap.together import FEW, Together
 from agv_motion.bag.mcap.writer import McapWriter
+from agv_motion.bag.metadata import Topic
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
@@ -22,13 +23,6 @@ if TYPE_CHECKING:
     from agv_motion.bag.mcap.records import Attachment, Metadata
 
 DEFAULT_QOS = (OfferedQos(),)
-
-
-class _Finished(NamedTuple):
-    """A file of the bag that is whole, and how many messages each of its topics has."""
-
-    summary: metadata.FileSummary
-    counts: tuple[int, ...]
 
 
 @final
@@ -71,14 +65,10 @@ class BagWriter:
         self.path = Path(path)
         self.discarded = 0
         """messages that found no room on a full disk"""
-        self._ros_distro = ros_distro
         self._compression = '' if compression == 'none' else compression
         self._chunk_size = chunk_size
         self._chunk_span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
-        self._topics: list[metadata.Topic] = []
-        self._finished: list[_Finished] = []
-        self.deleted: list[int] = []
-        """messages of each topic that were in files which :meth:`drop_oldest` deleted"""
+        self._finished = FinishedFiles(self.path, ros_distro)
         self._number = 0
         try:
             self.path.mkdir(parents=True)
@@ -112,21 +102,20 @@ class BagWriter:
         if definition is None:
             definition, known_hash = definitions.installed(message_type)
             type_hash = known_hash if type_hash is None else type_hash
-        return self.add(metadata.Topic(name, message_type, definition, type_hash or '', tuple(qos)))
+        return self.add(Topic(name, message_type, definition, type_hash or '', tuple(qos)))
 
-    def add(self, topic: metadata.Topic) -> int:
+    def add(self, topic: Topic) -> int:
         """Return a handle for a topic that is described as another bag describes it.
 
         Raises:
             ConfigurationError: The topic is there already.
 
         """
-        if any((other.name, other.type) == (topic.name, topic.type) for other in self._topics):
+        if (topic.name, topic.type) in ((t.name, t.type) for t in self._finished.topics):
             msg = f'topic {topic.name} is in bag {self.path} already: add it once, keep the handle'
             raise ConfigurationError(msg)
         handle = self._file.add_channel(topic)
-        self._topics.append(topic)
-        self.deleted.append(0)
+        self._finished.add_topic(topic)
         return handle
 
     def write(
@@ -228,15 +217,17 @@ class BagWriter:
     @property
     def finished_files(self) -> int:
         """Number of files before the present one."""
-        return len(self._finished)
+        return len(self._finished.files)
 
     @property
     def counts(self) -> list[int]:
         """Messages of each topic that are in the bag, in the order in which topics were added."""
-        files = [file.counts for file in self._finished]
-        if not self._file.closed:
-            files.append(tuple(self._file.counts))
-        return [sum(c[i] for c in files if i < len(c)) for i in range(len(self._topics))]
+        return self._finished.counts(self._file)
+
+    @property
+    def deleted(self) -> list[int]:
+        """Messages of each topic that were in files which :meth:`drop_oldest` deleted."""
+        return self._finished.deleted
 
     def split(self) -> None:
         """Finish the present file and go on in a new one; handles stay as they are.
@@ -247,25 +238,13 @@ class BagWriter:
         """
         self._finish()
         self._file = self._open_next()
-        for topic in self._topics:
+        for topic in self._finished.topics:
             self._file.add_channel(topic)
-        self._save_metadata()
+        self._finished.save(self._file)
 
     def drop_oldest(self) -> bool:
         """Delete the oldest finished file; return whether there was one."""
-        if not self._finished:
-            return False
-        oldest = self._finished.pop(0)
-        path = self.path / oldest.summary.path
-        try:
-            self._save_metadata()  # first, so that it never names what is gone
-            path.unlink(missing_ok=True)
-        except OSError:  # no room for it on the disk, but soon there is
-            path.unlink(missing_ok=True)
-            self._save_metadata()
-        for i, count in enumerate(oldest.counts):
-            self.deleted[i] += count
-        return True
+        return self._finished.drop_oldest(self._file)
 
     def close(self) -> None:
         """Finish the file and write ``metadata.yaml``.
@@ -295,7 +274,7 @@ class BagWriter:
             self._file.discard()
         while True:
             try:
-                self._close_file()
+                self._finished.close(self._file)
                 break
             except OSError as error:
                 failure = failure or error
@@ -306,34 +285,6 @@ class BagWriter:
                 self.discarded += before - sum(self._file.counts)
         if failure is not None:
             raise failure
-
-    def _close_file(self) -> None:
-        file = self._file
-        total = sum(file.counts)
-        summary = metadata.FileSummary(file.path.name, file.start, file.end, total)
-        this = _Finished(summary, tuple(file.counts))
-        files = [*self._finished, this]
-        metadata.save(self.path, self._describe(files))
-        file.close({'serialized_metadata': metadata.inside_mcap(self._describe([this]))})
-        self._finished = files
-
-    def _save_metadata(self) -> None:
-        """Describe the finished files and name the present one, which a kill would leave torn.
-
-        A reader that goes by the names then meets the torn file, and cannot miss what is in it.
-        """
-        files = list(self._finished)
-        if not self._file.closed:
-            files.append(_Finished(metadata.FileSummary(self._file.path.name, 0, 0, 0), ()))
-        metadata.save(self.path, self._describe(files))
-
-    def _describe(self, files: list[_Finished]) -> str:
-        counts = [
-            sum(file.counts[i] for file in files if i < len(file.counts))
-            for i in range(len(self._topics))
-        ]
-        topics = zip(self._topics, counts, strict=True)
-        return metadata.describe([file.summary for file in files], topics, self._ros_distro)
 
     def __enter__(self) -> BagWriter:
         """Return the writer."""

@@ -11,7 +11,8 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
-from agv_motion.bag.playback.playback import Playback, PlaybackParameters
+from agv_motion.bag.playback.playback import Playback
+from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.quality_of_service import KEYS, NO_PROFILE, WORDS, OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from rosidl_parser.definition import AbstractString, Array, BasicType, NamespacedType
 
+from agv_motion.bag.cdr.primitives import HEADER
 from agv_motion.errors import SignalError
-from agv_motion.ros.cdr_source import HEADER, Source, basic, fields, message_class_of
+from agv_motion.ros.cdr_source import Source, basic, fields, message_class_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,26 +4,19 @@ from __future__ import annotations
 
 import importlib
 from array import array
-from struct import Struct
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rosidl_parser.definition import AbstractWString, BasicType, NamespacedType
 
+from agv_motion.bag.cdr.primitives import PRIMITIVES
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-HEADER = b'\x00\x01\x00\x00'
-"""Before every message: plain CDR, little-endian."""
-
-CODES = {
-    'boolean': '?', 'octet': 'c', 'char': 'B', 'float': 'f', 'double': 'd', 'int8': 'b',
-    'uint8': 'B', 'int16': 'h', 'uint16': 'H', 'int32': 'i', 'uint32': 'I', 'int64': 'q',
-    'uint64': 'Q',
-}  # fmt: skip
-"""Letters of `struct`, by the names of rosidl."""
+_NAMES = {'boolean': 'bool', 'octet': 'byte', 'float': 'float32', 'double': 'float64'}
+"""What ``.msg`` files call the primitives to which rosidl gives another name."""
 
 
 def fields(kind: type[Any]) -> Iterator[tuple[str, Any]]:
@@ -67,5 +60,5 @@ class Source:
 
 def basic(field: BasicType) -> tuple[str, int]:
     """Return letter and size of a primitive type."""
-    code = CODES[field.typename]
-    return code, Struct('<' + code).size
+    primitive = PRIMITIVES[_NAMES.get(field.typename, field.typename)]
+    return primitive.code, primitive.size

@@ -14,7 +14,7 @@ from struct import pack
 import pytest
 import zstandard
 
-from agv_motion.bag.columns.columns import read
+from agv_motion.bag.columns.columns import read_topics
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import chunk as chunk_module
 from agv_motion.bag.mcap import records
@@ -51,7 +51,7 @@ def refused(path):
     begin = time.process_time()
     try:
         with pytest.raises(AgvMotionError) as caught, BagReader(path) as bag:
-            read(bag)
+            read_topics(bag)
         assert tracemalloc.get_traced_memory()[1] < MOST
     finally:
         tracemalloc.stop()
@@ -110,7 +110,7 @@ def test_what_shrinks_well_or_is_large_is_read(tmp_path, size, compression):
     with BagReader(large(tmp_path / 'bag', size, compression)) as bag:
         (message,) = bag.messages()
         assert len(message.data) == size + 8
-        assert read(bag)['/a'].fields['data'].shape == (1, size)
+        assert read_topics(bag)['/a'].fields['data'].shape == (1, size)
         assert not bag.problems
 
 

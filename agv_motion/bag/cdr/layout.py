@@ -11,7 +11,8 @@ from __future__ import annotations
 from struct import Struct as Form
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.cdr.message_type import SIZES, Struct
+from agv_motion.bag.cdr.message_type import Struct
+from agv_motion.bag.cdr.primitives import PRIMITIVES
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -256,8 +257,8 @@ def _member(
             counter = leaf('length')
             lengths = (*lengths, counter)
         dimensions = (*dimensions, member.size)
-    if isinstance(member.type, str) and member.type in SIZES:
-        size = SIZES[member.type]
+    if isinstance(member.type, str) and member.type in PRIMITIVES:
+        size = PRIMITIVES[member.type].size
         if member.array and member.size is None:
             return _NumberSequence(counter, leaf(member.type), size)
         return _Numbers(leaf(member.type), size, 1 if member.size is None else member.size)

@@ -15,15 +15,12 @@ import numpy as np
 from agv_motion.bag.cdr.definitions import installed
 from agv_motion.bag.cdr.layout import layout
 from agv_motion.bag.cdr.message_type import unfold
-from agv_motion.bag.columns.fixed_layout import NUMPY
+from agv_motion.bag.cdr.primitives import ENCAPSULATION, NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
-
-_HEADER = 4
-"""[bytes] before the content of a message"""
 
 
 class MessageRows:
@@ -42,12 +39,14 @@ class MessageRows:
 
         """
         form = layout(unfold(message_type, installed(message_type).text, 'ros2msg'))
-        walk = form.walk(example, _HEADER, len(example) - _HEADER, '<')
+        walk = form.walk(example, ENCAPSULATION, len(example) - ENCAPSULATION, '<')
         self._example = np.frombuffer(example, np.uint8)
         fields: dict[str, tuple[Any, int]] = {}
-        constant = [(0, 2), *((at + _HEADER, at + _HEADER + 4) for at in walk.guards)]
+        constant = [(0, 2), *((at + ENCAPSULATION, at + ENCAPSULATION + 4) for at in walk.guards)]
         for leaf in form.leaves:
-            places = [(at + _HEADER, count, step) for at, count, step in walk.found[leaf.number]]
+            places = [
+                (at + ENCAPSULATION, count, step) for at, count, step in walk.found[leaf.number]
+            ]
             if leaf.type == 'string':
                 constant += [(at, at + size) for at, size, _ in places]
             elif leaf.type != 'length' and len(places) == 1:

@@ -8,18 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.bag.cdr.definitions import SEPARATOR
 from agv_motion.bag.cdr.idl_text import fields_from_idl
 from agv_motion.bag.cdr.interface_parts import following, sections
+from agv_motion.bag.cdr.primitives import PRIMITIVES
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
-
-SIZES = {
-    **dict.fromkeys(('bool', 'byte', 'char', 'int8', 'uint8'), 1),
-    **dict.fromkeys(('int16', 'uint16'), 2),
-    **dict.fromkeys(('int32', 'uint32', 'float32'), 4),
-    **dict.fromkeys(('int64', 'uint64', 'float64'), 8),
-}
-"""[bytes] of each number; alignment in CDR is the same."""
 
 LONGEST_TEXT = 1 << 20
 DEEPEST = 32
@@ -168,7 +161,7 @@ def _field(match: re.Match[str], package: str) -> Field:
     kind = match['type']
     if '/' in kind:
         kind = short(kind)
-    elif kind not in SIZES and kind not in ('string', 'wstring'):
+    elif kind not in PRIMITIVES and kind not in ('string', 'wstring'):
         kind = f'{package}/{kind}'
     bounded = '<=' in (match['array'] or '')
     size = int(match['size']) if match['size'] and not bounded else None

@@ -12,8 +12,6 @@ from agv_motion.bag.checks.silences import regular, silences
 from agv_motion.bag.checks.stamps import stamps
 from agv_motion.bag.columns.column import Ragged
 from agv_motion.bag.columns.columns import read_topic
-from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.mcap.file import McapFile
 from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
@@ -23,8 +21,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.columns.column import Column
     from agv_motion.bag.columns.columns import Columns
-    from agv_motion.bag.mcap.chunk import Chunk
-    from agv_motion.bag.reader import BagReader, File
+    from agv_motion.bag.reader import BagReader
 
 _SLICE = 1 << 28
 """[bytes] of messages that are looked through at a time"""
@@ -76,9 +73,9 @@ def check(
     sound = True
     for file in bag.files:
         progress(file.path.name)
-        for finding in _file(file):
-            sound = sound and finding.severity != 'error'
-            yield finding
+        for text in file.damage():
+            sound = False
+            yield Finding('error', file.path.name, text)
     for topic in sorted(bag.topics):
         progress(topic)
         yield from _type(bag, topic)
@@ -95,33 +92,6 @@ def check(
     if not sound:
         text = 'values were not looked at, as the file is damaged: agv bag recover, then check'
         yield Finding('warning', str(bag.path), text)
-
-
-def _file(file: File) -> Iterator[Finding]:
-    """Yield what is wrong with chunks, their CRCs and the totals."""
-    where = file.path.name
-    if not isinstance(file, McapFile):
-        return
-    counted = [_counted(file, chunk) for chunk in file.chunks]
-    seen = sum(count for count in counted if isinstance(count, int))
-    for count in counted:
-        if not isinstance(count, int):
-            yield Finding('error', where, str(count))
-    unlike = file.unlike_crc()
-    if unlike and str(unlike) not in map(str, file.problems):
-        yield Finding('error', where, str(unlike))
-    if file.statistics is not None and file.statistics.messages != seen:
-        text = f'{seen} messages, but its statistics tell of {file.statistics.messages}'
-        yield Finding('error', where, text)
-
-
-def _counted(file: McapFile, chunk: Chunk) -> int | DamagedBagError:
-    """Return how many messages a chunk has, or what is wrong with it."""
-    try:
-        content = file.unpacked(chunk)
-        return sum(len(entries.stamps) for entries in file.entries(chunk, content).values())
-    except DamagedBagError as error:
-        return error
 
 
 def _type(bag: BagReader, topic: str) -> Iterator[Finding]:
@@ -182,7 +152,7 @@ def _back(severity: str, topic: str, what: str, times: NDArray[np.int64]) -> Ite
 
 def _values(bag: BagReader, topic: str) -> Iterator[Finding]:
     """Yield NaN, and stamps in headers that go back; bounded in memory."""
-    size = sum(file.unpacked_size for file in bag.files if isinstance(file, McapFile))
+    size = sum(file.unpacked_size for file in bag.files)
     parts, length = size // _SLICE + 1, bag.end + 1 - bag.start
     edges = [bag.start + length * i // parts for i in range(parts + 1)]
     nan: dict[str, tuple[int, int]] = {}

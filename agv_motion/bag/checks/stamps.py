@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.reader import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
-    from agv_motion.bag.reader import BagReader, File
+    from agv_motion.bag.reader import BagReader
 
 
 def stamps(bag: BagReader, topics: Iterable[str] | None = None) -> dict[str, NDArray[np.int64]]:
@@ -31,8 +30,9 @@ def stamps(bag: BagReader, topics: Iterable[str] | None = None) -> dict[str, NDA
     bag.require(wanted)
     found: dict[str, list[NDArray[np.int64]]] = {topic: [] for topic in wanted}
     for file in bag.files:
-        for topic, times in _parts(file, frozenset(wanted)):
-            found[topic].append(times)
+        channels = {n: c.topic for n, c in file.channels.items() if c.topic in found}
+        for channel, times in file.log_times(channels):
+            found[channels[channel]].append(times)
     return {topic: _joined(parts) for topic, parts in found.items()}
 
 
@@ -40,17 +40,3 @@ def _joined(parts: list[NDArray[np.int64]]) -> NDArray[Any]:
     """Return all log times, without a sign where one lies beyond the year 2262."""
     times = np.concatenate(parts) if parts else np.empty(0, np.int64)
     return times.view(np.uint64) if len(times) and times.min() < 0 else times
-
-
-def _parts(file: File, wanted: frozenset[str]) -> Iterator[tuple[str, NDArray[np.int64]]]:
-    """Yield topics with some of their log times."""
-    channels = {n: c.topic for n, c in file.channels.items() if c.topic in wanted}
-    if isinstance(file, McapFile):
-        for chunk in file.chunks:
-            for channel, entries in file.entries(chunk).items():
-                if channel in channels:
-                    yield channels[channel], entries.stamps.astype(np.int64)
-        return
-    for number, topic in channels.items():
-        times = (message.stamp for message in file.messages([number], 0, 2**63 - 1))
-        yield topic, np.fromiter(times, np.int64)

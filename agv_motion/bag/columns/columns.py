@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from agv_motion.bag.columns import batch, tables
+from agv_motion.bag.columns import tables
 from agv_motion.bag.columns.column import Column, Ragged, Texts
 from agv_motion.bag.columns.topic_decoder import TopicDecoder
-from agv_motion.bag.mcap.batches import read_mcap
-from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.reader import listed, span_of, whole
 from agv_motion.errors import ConfigurationError
 
@@ -31,8 +29,10 @@ if TYPE_CHECKING:
     from pyarrow import Table
 
     from agv_motion.bag.cdr.layout import Leaf
+    from agv_motion.bag.columns.batch import Batch
     from agv_motion.bag.connection import Connection
-    from agv_motion.bag.reader import BagReader, File
+    from agv_motion.bag.reader import BagReader
+    from agv_motion.bag.storage import Storage
 
 
 class Columns(NamedTuple):
@@ -121,11 +121,11 @@ def read_topic(
     start: int | None = None,
     stop: int | None = None,
 ) -> Columns:
-    """Return the columns of one topic; arguments and errors as of :func:`read`."""
-    return read(bag, {topic: fields}, start, stop)[topic]
+    """Return the columns of one topic; arguments and errors as of :func:`read_topics`."""
+    return read_topics(bag, {topic: fields}, start, stop)[topic]
 
 
-def read(
+def read_topics(
     bag: BagReader,
     topics: Iterable[str] | Mapping[str, Iterable[str] | None] | None = None,
     start: int | None = None,
@@ -183,19 +183,14 @@ def _connection(bag: BagReader, topic: str) -> Connection:
 
 
 def _read_file(
-    bag: BagReader, file: File, decoders: Mapping[int, TopicDecoder], start: int, stop: int
+    bag: BagReader, file: Storage, decoders: Mapping[int, TopicDecoder], start: int, stop: int
 ) -> None:
     """Decode the messages of a file; ``decoders`` are those of the wanted channels."""
 
-    def put(part: batch.Batch) -> None:
+    def put(part: Batch) -> None:
         decoders[part.channel].put(part)
 
-    if isinstance(file, McapFile) and not bag.messages_compressed:
-        read_mcap(file, decoders.keys(), start, stop, put)
-        return
-    compressed = bag.messages_compressed
-    for part in batch.of_messages(file, decoders.keys(), start, stop, compressed=compressed):
-        put(part)
+    file.batches(decoders.keys(), start, stop, put, compressed=bag.messages_compressed)
 
 
 def _expected(
@@ -204,11 +199,10 @@ def _expected(
     """Return for each topic the messages and the bytes to expect at most, 0 where unknown."""
     rows, sizes = dict.fromkeys(topics, 0), 0
     for file in bag.files:
-        if isinstance(file, McapFile):
-            for channel, count in file.expected(start, stop).items():
-                if channel in file.channels and file.channels[channel].topic in topics:
-                    rows[file.channels[channel].topic] += count
-            sizes += file.unpacked_size
+        for channel, count in file.expected(start, stop).items():
+            if channel in file.channels and file.channels[channel].topic in topics:
+                rows[file.channels[channel].topic] += count
+        sizes += file.unpacked_size
     return {topic: (count, sizes) for topic, count in rows.items()}
 
 

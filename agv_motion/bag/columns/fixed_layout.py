@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from agv_motion.bag.cdr.primitives import LENGTH, NUMPY
 from agv_motion.bag.columns.repetition import repeats
 
 if TYPE_CHECKING:
@@ -17,14 +18,6 @@ if TYPE_CHECKING:
     from agv_motion.bag.columns.text_codes import TextCodes
     from agv_motion.bag.mcap.record_parsing import Buffer
 
-NUMPY = {'bool': 'u1', 'byte': 'u1', 'char': 'u1', 'length': 'u4', 'string': 'u4'}
-NUMPY |= {
-    f'{kind}{bits}': f'{kind[0]}{bits // 8}' for kind in ('int', 'uint') for bits in (8, 16, 32, 64)
-}
-NUMPY |= {'float32': 'f4', 'float64': 'f8'}
-"""numpy's names of the primitives (a ``byte`` is an octet: 0 to 255), texts and lengths"""
-_LENGTH = 4
-"""[bytes] of a length"""
 _GAPS = (32, 8, 0)
 """[bytes] Between lengths and texts may lie what seldom changes: names nobody wants, padding."""
 
@@ -65,7 +58,7 @@ class FixedLayout:
         found = {leaf: walk.found[leaf.number] for leaf in leaves}
         lengths = {leaf: found.pop(leaf) for leaf in leaves if leaf.type == 'length'}
         wanted = [(at, at + n * step) for segments in found.values() for at, n, step in segments]
-        wanted += [(at, at + _LENGTH) for segments in lengths.values() for _, _, at in segments]
+        wanted += [(at, at + LENGTH.size) for segments in lengths.values() for _, _, at in segments]
         reach = min(max((last for _, last in wanted), default=0), walk.size)
         guards = [at for at in walk.guards if at < reach]
         first = min([reach, *guards, *(begin for begin, _ in wanted)])
@@ -80,7 +73,7 @@ class FixedLayout:
             for leaf, segments in lengths.items()
         }
         """rows that are the same in all messages"""
-        self._guards = [(at - first, self._bytes(at - first, _LENGTH)) for at in guards]
+        self._guards = [(at - first, self._bytes(at - first, LENGTH.size)) for at in guards]
         texts = [p for leaf in found if leaf.type == 'string' for p in self._places[leaf.number]]
         told = [(at, len(length)) for at, length in self._guards]
         told += [(at, size) for at, size, _ in texts]

@@ -10,8 +10,9 @@ import numpy as np
 
 from agv_motion.bag.cdr.layout import FieldOffsets, Leaf, layout
 from agv_motion.bag.cdr.message_type import unfold
+from agv_motion.bag.cdr.primitives import NUMPY
 from agv_motion.bag.columns.column_builder import ColumnBuilder, Growing, Memory, Part
-from agv_motion.bag.columns.fixed_layout import NUMPY, FixedLayout
+from agv_motion.bag.columns.fixed_layout import FixedLayout
 from agv_motion.bag.columns.text_codes import TextCodes
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.errors import ConfigurationError

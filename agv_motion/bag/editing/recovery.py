@@ -8,10 +8,9 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.bag_files import find
-from agv_motion.bag.columns.batch import unpack_message
+from agv_motion.bag.columns.message_batches import unpack_message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.file_kind import SQLITE, kind
-from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.mcap.records import Attachment
 from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from agv_motion.bag.connection import Connection, Message
-    from agv_motion.bag.reader import File
+    from agv_motion.bag.storage import Storage
     from agv_motion.bag.writer import BagWriter
 
 
@@ -99,9 +98,9 @@ class Recovery:
                 told = sum(file.counts().values())
                 self.missing += max(told - (self.messages - before), 0)
 
-    def _keep(self, file: File) -> None:
+    def _keep(self, file: Storage) -> None:
         """Save attachments and named strings; those of rosbag2 are written anew."""
-        for extra in file.extras() if isinstance(file, McapFile) else ():
+        for extra in file.extras():
             if isinstance(extra, DamagedBagError):
                 self.problems.append(extra)
             elif isinstance(extra, Attachment) or extra.name != 'rosbag2':
@@ -127,16 +126,12 @@ class Recovery:
             self._handles[key] = self._writer.add(topic)
         return self._handles[key]
 
-    def _messages(self, file: File) -> Iterator[tuple[Message, float]]:
+    def _messages(self, file: Storage) -> Iterator[tuple[Message, float]]:
         """Yield what can be read of a file, and where in it that is, from 0 to 1."""
-        if not isinstance(file, McapFile):
-            for message in file.messages(list(file.channels), 0, 2**63 - 1):
-                yield message, 0.5
-            return
-        for number, chunk in enumerate(file.chunks):
+        for share, piece in file.pieces():
             with self._noting(DamagedBagError):
-                for message in file.walk(chunk):
-                    yield message, number / len(file.chunks)
+                for message in piece:
+                    yield message, share
 
 
 def _of(file: Path, readable: Path, problem: SourceError) -> SourceError:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.columns.batch import Batch
     from agv_motion.bag.mcap.chunk import Chunk
-    from agv_motion.bag.mcap.file import McapFile
+    from agv_motion.bag.mcap.chunked_file import ChunkedFile
 
     Turns = dict[str, Future[None]]
     """done when the messages of a topic in some chunks were handed over"""
@@ -30,7 +30,7 @@ again page by page: with this one, arrays that come and go keep their pages."""
 
 
 def read_mcap(
-    file: McapFile,
+    file: ChunkedFile,
     channels: Collection[int],
     start: int,
     stop: int,
@@ -80,7 +80,7 @@ class _Reading:
 
     def __init__(
         self,
-        file: McapFile,
+        file: ChunkedFile,
         channels: list[int],
         span: tuple[int, int],
         put: Callable[[Batch], None],

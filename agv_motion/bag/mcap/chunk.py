@@ -68,6 +68,11 @@ class Chunk(NamedTuple):
         return (self.index_length - heads) // INDEX_ENTRY if self.indexes else 0
 
     @property
+    def filled(self) -> bool:
+        """Whether it has messages, as far as its indexes tell."""
+        return self.indexes is None or bool(self.indexes)
+
+    @property
     def unindexed(self) -> bool:
         """Whether only a walk through its content tells what is in it."""
         return self.indexes is None and not self.bare

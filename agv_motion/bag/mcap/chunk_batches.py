@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.mcap.chunk import Chunk
-    from agv_motion.bag.mcap.file import McapFile
+    from agv_motion.bag.mcap.chunked_file import ChunkedFile
     from agv_motion.bag.mcap.record_parsing import Buffer
 
 GROUP = 1 << 23
@@ -50,7 +50,7 @@ def groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
         yield group
 
 
-def unpacked(file: McapFile, chunks: Sequence[Chunk], buffer: memoryview) -> Together:
+def unpacked(file: ChunkedFile, chunks: Sequence[Chunk], buffer: memoryview) -> Together:
     """Return the contents of some chunks in one buffer: ``buffer``, if it is large enough."""
     if len(chunks) == 1 and chunks[0].size > len(buffer):
         content = file.unpacked(chunks[0])
@@ -70,7 +70,7 @@ def unpacked(file: McapFile, chunks: Sequence[Chunk], buffer: memoryview) -> Tog
 
 
 def batches(
-    file: McapFile, together: Together, channels: Sequence[int], start: int, stop: int
+    file: ChunkedFile, together: Together, channels: Sequence[int], start: int, stop: int
 ) -> list[Batch]:
     """Return the messages of each channel, after a look whether they are where the index says."""
     data, ends = together.data, together.ends

@@ -1,269 +1,33 @@
-"""One MCAP file, mapped into memory: what it holds, its chunks, and its messages in time order."""
+"""One MCAP file as a storage: messages in time order, by columns, or as far as they are whole."""
 
 from __future__ import annotations
 
-import mmap
-from collections import OrderedDict
-from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from agv_motion.bag import connection as connections
-from agv_motion.bag.connection import Connection, Message
-from agv_motion.bag.damage import CLOSED, DamagedBagError
-from agv_motion.bag.mcap import message_index, record_parsing, records
-from agv_motion.bag.mcap import scan as mcap_scan
-from agv_motion.bag.mcap import summary as mcap_summary
-from agv_motion.bag.mcap.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
-from agv_motion.bag.mcap.successive import joined, successive
-from agv_motion.bag.mcap.time_order import Run, in_time_order, inside
-from agv_motion.errors import SourceError
+from agv_motion.bag.columns.message_batches import of_messages
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap import record_parsing, records, scan
+from agv_motion.bag.mcap.batches import read_mcap
+from agv_motion.bag.mcap.chunk import message_offsets
+from agv_motion.bag.mcap.chunked_file import ChunkedFile
+from agv_motion.bag.mcap.runs import runs
+from agv_motion.bag.mcap.time_order import in_time_order
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Container, Iterator, Mapping
-    from pathlib import Path
+    from collections.abc import Callable, Collection, Iterator
 
     from numpy.typing import NDArray
 
-    from agv_motion.bag.mcap.record_parsing import Buffer
-
-CACHE = 1 << 28
-"""[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
-
-
-class Entries(NamedTuple):
-    """Where some messages of a chunk lie."""
-
-    stamps: NDArray[np.uint64]
-    """[ns] log time of each"""
-    offsets: NDArray[Any]
-    """[bytes] of each in the content of the chunk"""
+    from agv_motion.bag.columns.batch import Batch
+    from agv_motion.bag.connection import Message
+    from agv_motion.bag.mcap.chunk import Chunk
 
 
-class McapFile:
-    """Reads a file with or without index, whole or torn."""
-
-    def __init__(
-        self,
-        path: Path,
-        *,
-        validate: bool = True,
-        scan: bool = False,
-        unpacked: Path | None = None,
-    ) -> None:
-        """Map the file and find out what is in it.
-
-        Args:
-            path: The file.
-            validate: Compare chunks with their CRC, where the file has one.
-            scan: Walk through the file even if it has a summary.
-            unpacked: Where it lies unpacked, if it is compressed as a whole; bytes are its.
-
-        Raises:
-            SourceError: It cannot be opened, or is no MCAP file.
-
-        """
-        self.path = path
-        self._validate = validate
-        self._mapped: memoryview | None = _mapped(path, unpacked or path)
-        self._cache: OrderedDict[int, Buffer] = OrderedDict()
-        self._cached = 0
-        found, problems = None, []
-        told = None
-        if not scan:
-            try:
-                told = mcap_summary.read(self._data, path)
-                if told is not None and mcap_summary.complete(told):
-                    found = mcap_scan.between(self._data, path, told)
-            except DamagedBagError as error:
-                problems.append(error)
-        if found is None:
-            found = mcap_scan.scan(self._data, path, told.statistics if told else None)
-        self._summary = found
-        self.problems = [*problems, *self._summary.problems]
-        """what is amiss in the file, though it can be read"""
-        self.indexed = self._summary.indexed
-        """whether the summary at its end was there to be used"""
-        self.statistics = self._summary.statistics
-        self.chunks = self._summary.chunks
-        self.channels: Mapping[int, Connection] = {
-            number: connections.from_channel(channel, self._summary.schemas)
-            for number, channel in self._summary.channels.items()
-        }
-
-    @property
-    def _data(self) -> memoryview:
-        """The bytes of the file.
-
-        Raises:
-            SourceError: It was closed.
-
-        """
-        if self._mapped is None:
-            raise SourceError(CLOSED.format(self.path))
-        return self._mapped
-
-    def require_open(self) -> None:
-        """Refuse to go on once the file was closed.
-
-        Raises:
-            SourceError: It was.
-
-        """
-        _ = self._data
-
-    @property
-    def span(self) -> tuple[int, int] | None:
-        """Log time of the first and the last message [ns]; None without messages."""
-        filled = [chunk for chunk in self.chunks if self._filled(chunk)]
-        if not filled:
-            return None
-        return min(chunk.start for chunk in filled), max(chunk.end for chunk in filled)
-
-    @property
-    def counted(self) -> bool:
-        """Whether the number of messages is known without a walk through the file."""
-        return self.statistics is not None
-
-    def counts(self) -> dict[int, int]:
-        """Return the number of messages of each channel."""
-        if self.statistics is not None and self.statistics.channel_messages:
-            return dict(self.statistics.channel_messages)
-        counts = dict.fromkeys(self.channels, 0)
-        for chunk in self.chunks:
-            for channel, entries in self.entries(chunk).items():
-                counts[channel] = counts.get(channel, 0) + len(entries.stamps)
-        return counts
-
-    @property
-    def unpacked_size(self) -> int:
-        """[bytes] of all chunks, uncompressed, as far as it can be believed."""
-        return sum(min(chunk.size, LARGEST) for chunk in self.chunks)
-
-    def expected(self, start: int, stop: int) -> dict[int, int]:
-        """Return how many messages of each channel there are at most in a time.
-
-        Nothing is unpacked: where a chunk has no index, its messages are not counted.
-
-        Args:
-            start: [ns] first log time.
-            stop: [ns] log time before which to stop.
-
-        """
-        counts: dict[int, int] = {}
-        for chunk in self.chunks:
-            if chunk.end >= start and chunk.start < stop:
-                for channel, at in (chunk.indexes or {}).items():
-                    most = message_index.most(self._data, at)
-                    counts[channel] = counts.get(channel, 0) + most
-        self.release(0, len(self._data))
-        return counts
-
-    def index_of(self, chunk: Chunk, channel: int, unpacked: Buffer) -> NDArray[np.uint64]:
-        """Return log time [ns] and offset of the messages of a channel in a chunk, as rows.
-
-        Raises:
-            DamagedBagError: The index or the chunk is damaged.
-
-        """
-        if chunk.indexes is None:
-            entries = self.entries(chunk, unpacked).get(channel)
-            if entries is None:
-                return message_index.NONE
-            # numpy would join numbers with and without a sign as floats, 256 ns apart
-            return np.column_stack([entries.stamps, entries.offsets.astype(np.uint64)])
-        at = chunk.indexes.get(channel)
-        return (
-            message_index.NONE
-            if at is None
-            else message_index.rows(self._data, channel, at, self.path)
-        )
-
-    def entries(
-        self, chunk: Chunk, unpacked: Buffer | None = None, wanted: Container[int] | None = None
-    ) -> dict[int, Entries]:
-        """Return where the messages of each channel, or each wanted one, lie in a chunk.
-
-        Args:
-            chunk: Which.
-            unpacked: Its content, if that is at hand.
-            wanted: Ids of channels; None means all.
-
-        Raises:
-            DamagedBagError: The index or the chunk is damaged.
-
-        """
-        if chunk.indexes is not None:
-            return {
-                channel: self._indexed(chunk, channel, at)
-                for channel, at in chunk.indexes.items()
-                if wanted is None or channel in wanted
-            }
-        unpacked = self.content(chunk) if unpacked is None else unpacked
-        offsets = message_offsets(unpacked)
-        found = self.heads(chunk, unpacked, offsets)
-        channels = found['channel']
-        entries = {}
-        for channel in np.unique(channels):
-            if wanted is not None and int(channel) not in wanted:
-                continue
-            mine = channels == channel
-            entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
-        return entries
-
-    def _indexed(self, chunk: Chunk, channel: int, at: int) -> Entries:
-        """Return what the index at byte ``at`` says of a channel in a chunk."""
-        table = message_index.rows(self._data, channel, at, self.path)
-        stamps = table[:, 0]
-        if len(stamps) and not chunk.start <= int(stamps.min()) <= int(stamps.max()) <= chunk.end:
-            finding = f'a message index of times outside of its chunk at byte {chunk.offset}'
-            raise DamagedBagError(self.path, at, finding)
-        return Entries(stamps, table[:, 1])
-
-    def unpacked(self, chunk: Chunk, target: memoryview | None = None) -> Buffer:
-        """Return the uncompressed content of a chunk, without keeping it; for any thread.
-
-        Args:
-            chunk: Which.
-            target: Write it here, if it has room for ``chunk.size`` bytes.
-
-        Raises:
-            DamagedBagError: It is damaged.
-
-        """
-        validate = self._validate
-        return content(self._data, chunk, self.path, validate=validate, target=target)
-
-    def content(self, chunk: Chunk) -> Buffer:
-        """Return the uncompressed content of a chunk, and keep it for a while.
-
-        Raises:
-            DamagedBagError: It is damaged.
-
-        """
-        unpacked = self._cache.get(chunk.offset)
-        if unpacked is None:
-            unpacked = self.unpacked(chunk)
-            self._cache[chunk.offset] = unpacked
-            self._cached += len(unpacked)
-            while self._cached > CACHE and len(self._cache) > 1:
-                self._cached -= len(self._cache.popitem(last=False)[1])
-        return unpacked
-
-    def heads(
-        self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
-    ) -> NDArray[Any]:
-        """Return what stands before the messages at ``offsets`` of a chunk's content.
-
-        Raises:
-            DamagedBagError: There is no message at one of them.
-
-        """
-        try:
-            return heads(unpacked, offsets, form)
-        except ValueError as error:
-            raise DamagedBagError(self.path, chunk.offset, f'in this chunk, {error}') from None
+@final
+class McapFile(ChunkedFile):
+    """Reads the messages of a file with or without index, whole or torn."""
 
     def messages(self, channels: Collection[int], start: int, stop: int) -> Iterator[Message]:
         """Yield messages in the order of their log time.
@@ -277,7 +41,48 @@ class McapFile:
             DamagedBagError: What comes next is damaged.
 
         """
-        return in_time_order(self._runs(frozenset(channels), start, stop))
+        return in_time_order(runs(self, frozenset(channels), range(start, stop)))
+
+    def batches(
+        self,
+        channels: Collection[int],
+        start: int,
+        stop: int,
+        put: Callable[[Batch], None],
+        *,
+        compressed: bool = False,
+    ) -> None:
+        """Hand over messages many at a time, as they lie in the file; see :class:`Storage`.
+
+        Raises:
+            DamagedBagError: A chunk, or a message, is damaged.
+
+        """
+        if not compressed:
+            read_mcap(self, channels, start, stop, put)
+            return
+        for batch in of_messages(self, channels, start, stop, compressed=True):
+            put(batch)
+
+    def log_times(self, channels: Collection[int]) -> Iterator[tuple[int, NDArray[np.int64]]]:
+        """Yield ids with some of their log times [ns]; a file with an index is not unpacked.
+
+        Raises:
+            DamagedBagError: A chunk or its index is damaged.
+
+        """
+        for chunk in self.chunks:
+            for channel, entries in self.entries(chunk).items():
+                if channel in channels:
+                    yield channel, entries.stamps.astype(np.int64)
+
+    def pieces(self) -> Iterator[tuple[float, Iterator[Message]]]:
+        """Yield the messages of each chunk as they lie in it, and which share of the file is done.
+
+        Each iterator raises a DamagedBagError where its chunk is damaged; the others go on.
+        """
+        for number, chunk in enumerate(self.chunks):
+            yield number / len(self.chunks), self.walk(chunk)
 
     def walk(self, chunk: Chunk) -> Iterator[Message]:
         """Yield the whole messages of a chunk as they lie in it, whatever its index says.
@@ -290,15 +95,15 @@ class McapFile:
         offsets = message_offsets(unpacked)
         found = self.heads(chunk, unpacked, offsets)
         known = np.isin(found['channel'], list(self.channels))
-        yield from self._messages(unpacked, offsets[known].tolist())
-        self._described(chunk, found)
+        yield from self.messages_at(unpacked, offsets[known].tolist())
+        self.require_described(chunk, found)
 
     def extras(self) -> Iterator[records.Attachment | records.Metadata | DamagedBagError]:
         """Yield the attachments and named strings that are whole, and what is wrong with others."""
-        for opcode, at, end in record_parsing.walk(self._data, len(records.MAGIC), len(self._data)):
+        for opcode, at, end in record_parsing.walk(self.data, len(records.MAGIC), len(self.data)):
             if opcode == records.DATA_END:
                 return
-            body = record_parsing.Body(self._data[at:end], self.path, at)
+            body = record_parsing.Body(self.data[at:end], self.path, at)
             try:
                 if opcode == records.ATTACHMENT:
                     yield record_parsing.attachment(body)
@@ -307,109 +112,29 @@ class McapFile:
             except DamagedBagError as error:
                 yield error
 
-    def unlike_crc(self) -> DamagedBagError | None:
-        """Return what is wrong where the data do not match the CRC at their end; reads all."""
+    def damage(self) -> Iterator[str]:
+        """Yield what is wrong with chunks, their CRCs and the totals; reads the whole file."""
+        counted = [self._count(chunk) for chunk in self.chunks]
+        seen = sum(count for count in counted if isinstance(count, int))
+        yield from (str(count) for count in counted if not isinstance(count, int))
+        unlike = self._unlike_crc()
+        if unlike and str(unlike) not in map(str, self.problems):
+            yield str(unlike)
+        if self.statistics is not None and self.statistics.messages != seen:
+            yield f'{seen} messages, but its statistics tell of {self.statistics.messages}'
+
+    def _count(self, chunk: Chunk) -> int | DamagedBagError:
+        """Return how many messages a chunk has, or what is wrong with it."""
+        try:
+            content = self.unpacked(chunk)
+            return sum(len(entries.stamps) for entries in self.entries(chunk, content).values())
+        except DamagedBagError as error:
+            return error
+
+    def _unlike_crc(self) -> DamagedBagError | None:
+        """Return what is wrong where the data do not match the CRC at their end."""
         begin, size = len(records.MAGIC), records.PREFIX.size
-        for opcode, at, _ in record_parsing.walk(self._data, begin, len(self._data)):
+        for opcode, at, _ in record_parsing.walk(self.data, begin, len(self.data)):
             if opcode == records.DATA_END:
-                return mcap_scan.unlike_crc(self._data, self.path, at - size)
+                return scan.unlike_crc(self.data, self.path, at - size)
         return None
-
-    def release(self, begin: int, end: int) -> None:
-        """Take a part of the file [bytes] out of the memory of this process; it stays readable."""
-        mapped, first = self._data.obj, -(-begin // mmap.PAGESIZE) * mmap.PAGESIZE
-        if isinstance(mapped, mmap.mmap) and hasattr(mmap, 'MADV_DONTNEED') and first < end:
-            mapped.madvise(mmap.MADV_DONTNEED, first, end - first)
-
-    def close(self) -> None:
-        """Let go of the file; messages already read stay valid."""
-        self._cache.clear()
-        self._cached = 0
-        self._mapped = None
-
-    def _runs(
-        self, wanted: frozenset[int], start: int, stop: int
-    ) -> Iterator[tuple[int, int, Callable[[], Run | None]]]:
-        """Yield earliest stamp, place and opener of chunks; small ones, if sound, together."""
-
-        def unpack(chunk: Chunk) -> tuple[Buffer, Mapping[int, Entries]]:
-            unpacked = self.unpacked(chunk)
-            return unpacked, self.entries(chunk, unpacked, wanted)
-
-        channels, span = list(self.channels), range(start, stop)
-        chunks = [c for c in self.chunks if self._filled(c) and c.end >= start and c.start < stop]
-        for group in successive(chunks):
-            run = joined(group, unpack, self._messages, channels, span) if group[1:] else None
-            if run is not None:
-                yield group[0].start, group[0].offset, partial(Run, *run)
-                continue
-            for chunk in group:
-                yield chunk.start, chunk.offset, self._opener(chunk, wanted, start, stop)
-
-    def _opener(
-        self, chunk: Chunk, wanted: frozenset[int], start: int, stop: int
-    ) -> Callable[[], Run | None]:
-        """Return what opens a chunk when its time has come."""
-
-        def opened() -> Run | None:
-            found = self.entries(chunk, wanted=wanted)
-            if not found:
-                return None
-            stamps = np.concatenate([e.stamps for e in found.values()])
-            offsets = np.concatenate([e.offsets for e in found.values()])
-            told = np.repeat(list(found), [len(e.stamps) for e in found.values()])
-            lie = self.heads(chunk, self.content(chunk), offsets)
-            self._described(chunk, lie)
-            if (lie['channel'] != told).any() or (lie['stamp'] != stamps).any():
-                finding = 'in this chunk, messages that are not those of its index'
-                raise DamagedBagError(self.path, chunk.offset, finding)
-            wanted_ones = inside(stamps, start, stop)
-            stamps, offsets = stamps[wanted_ones], offsets[wanted_ones]
-            order = np.lexsort((offsets, stamps))
-            places = offsets[order].tolist()
-            return Run(
-                stamps[order].tolist(),
-                lambda a, b: self._messages(self.content(chunk), places[a:b]),
-            )
-
-        return opened
-
-    def _messages(self, content: Buffer, offsets: list[int]) -> Iterator[Message]:
-        unpacked = memoryview(content)
-        unpack, size, prefix = records.MESSAGE_HEAD.unpack_from, records.MESSAGE_HEAD.size, 9
-        channels = self.channels
-        for offset in offsets:
-            _, length, channel, sequence, stamp, publish = unpack(unpacked, offset)
-            data = bytes(unpacked[offset + size : offset + prefix + length])
-            yield Message(channels[channel], stamp, data, publish, sequence)
-
-    def _described(self, chunk: Chunk, found: NDArray[Any]) -> None:
-        for channel in np.unique(found['channel']):
-            if int(channel) not in self.channels:
-                finding = f'in this chunk, a message of channel {channel}, which is not described'
-                raise DamagedBagError(self.path, chunk.offset, finding)
-
-    def _filled(self, chunk: Chunk) -> bool:
-        return chunk.indexes is None or bool(chunk.indexes)
-
-
-def _mapped(path: Path, place: Path) -> memoryview:
-    """Return the bytes of an MCAP file; they lie at a place, which errors do not name.
-
-    Raises:
-        SourceError: It cannot be opened, or is no MCAP file.
-
-    """
-    try:
-        with place.open('rb') as file:
-            data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    except OSError as error:
-        msg = f'{path} cannot be read: {error.strerror}'
-        raise SourceError(msg) from error
-    except ValueError:
-        msg = f'{path} is empty: nothing was written before the recording ended'
-        raise SourceError(msg) from None
-    if data[: len(records.MAGIC)] != records.MAGIC:
-        msg = f'{path} is no MCAP file: it begins with {bytes(data[:8])!r}'
-        raise SourceError(msg)
-    return data

@@ -17,7 +17,7 @@ from agv_motion.bag.mcap.chunk import (
     heads,
     message_offsets,
 )
-from agv_motion.bag.mcap.summary import Summary
+from agv_motion.bag.mcap.summary import Summary, complete, read
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,6 +28,30 @@ STRETCH = 1 << 22
 """[bytes] Messages outside chunks are taken together up to this size."""
 _SHORTEST_MESSAGE = HEAD.itemsize - records.PREFIX.size
 _U16_SIZE = parsing.U16.size
+
+
+def look(
+    data: memoryview, path: Path, *, believe: bool = True
+) -> tuple[Summary, list[DamagedBagError]]:
+    """Return what is in a file by its summary, or by a walk through all, and what was amiss.
+
+    Args:
+        data: The whole file.
+        path: The file, for errors.
+        believe: Go by its summary, where that agrees with what lies in the file.
+
+    """
+    told, problems = None, list[DamagedBagError]()
+    if believe:
+        try:
+            told = read(data, path)
+            if told is not None and complete(told):
+                found = between(data, path, told)
+                if found is not None:
+                    return found, problems
+        except DamagedBagError as error:
+            problems.append(error)
+    return scan(data, path, told.statistics if told else None), problems
 
 
 def scan(data: memoryview, path: Path, told: Statistics | None = None) -> Summary:

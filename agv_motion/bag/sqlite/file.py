@@ -8,7 +8,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from agv_motion.bag.cdr import definitions
+from agv_motion.bag.columns.message_batches import of_messages
 from agv_motion.bag.connection import Connection, Message
 from agv_motion.bag.damage import CLOSED
 from agv_motion.bag.quality_of_service import OfferedQos
@@ -16,7 +19,13 @@ from agv_motion.bag.sqlite.aside import set_aside
 from agv_motion.errors import ConfigurationError, SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Callable, Collection, Iterator
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.columns.batch import Batch
+    from agv_motion.bag.damage import DamagedBagError
+    from agv_motion.bag.mcap.records import Attachment, Metadata
 
 LATEST = 2**63 - 1
 """[ns] Last time that sqlite3 can hold."""
@@ -44,6 +53,8 @@ class SqliteFile:
         self.path = path
         self.problems: list[SourceError] = []
         self.indexed = self.counted = True
+        self.unpacked_size = 0
+        """[bytes] unknown"""
         self._closed = False
         self._held = ExitStack()
         """the open database, and the folder that it is set aside in"""
@@ -88,6 +99,41 @@ class SqliteFile:
         with self._told():
             for number, stamp, data in self._base.execute(query, (start, min(stop - 1, LATEST))):
                 yield Message(self.channels[number], stamp, data, stamp, 0)
+
+    def batches(
+        self,
+        channels: Collection[int],
+        start: int,
+        stop: int,
+        put: Callable[[Batch], None],
+        *,
+        compressed: bool = False,
+    ) -> None:
+        """Hand over messages many at a time; see :class:`Storage`."""
+        for batch in of_messages(self, channels, start, stop, compressed=compressed):
+            put(batch)
+
+    def log_times(self, channels: Collection[int]) -> Iterator[tuple[int, NDArray[np.int64]]]:
+        """Yield numbers of channels with their log times [ns], in order."""
+        for number in channels:
+            times = (message.stamp for message in self.messages([number], 0, LATEST))
+            yield number, np.fromiter(times, np.int64)
+
+    def pieces(self) -> Iterator[tuple[float, Iterator[Message]]]:
+        """Yield all messages as one part, half of the work being done."""
+        yield 0.5, self.messages(list(self.channels), 0, LATEST)
+
+    def expected(self, start: int, stop: int) -> dict[int, int]:  # noqa: ARG002 - as Storage
+        """Return no number: to count them is to read them."""
+        return {}
+
+    def extras(self) -> Iterator[Attachment | Metadata | DamagedBagError]:
+        """Yield nothing: such a file has no room for more than messages."""
+        return iter(())
+
+    def damage(self) -> Iterator[str]:
+        """Yield nothing: it has no CRC, and what is no message is among ``problems``."""
+        return iter(())
 
     def require_open(self) -> None:
         """Refuse to go on once the file was closed.

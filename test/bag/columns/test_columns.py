@@ -17,7 +17,7 @@ from rosbags.typesys import Stores, get_typestore
 from agv_motion.bag.checks.stamps import stamps
 from agv_motion.bag.columns import topic_decoder
 from agv_motion.bag.columns.column import Ragged, Texts
-from agv_motion.bag.columns.columns import read, read_topic
+from agv_motion.bag.columns.columns import read_topic, read_topics
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import batches as mcap_batches
 from agv_motion.bag.mcap import chunk_batches
@@ -138,7 +138,7 @@ def test_columns_of_foreign_bags(tmp_path, plugin, mode):
             writer.write(connection, i, joints(['a', 'bc'], 2, i))
             writer.write(other, i, STORE.serialize_cdr(STORE.types[TEXT](f'{i}'), TEXT))
     with BagReader(tmp_path / 'bag') as bag:
-        found = read(bag)
+        found = read_topics(bag)
     assert found['/topic'].fields['position'][:, 0].tolist() == [i / 7 for i in range(3000)]
     assert found['/other'].fields['data'].tolist() == [str(i) for i in range(3000)]
 
@@ -183,7 +183,7 @@ def test_threads_keep_the_order_of_each_topic_also_where_it_has_two_channels(tmp
         writer.finish()
     with BagReader(path) as bag:
         assert sum(file.indexed and len(file.chunks) for file in bag.files) > 50
-        found = read(bag)
+        found = read_topics(bag)
     every = range(9000)
     assert found['/b'].fields['data'].tolist() == [str(i) for i in every if i % 3 == 1]
     assert found['/a'].fields['data'].tolist() == [str(i) for i in every if i % 3 != 1]
@@ -281,7 +281,7 @@ def two_topics(path):
 
 def test_seconds_of_all_topics_count_from_the_start_of_the_bag(tmp_path):
     with BagReader(two_topics(tmp_path / 'bag')) as bag:
-        found = read(bag)
+        found = read_topics(bag)
         later = read_topic(bag, '/b', start=bag.start + SECOND)
     assert found['/a'].seconds()[:2] == pytest.approx([0.0, 0.1], abs=1e-12)
     assert found['/b'].seconds()[:2] == pytest.approx([0.8, 0.9], abs=1e-12)
@@ -306,8 +306,8 @@ def test_times_that_are_no_nanoseconds_are_refused(tmp_path, time):
 def test_one_name_is_a_list_of_one(tmp_path):
     with BagReader(two_topics(tmp_path / 'bag')) as bag:
         assert list(read_topic(bag, '/a', 'data').fields) == ['data']
-        assert list(read(bag, {'/a': 'data'})['/a'].fields) == ['data']
-        assert list(read(bag, '/a')) == ['/a']
+        assert list(read_topics(bag, {'/a': 'data'})['/a'].fields) == ['data']
+        assert list(read_topics(bag, '/a')) == ['/a']
         assert list(stamps(bag, '/b')) == ['/b']
         assert {m.connection.topic for m in bag.messages('/b')} == {'/b'}
 
@@ -350,7 +350,7 @@ def test_columns_and_their_parts_are_told_in_one_line(tmp_path):
 
 def test_texts_are_compared_element_by_element(tmp_path):
     with BagReader(two_topics(tmp_path / 'bag')) as bag:
-        found = read(bag)
+        found = read_topics(bag)
     texts = found['/a'].fields['data']
     assert (texts == 'x')[:4].tolist() == [True, False, False, True]
     assert (texts != 'x')[:4].tolist() == [False, True, True, False]

@@ -7,7 +7,8 @@ import time
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag.playback.playback import Playback, PlaybackParameters
+from agv_motion.bag.playback.playback import Playback
+from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter

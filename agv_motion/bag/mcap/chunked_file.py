@@ -1,0 +1,288 @@
+"""One MCAP file, mapped into memory: its topics, its chunks, and where their messages lie."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from agv_motion.bag import connection as connections
+from agv_motion.bag.connection import Connection, Message
+from agv_motion.bag.damage import CLOSED, DamagedBagError
+from agv_motion.bag.mcap import message_index, records
+from agv_motion.bag.mcap import scan as mcap_scan
+from agv_motion.bag.mcap.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
+from agv_motion.bag.mcap.mapped import mapped, release
+from agv_motion.errors import SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterator, Mapping
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.bag.mcap.record_parsing import Buffer
+
+CACHE = 1 << 28
+"""[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
+
+
+class Entries(NamedTuple):
+    """Where some messages of a chunk lie."""
+
+    stamps: NDArray[np.uint64]
+    """[ns] log time of each"""
+    offsets: NDArray[Any]
+    """[bytes] of each in the content of the chunk"""
+
+
+class ChunkedFile:
+    """Finds what lies where in a file with or without index, whole or torn."""
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        validate: bool = True,
+        scan: bool = False,
+        unpacked: Path | None = None,
+    ) -> None:
+        """Map the file and find out what is in it.
+
+        Args:
+            path: The file.
+            validate: Compare chunks with their CRC, where the file has one.
+            scan: Walk through the file even if it has a summary.
+            unpacked: Where it lies unpacked, if it is compressed as a whole; bytes are its.
+
+        Raises:
+            SourceError: It cannot be opened, or is no MCAP file.
+
+        """
+        self.path = path
+        self._validate = validate
+        self._mapped: memoryview | None = mapped(path, unpacked or path)
+        self._cache: OrderedDict[int, Buffer] = OrderedDict()
+        self._cached = 0
+        found, problems = mcap_scan.look(self.data, path, believe=not scan)
+        self._summary = found
+        self.problems = [*problems, *self._summary.problems]
+        """what is amiss in the file, though it can be read"""
+        self.indexed = self._summary.indexed
+        """whether the summary at its end was there to be used"""
+        self.statistics = self._summary.statistics
+        self.chunks = self._summary.chunks
+        self.channels: Mapping[int, Connection] = {
+            number: connections.from_channel(channel, self._summary.schemas)
+            for number, channel in self._summary.channels.items()
+        }
+
+    @property
+    def data(self) -> memoryview:
+        """The bytes of the file.
+
+        Raises:
+            SourceError: It was closed.
+
+        """
+        if self._mapped is None:
+            raise SourceError(CLOSED.format(self.path))
+        return self._mapped
+
+    def require_open(self) -> None:
+        """Refuse to go on once the file was closed.
+
+        Raises:
+            SourceError: It was.
+
+        """
+        _ = self.data
+
+    @property
+    def span(self) -> tuple[int, int] | None:
+        """Log time of the first and the last message [ns]; None without messages."""
+        filled = [chunk for chunk in self.chunks if chunk.filled]
+        if not filled:
+            return None
+        return min(chunk.start for chunk in filled), max(chunk.end for chunk in filled)
+
+    @property
+    def counted(self) -> bool:
+        """Whether the number of messages is known without a walk through the file."""
+        return self.statistics is not None
+
+    def counts(self) -> dict[int, int]:
+        """Return the number of messages of each channel."""
+        if self.statistics is not None and self.statistics.channel_messages:
+            return dict(self.statistics.channel_messages)
+        counts = dict.fromkeys(self.channels, 0)
+        for chunk in self.chunks:
+            for channel, entries in self.entries(chunk).items():
+                counts[channel] = counts.get(channel, 0) + len(entries.stamps)
+        return counts
+
+    @property
+    def unpacked_size(self) -> int:
+        """[bytes] of all chunks, uncompressed, as far as it can be believed."""
+        return sum(min(chunk.size, LARGEST) for chunk in self.chunks)
+
+    def expected(self, start: int, stop: int) -> dict[int, int]:
+        """Return how many messages of each channel there are at most in a time.
+
+        Nothing is unpacked: where a chunk has no index, its messages are not counted.
+
+        Args:
+            start: [ns] first log time.
+            stop: [ns] log time before which to stop.
+
+        """
+        counts: dict[int, int] = {}
+        for chunk in self.chunks:
+            if chunk.end >= start and chunk.start < stop:
+                for channel, at in (chunk.indexes or {}).items():
+                    most = message_index.most(self.data, at)
+                    counts[channel] = counts.get(channel, 0) + most
+        self.release(0, len(self.data))
+        return counts
+
+    def index_of(self, chunk: Chunk, channel: int, unpacked: Buffer) -> NDArray[np.uint64]:
+        """Return log time [ns] and offset of the messages of a channel in a chunk, as rows.
+
+        Raises:
+            DamagedBagError: The index or the chunk is damaged.
+
+        """
+        if chunk.indexes is None:
+            entries = self.entries(chunk, unpacked).get(channel)
+            if entries is None:
+                return message_index.NONE
+            # numpy would join numbers with and without a sign as floats, 256 ns apart
+            return np.column_stack([entries.stamps, entries.offsets.astype(np.uint64)])
+        at = chunk.indexes.get(channel)
+        return (
+            message_index.NONE
+            if at is None
+            else message_index.rows(self.data, channel, at, self.path)
+        )
+
+    def entries(
+        self, chunk: Chunk, unpacked: Buffer | None = None, wanted: Container[int] | None = None
+    ) -> dict[int, Entries]:
+        """Return where the messages of each channel, or each wanted one, lie in a chunk.
+
+        Args:
+            chunk: Which.
+            unpacked: Its content, if that is at hand.
+            wanted: Ids of channels; None means all.
+
+        Raises:
+            DamagedBagError: The index or the chunk is damaged.
+
+        """
+        if chunk.indexes is not None:
+            return {
+                channel: self._indexed(chunk, channel, at)
+                for channel, at in chunk.indexes.items()
+                if wanted is None or channel in wanted
+            }
+        unpacked = self.content(chunk) if unpacked is None else unpacked
+        offsets = message_offsets(unpacked)
+        found = self.heads(chunk, unpacked, offsets)
+        channels = found['channel']
+        entries = {}
+        for channel in np.unique(channels):
+            if wanted is not None and int(channel) not in wanted:
+                continue
+            mine = channels == channel
+            entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
+        return entries
+
+    def _indexed(self, chunk: Chunk, channel: int, at: int) -> Entries:
+        """Return what the index at byte ``at`` says of a channel in a chunk."""
+        table = message_index.rows(self.data, channel, at, self.path)
+        stamps = table[:, 0]
+        if len(stamps) and not chunk.start <= int(stamps.min()) <= int(stamps.max()) <= chunk.end:
+            finding = f'a message index of times outside of its chunk at byte {chunk.offset}'
+            raise DamagedBagError(self.path, at, finding)
+        return Entries(stamps, table[:, 1])
+
+    def unpacked(self, chunk: Chunk, target: memoryview | None = None) -> Buffer:
+        """Return the uncompressed content of a chunk, without keeping it; for any thread.
+
+        Args:
+            chunk: Which.
+            target: Write it here, if it has room for ``chunk.size`` bytes.
+
+        Raises:
+            DamagedBagError: It is damaged.
+
+        """
+        validate = self._validate
+        return content(self.data, chunk, self.path, validate=validate, target=target)
+
+    def content(self, chunk: Chunk) -> Buffer:
+        """Return the uncompressed content of a chunk, and keep it for a while.
+
+        Raises:
+            DamagedBagError: It is damaged.
+
+        """
+        unpacked = self._cache.get(chunk.offset)
+        if unpacked is None:
+            unpacked = self.unpacked(chunk)
+            self._cache[chunk.offset] = unpacked
+            self._cached += len(unpacked)
+            while self._cached > CACHE and len(self._cache) > 1:
+                self._cached -= len(self._cache.popitem(last=False)[1])
+        return unpacked
+
+    def heads(
+        self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
+    ) -> NDArray[Any]:
+        """Return what stands before the messages at ``offsets`` of a chunk's content.
+
+        Raises:
+            DamagedBagError: There is no message at one of them.
+
+        """
+        try:
+            return heads(unpacked, offsets, form)
+        except ValueError as error:
+            raise DamagedBagError(self.path, chunk.offset, f'in this chunk, {error}') from None
+
+    def release(self, begin: int, end: int) -> None:
+        """Take a part of the file [bytes] out of the memory of this process; it stays readable."""
+        release(self.data, begin, end)
+
+    def close(self) -> None:
+        """Let go of the file; messages already read stay valid."""
+        self._cache.clear()
+        self._cached = 0
+        self._mapped = None
+
+    def messages_at(self, content: Buffer, offsets: list[int]) -> Iterator[Message]:
+        """Yield the messages that lie at some places in the content of a chunk."""
+        unpacked = memoryview(content)
+        unpack, size, prefix = records.MESSAGE_HEAD.unpack_from, records.MESSAGE_HEAD.size, 9
+        channels = self.channels
+        for offset in offsets:
+            _, length, channel, sequence, stamp, publish = unpack(unpacked, offset)
+            data = bytes(unpacked[offset + size : offset + prefix + length])
+            yield Message(channels[channel], stamp, data, publish, sequence)
+
+    def require_described(self, chunk: Chunk, found: NDArray[Any]) -> None:
+        """Refuse messages of channels that nothing describes.
+
+        Args:
+            chunk: They are in it, or in one after it.
+            found: Their :meth:`heads`.
+
+        Raises:
+            DamagedBagError: There is one.
+
+        """
+        for channel in np.unique(found['channel']):
+            if int(channel) not in self.channels:
+                finding = f'in this chunk, a message of channel {channel}, which is not described'
+                raise DamagedBagError(self.path, chunk.offset, finding)
