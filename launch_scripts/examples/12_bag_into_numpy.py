@@ -6,9 +6,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from agv_motion.bag.columns.columns import read_topic
-from agv_motion.bag.reader import BagReader
-from agv_motion.bag.writer import BagWriter
+from agv_motion.bag import BagReader, BagWriter, read_topic
 
 LITTLE_ENDIAN = b'\x00\x01\x00\x00'  # the header of CDR
 DEFINITION = 'float64 x\nfloat64 y\nfloat64 z\n'

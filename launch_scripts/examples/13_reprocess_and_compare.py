@@ -8,9 +8,8 @@ from tempfile import TemporaryDirectory
 
 from geometry_msgs.msg import TwistStamped
 
+from agv_motion.bag import BagReader, BagWriter
 from agv_motion.bag.editing.diff import Tolerance, diff
-from agv_motion.bag.reader import BagReader
-from agv_motion.bag.writer import BagWriter
 from agv_motion.reprocess.one_bag import Plan, reprocess
 from agv_motion.ros.cdr import codec
 
