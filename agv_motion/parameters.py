@@ -82,7 +82,10 @@ def _check_element(name: str, value: Any, spec: Spec) -> None:
         raise ConfigurationError(msg)
 
 
-MOVED = ((r'(follow|tracking)\.leash\.(\w+)', r'\1.pace.\2'),)
+MOVED = (
+    (r'(follow|tracking)\.leash\.(\w+)', r'\1.pace.\2'),
+    (r'(follow\.ghost|tracking\.ghost|limits)\.track', 'track'),
+)
 """Old names of parameters, as patterns, and what each is called now."""
 
 

@@ -13,12 +13,12 @@ import numpy as np
 
 from agv_motion.bag.bag_files import find
 from agv_motion.bag.quality_of_service import OfferedQos
+from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.motion.behavior.memory import Memory, MemoryParameters
 from agv_motion.motion.behavior.memory_file import restore as recall
 from agv_motion.motion.behavior.memory_file import save
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.motion.navigation.zone_file import load_zone
-from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
 from agv_motion.probe.probe import Probe, ProbeParameters
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
+from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.nodes.wheels import WheelsNode
 from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.base import DifferentialBase

@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
-from agv_motion.nodes.differential_parameters import DifferentialBaseParameters
+from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import fill_pose

@@ -11,6 +11,7 @@ from std_msgs.msg import String
 
 from agv_motion.blocked import BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.kinematics.differential_platform import TrackParameters
 from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.input_parameters import CommandParameters
 from agv_motion.parameters import Spec, check
@@ -42,7 +43,7 @@ OLDEST_POSE = 0.3
 
 
 @dataclass(frozen=True)
-class DrivingParameters(CommandParameters):
+class DrivingParameters(CommandParameters, TrackParameters):
     """How often to command, and whom to believe where the robot is."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 20.0

@@ -76,6 +76,11 @@ class GhostTrajectoryParameters(DrivingParameters):
     ] = False
     follow: FollowerParameters = field(default_factory=FollowerParameters)
 
+    def __post_init__(self) -> None:
+        """Check every row, and hand the track of the platform on."""
+        super().__post_init__()
+        object.__setattr__(self, 'follow', self.follow.on_track(self.effective_track))
+
 
 class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
     """`goal_pose`, `path`, `arc` and the pose -> `cmd_vel`, `ghost/pose`, `ghost/path`, ...

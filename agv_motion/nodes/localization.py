@@ -88,6 +88,7 @@ class Localization(PlainNode[LocalizationParameters]):
         port.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
         port.listen(Imu, 'imu', self._on_imu, SENSOR)
         port.listen(PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, COMMAND)
+        port.listen(PoseWithCovarianceStamped, 'set_pose', self._on_initial_pose, COMMAND)
         port.serve(SetMap, '~/set_pose', lambda request: self._set_pose(request.initial_pose))
         port.serve(Trigger, '~/restart', self._on_restart)
 

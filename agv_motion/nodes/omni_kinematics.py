@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
-from agv_motion.nodes.omni_parameters import OmniBaseParameters
+from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.nodes.wheels import WheelsNode
 from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.omni_odometry import OmniOdometry

@@ -9,8 +9,8 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Imu, JointState
 
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.kinematics.omniwheels import OmniWheels
-from agv_motion.nodes.omni_parameters import OmniBaseParameters
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.planar import Pose

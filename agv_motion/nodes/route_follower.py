@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isinf
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -46,6 +46,11 @@ class RouteFollowerParameters(DrivingParameters):
     ] = 1
     limits: TwistLimits = field(default_factory=TwistLimits)
     follow: FollowParameters = field(default_factory=FollowParameters)
+
+    def __post_init__(self) -> None:
+        """Check every row, and hand the track of the platform on."""
+        super().__post_init__()
+        object.__setattr__(self, 'limits', replace(self.limits, track=self.effective_track))
 
 
 class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):

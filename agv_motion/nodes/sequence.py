@@ -47,6 +47,11 @@ class SequenceParameters(DrivingParameters):
     tracking: FollowerParameters = field(default_factory=FollowerParameters)
     follow: FollowParameters = field(default_factory=FollowParameters)
 
+    def __post_init__(self) -> None:
+        """Check every row, and hand the track of the platform on."""
+        super().__post_init__()
+        object.__setattr__(self, 'tracking', self.tracking.on_track(self.effective_track))
+
 
 class SequenceNode(DrivingNode[SequenceParameters]):
     """`odom` -> `cmd_vel`, `sequence/status`, `sequence/progress`, `sequence/path`, `.../state`.

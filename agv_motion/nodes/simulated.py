@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from typing import TYPE_CHECKING, Annotated, Any, Protocol, TypeVar
 
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -18,7 +19,7 @@ from agv_motion.planar import Pose, Twist
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import SENSOR
+from agv_motion.ros.qos import COMMAND, SENSOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -147,7 +148,8 @@ class SimulatedNode(PlainNode[P]):
         self._truth = port.publisher(Odometry, 'ground_truth', SENSOR, sole=True)
         port.serve(SetBool, '~/pause', self._on_pause)
         port.serve(Trigger, '~/reset', self._on_reset)
-        port.serve(SetMap, '~/carry', self._on_carry)
+        port.listen(PoseWithCovarianceStamped, 'carry', self._on_pose, COMMAND)
+        port.serve(SetMap, '~/carry', lambda request: self._carry(request.initial_pose))
         if given.clock == 'follow':
             port.listen(ClockMessage, '/clock', self._follow, CLOCK)
             return
@@ -201,8 +203,11 @@ class SimulatedNode(PlainNode[P]):
         self._put_at_start()
         return f'back at the start, {self.parameters.start_time}'
 
-    def _on_carry(self, request: Any) -> str:
-        pose = pose_of(request.initial_pose.pose.pose)
+    def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
+        self.port.info(self._carry(message))
+
+    def _carry(self, message: PoseWithCovarianceStamped) -> str:
+        pose = pose_of(message.pose.pose)
         self.carry_to(pose)
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol
 
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
 from sensor_msgs.msg import JointState
@@ -13,7 +14,7 @@ from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, is_positive_definite
 from agv_motion.ros.covariances import covariance_of, fill_covariance
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, require_frame, seconds_of
-from agv_motion.ros.qos import SENSOR
+from agv_motion.ros.qos import COMMAND, SENSOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,7 +74,8 @@ class WheelStates:
         self._angles, self._watch = angles, watch
         self._odom = port.publisher(Odometry, 'odom', SENSOR, sole=True)
         port.listen(JointState, 'wheels/state', self._on_state, SENSOR)
-        port.serve(SetMap, '~/set_odometry', self._on_set_odometry)
+        port.listen(PoseWithCovarianceStamped, 'set_odometry', self._on_pose, COMMAND)
+        port.serve(SetMap, '~/set_odometry', lambda request: self._go_on(request.initial_pose))
 
     def _on_state(self, message: JointState) -> None:
         """Carry the odometry on, and tell of it."""
@@ -121,9 +123,11 @@ class WheelStates:
         fill_covariance(message.twist.covariance, reckoning.twist_covariance())
         self._odom.publish(message)
 
-    def _on_set_odometry(self, request: Any) -> str:
-        """Go on from the pose of the request; its map is not looked at."""
-        asked = request.initial_pose
+    def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
+        self._port.info(self._go_on(message))
+
+    def _go_on(self, asked: PoseWithCovarianceStamped) -> str:
+        """Go on from the pose that is ``asked`` for."""
         require_frame(asked.header.frame_id, self._given.odom_frame)
         pose, covariance = pose_of(asked.pose.pose), covariance_of(asked.pose.covariance)
         if covariance != CERTAIN and not is_positive_definite(covariance):

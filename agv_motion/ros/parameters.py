@@ -13,6 +13,8 @@ from rcl_interfaces.msg import (
 )
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
+from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_arguments import meant
@@ -31,7 +33,11 @@ if TYPE_CHECKING:
 OF_EVERY_NODE = 'use_sim_time', 'start_type_description_service', 'autostart', 'executor'
 """Parameters that nodes have beside their own"""
 
-OF_THE_PLATFORM = frozenset(name for name, _, _ in rows(PlatformParameters))
+OF_THE_PLATFORM = frozenset(
+    name
+    for kind in (PlatformParameters, OmniBaseParameters, DifferentialBaseParameters)
+    for name, _, _ in rows(kind)
+)
 """Parameters that a file tells once for all nodes, under ``/**``; not every node needs them."""
 
 T = TypeVar('T', bound='DataclassInstance')

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from agv_motion.parameters import Spec, check
@@ -75,6 +75,10 @@ class FollowerParameters:
     def __post_init__(self) -> None:
         """Check every row."""
         check(self)
+
+    def on_track(self, track: float) -> FollowerParameters:
+        """Return the same for a robot whose wheels stand ``track`` [m] apart."""
+        return replace(self, ghost=replace(self.ghost, track=track))
 
     def make_law(self) -> TrackingLaw:
         """Return the law that is chosen."""

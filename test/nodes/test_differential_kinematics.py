@@ -9,7 +9,7 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
 from sensor_msgs.msg import JointState
@@ -253,6 +253,26 @@ def test_set_odometry_goes_on_from_there(tester):
     assert tester.ask(SetMap, 'differential_kinematics/set_odometry', request).success
     robot.tell([2.0, 2.5], 1.1)
     assert tester.wait(robot.odometry).pose.pose.position.x == pytest.approx(5.1)
+
+
+def test_set_odometry_as_a_topic_does_the_same_and_refuses_another_frame(tester):
+    robot = Robot(tester)
+    robot.tell([0.0, 0.0], 1.0)
+    tester.wait(robot.odometry)
+    publisher = tester.publisher(PoseWithCovarianceStamped, 'set_odometry')
+    message = PoseWithCovarianceStamped()
+    message.pose.pose.position.x, message.pose.pose.orientation.w = 5.0, 1.0
+    message.header.frame_id = 'map'
+    publisher.publish(message)
+    tester.graph.spin_until(lambda: "'map'" in robot.node.complaint)
+    assert robot.odometry[-1].pose.pose.position.x == 0.0
+    message.header.frame_id = 'odom'
+    publisher.publish(message)
+    stamps = iter(range(11, 1000))
+    tester.graph.repeat(
+        lambda: robot.tell([0.0, 0.0], 0.1 * next(stamps)),
+        until=lambda: robot.odometry[-1].pose.pose.position.x == pytest.approx(5.0),
+    )
 
 
 @pytest.mark.parametrize(

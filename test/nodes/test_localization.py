@@ -124,12 +124,13 @@ def test_a_pose_that_is_set_is_believed(tester):
     robot.run(0.2, fixes=False)
     assert robot.missed() < 0.05
     assert robot.poses[-1].pose.covariance[0] == pytest.approx(0.25, rel=0.05)
-    rviz = tester.publisher(PoseWithCovarianceStamped, 'initialpose')
-    rviz.publish(robot.sight(0.0, Pose(-4.0, 2.0, 0.0), LOOKING, noise=0.0))
-    tester.graph.repeat(
-        lambda: robot.run(0.1, fixes=False),
-        until=lambda: abs(robot.poses[-1].pose.pose.position.x + 4.0) < 0.5,
-    )
+    for topic, x in (('initialpose', -4.0), ('set_pose', 7.0)):
+        publisher = tester.publisher(PoseWithCovarianceStamped, topic)
+        publisher.publish(robot.sight(0.0, Pose(x, 2.0, 0.0), LOOKING, noise=0.0))
+        tester.graph.repeat(
+            lambda: robot.run(0.1, fixes=False),
+            until=lambda x=x: abs(robot.poses[-1].pose.pose.position.x - x) < 0.5,
+        )
     for bad in (
         set_pose(Pose(nan, 0.0, 0.0)),
         set_pose(START, Covariance(0.1, 0.2, 0.0, 0.1, 0.0, 0.1)),

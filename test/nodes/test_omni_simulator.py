@@ -48,6 +48,10 @@ def test_it_drives_measures_and_can_be_carried_away(tester):
     request.initial_pose.pose.pose.position.x = 9.0
     assert tester.ask(SetMap, 'omni_simulator/carry', request).success
     tester.wait(truth, lambda m: m.pose.pose.position.x == pytest.approx(9.0, abs=0.1))
+    carried = PoseWithCovarianceStamped()
+    carried.pose.pose.position.x, carried.pose.pose.orientation.w = 6.0, 1.0
+    tester.publisher(PoseWithCovarianceStamped, 'carry').publish(carried)
+    tester.wait(truth, lambda m: m.pose.pose.position.x == pytest.approx(6.0, abs=0.1))
     assert tester.ask(SetBool, 'omni_simulator/pause', SetBool.Request(data=True)).success
     tester.graph.spin_for(0.1)
     truth.clear()

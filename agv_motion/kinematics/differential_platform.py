@@ -11,13 +11,24 @@ from agv_motion.parameters import Spec, check
 
 
 @dataclass(frozen=True)
-class DifferentialBaseParameters:
-    """Track and radii of two wheels, left and right."""
+class TrackParameters:
+    """How wide the robot stands: all that a node needs that drives it but not its wheels."""
 
     track: Annotated[float, Spec('distance between the wheels', 'm', (0.001, 100.0))] = 0.3
     track_multiplier: Annotated[
         float, Spec('effective track over measured track, from a calibration', '1', (0.5, 2.0))
     ] = 1.0
+
+    @property
+    def effective_track(self) -> float:
+        """By which the wheels turn the robot [m]."""
+        return self.track * self.track_multiplier
+
+
+@dataclass(frozen=True)
+class DifferentialBaseParameters(TrackParameters):
+    """Track and radii of two wheels, left and right."""
+
     wheel_radii: Annotated[tuple[float, ...], Spec('left and right', 'm', (0.001, 10.0))] = (
         0.05, 0.05,
     )  # fmt: skip
