@@ -10,7 +10,7 @@ from geometry_msgs.msg import TwistStamped
 
 from agv_motion.bag import BagReader, BagWriter
 from agv_motion.bag.editing.diff import Tolerance, diff
-from agv_motion.reprocess.one_bag import Plan, reprocess
+from agv_motion.reprocess import Plan, reprocess
 from agv_motion.ros.cdr import codec
 
 SECOND = 1_000_000_000
