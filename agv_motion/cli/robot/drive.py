@@ -5,17 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from math import degrees, radians
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from agv_motion.cli.robot.drive_goal import DriveGoal
 from agv_motion.cli.robot.pose_text import parse_pose
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from agv_motion.nodes.ghost_trajectory import GhostTrajectoryParameters
     from agv_motion.planar import Pose
     from agv_motion.trajectory.ghost import Ghost
@@ -33,17 +32,6 @@ Plot = Annotated[Path | None, typer.Option(help='With --dry-run: draw it into th
 Start = Annotated[str, typer.Option(help='With --dry-run: X,Y,DEGREES where the robot starts.')]
 Config = Annotated[str, typer.Option(help='With --dry-run: parameter file of the robot.')]
 Namespace = Annotated[str, typer.Option(help='Of the robot, such as /hare.')]
-
-
-class DriveGoal(NamedTuple):
-    """What the node is to do, as a dry run and as the graph do it."""
-
-    plan: Callable[[Ghost, GhostTrajectoryParameters], Trajectory]
-    poses: list[Pose]
-    arc: tuple[float, float] | None
-    """Angle [rad] and inner diameter [m]"""
-    changes: dict[str, float | bool]
-    """Of the parameters of the node, for this goal alone"""
 
 
 @app.command(context_settings={'ignore_unknown_options': True})

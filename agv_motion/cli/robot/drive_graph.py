@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from agv_motion.cli.robot.drive import DriveGoal
+    from agv_motion.cli.robot.drive_goal import DriveGoal
 
 PATIENCE = 5.0
 """[s] For the node to be found, and for each of its answers."""

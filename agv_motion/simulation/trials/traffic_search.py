@@ -16,20 +16,25 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations
-from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from agv_motion.motion.navigation.polyline import line
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
-from agv_motion.motion.navigation.reservations.separation import apart
 from agv_motion.parameters import Spec, check
+from agv_motion.simulation.trials.traffic_state import (
+    State,
+    breached,
+    clone,
+    key,
+    news,
+    same_run,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterator
+    from collections.abc import Iterator
 
     from agv_motion.motion.navigation.polyline import Point
-    from agv_motion.motion.navigation.reservations.peers import Peer
     from agv_motion.motion.navigation.reservations.reservation import Reservation
 
 TRAFFIC = TrafficParameters(body=0.2, tolerance=0.1, margin=0.3, listen=0.0)
@@ -64,7 +69,6 @@ class SearchParameters:
         check(self)
 
 
-T = TypeVar('T')
 _Act = Callable[[RightOfWay], object]
 
 SETTLES = 'settles'
@@ -83,21 +87,6 @@ class SearchOutcome(NamedTuple):
     """whether there was nothing left to look at"""
 
 
-class _State(NamedTuple):
-    """All trees, and the words on their way; nothing in it is ever changed."""
-
-    trees: tuple[RightOfWay, ...]
-    keys: tuple[Hashable, ...]
-    """what tells two states of each tree apart"""
-    mail: tuple[Reservation, ...]
-
-    def key(self) -> Hashable:
-        """Return what tells two states apart."""
-        return self.keys, tuple(
-            (reservation.name, reservation.message_id) for reservation in self.mail
-        )
-
-
 class Search:
     """The states of a few trees, and the steps between them."""
 
@@ -111,7 +100,7 @@ class Search:
             self._new(name, (float(cell), 0.0), 1)
             for name, cell in zip(self._names, given.cells, strict=True)
         )
-        start = _State(trees, tuple(map(_key, trees)), ())
+        start = State(trees, tuple(map(key, trees)), ())
         for _ in range(given.rounds):
             start = self._talk(start)
         if given.parked:
@@ -130,25 +119,25 @@ class Search:
 
     def run(self) -> SearchOutcome:
         """Look at all states that can be reached, the nearest first."""
-        queue: deque[tuple[_State, tuple[str, ...]]] = deque([(self._start, ())])
+        queue: deque[tuple[State, tuple[str, ...]]] = deque([(self._start, ())])
         seen = {self._start.key()}
         while queue:
             state, past = queue.popleft()
             for event, following in self._steps(state):
-                if event.endswith(SETTLES) and _breached(following):
+                if event.endswith(SETTLES) and breached(following, TRAFFIC.clearance):
                     return SearchOutcome(len(seen), self._granted, (*past, event), complete=False)
-                key = following.key()
-                if key in seen:
+                found = following.key()
+                if found in seen:
                     continue
                 if len(seen) >= self.parameters.states:
                     return SearchOutcome(len(seen), self._granted, (), complete=False)
-                seen.add(key)
+                seen.add(found)
                 queue.append((following, (*past, event)))
         return SearchOutcome(len(seen), self._granted, (), complete=True)
 
     # What may happen next
 
-    def _steps(self, state: _State) -> Iterator[tuple[str, _State]]:
+    def _steps(self, state: State) -> Iterator[tuple[str, State]]:
         for i, tree in enumerate(state.trees):
             told = tree._number - (self._before[tree.name] if tree.run == 1 else 0)  # noqa: SLF001
             if told >= self.parameters.messages:
@@ -175,7 +164,7 @@ class Search:
         if len(tree.held) > 1:
             yield 'walks', lambda one: one.pass_by(one.ahead)
 
-    def _messages(self, tree: RightOfWay, state: _State) -> Iterator[tuple[str, _Act]]:
+    def _messages(self, tree: RightOfWay, state: State) -> Iterator[tuple[str, _Act]]:
         for reservation in state.mail:
             if reservation.name != tree.name:
                 event = 'hears {} {}:{}'.format(reservation.name, *reservation.message_id)
@@ -204,34 +193,34 @@ class Search:
         tree.settle(0.0)
         self._granted += len(tree.held) > before
 
-    def _act(self, state: _State, i: int, act: _Act) -> _State:
+    def _act(self, state: State, i: int, act: _Act) -> State:
         """Return what comes of ``act`` of tree ``i``, which tells at once what is new."""
-        tree = _clone(state.trees[i])
+        tree = clone(state.trees[i])
         act(tree)
         return self._put(state, i, tree)
 
-    def _put(self, state: _State, i: int, tree: RightOfWay) -> _State:
+    def _put(self, state: State, i: int, tree: RightOfWay) -> State:
         mail, before = state.mail, tree.__dict__.copy()
         reservation = tree.reservation(0.0)
-        if _news(reservation, mail):  # whether and when it is heard is another matter
+        if news(reservation, mail):  # whether and when it is heard is another matter
             mail = self._posted(mail, reservation)
         else:
             tree.__dict__ = before
         trees = (*state.trees[:i], tree, *state.trees[i + 1 :])
-        return _State(trees, (*state.keys[:i], _key(tree), *state.keys[i + 1 :]), mail)
+        return State(trees, (*state.keys[:i], key(tree), *state.keys[i + 1 :]), mail)
 
     def _posted(
         self, mail: tuple[Reservation, ...], reservation: Reservation
     ) -> tuple[Reservation, ...]:
         """Return ``mail`` with one more word; older ones of that run than the last few are lost."""
-        same = [old for old in mail if _same_run(old, reservation)]
+        same = [old for old in mail if same_run(old, reservation)]
         lost = same[: max(len(same) + 1 - self.parameters.late, 0)]
         return (*(old for old in mail if old not in lost), reservation)
 
-    def _talk(self, state: _State) -> _State:
+    def _talk(self, state: State) -> State:
         """Return what comes of it when every tree hears every other's last word."""
         for i in range(len(state.trees)):
-            state = self._put(state, i, _clone(state.trees[i]))
+            state = self._put(state, i, clone(state.trees[i]))
         last = {reservation.name: reservation for reservation in state.mail}
         for i, tree in enumerate(state.trees):
             for reservation in last.values():
@@ -261,68 +250,3 @@ def _wrong_fixes(tree: RightOfWay) -> Iterator[tuple[str, _Act]]:
         yield 'believes to be back', partial(RightOfWay.locate, place=at_home, now=0.0)
     else:
         yield 'is sure', partial(RightOfWay.locate, place=at_home, now=LONG)
-
-
-def _breached(state: _State) -> bool:
-    """Return whether two trees hold the same floor, that on which one only believes to be apart."""
-    paths = [tree.held if tree.doubt is None else tree.doubt.before for tree in state.trees]
-    return not all(apart(line(a), line(b), TRAFFIC.clearance) for a, b in combinations(paths, 2))
-
-
-def _same_run(a: Reservation, b: Reservation) -> bool:
-    return a.name == b.name and a.message_id.run == b.message_id.run
-
-
-def _news(reservation: Reservation, mail: tuple[Reservation, ...]) -> bool:
-    """Return whether ``reservation`` says what the last word of its run did not."""
-    last = next((old for old in reversed(mail) if _same_run(old, reservation)), None)
-    return last is None or _said(last) != _said(reservation)
-
-
-def _clone(tree: RightOfWay) -> RightOfWay:
-    new = _copied(tree)
-    new.peers = _copied(tree.peers)
-    peers = tree.peers._peers  # noqa: SLF001
-    new.peers._peers = {name: _clone_peer(peer) for name, peer in peers.items()}  # noqa: SLF001
-    return new
-
-
-def _clone_peer(peer: Peer) -> Peer:
-    new = _copied(peer)
-    new._runs, new._ended = dict(peer._runs), dict(peer._ended)  # noqa: SLF001
-    return new
-
-
-def _copied(thing: T) -> T:
-    """Return a shallow copy, faster than `copy.copy`."""
-    new = object.__new__(type(thing))
-    new.__dict__.update(thing.__dict__)
-    return new
-
-
-def _said(reservation: Reservation) -> tuple[Hashable, ...]:
-    return (
-        reservation.held,
-        reservation.requested,
-        reservation.journey,
-        reservation.received,
-        reservation.parked,
-    )
-
-
-def _key(tree: RightOfWay) -> Hashable:
-    peers = tuple(_peer_key(peer) for peer in tree.peers)
-    return (
-        tree.run, tree._number, tree.held, tree.requested, tree._requested_since, tree.parked,  # noqa: SLF001
-        tree.journey, tree.doubt, tree._moved_since, peers,  # noqa: SLF001
-    )  # fmt: skip
-
-
-def _peer_key(peer: Peer) -> Hashable:
-    runs = tuple((r.reservation.message_id, r.since) for _, r in sorted(peer._runs.items()))  # noqa: SLF001
-    ended = tuple(sorted(peer._ended.items()))  # noqa: SLF001
-    sides = peer.sides and (peer.sides.own.wkb, peer.sides.theirs.wkb)
-    return (
-        runs, ended, peer.reservation.message_id, peer.echo, peer.mutual_from, peer.silent, sides,
-        peer.doubled_at,
-    )  # fmt: skip
