@@ -54,7 +54,9 @@ class BagPlayerParameters(PlaybackParameters):
     wait_for_all_acked: Annotated[
         float,
         Spec(
-            'at the end wait so long for every listener to confirm; negative: not', 's', (-1, 1e6)
+            'how long to wait at the end until all listeners confirm; negative: not',
+            's',
+            (-1, 1e6),
         ),
     ] = -1.0
     seek_to: Annotated[

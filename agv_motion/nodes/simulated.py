@@ -212,7 +212,7 @@ class SimulatedNode(PlainNode[P]):
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
 
     def _nanoseconds(self, steps: int) -> int:
-        """Return the time after so many steps, since 1970 [ns]."""
+        """Return the time after this number of steps, since 1970 [ns]."""
         return self._start + round(steps * 1e9 / self.parameters.rate)
 
     def _watch_clocks(self) -> None:

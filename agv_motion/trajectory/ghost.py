@@ -165,7 +165,7 @@ class Ghost:
         )
 
     def require_count(self, poses: int) -> None:
-        """Raise if so many ``poses`` are too many for one path: to ask before they are made.
+        """Raise if this number of ``poses`` is too many for one path: to ask before they are made.
 
         Raises:
             ConfigurationError: They are.

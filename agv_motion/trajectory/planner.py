@@ -147,7 +147,7 @@ class Planner:
         return self._trajectory(start, joined[-1], motions, request, present)
 
     def require_count(self, poses: int) -> None:
-        """Raise if so many ``poses`` are too many for one path.
+        """Raise if this number of ``poses`` is too many for one path.
 
         Raises:
             ConfigurationError: They are more than the limit.

@@ -14,7 +14,7 @@ FEWEST = 10
 _SHARE, _SPREAD = 0.9, 1.5
 
 
-class Silence(NamedTuple):
+class TopicSilence(NamedTuple):
     """Messages were expected and did not come."""
 
     after: int
@@ -42,7 +42,7 @@ def regular(stamps: NDArray[np.int64]) -> bool:
     return usual > 0 and float(near.mean()) >= _SHARE
 
 
-def silences(stamps: NDArray[np.int64], factor: float, longer: float = 0.0) -> list[Silence]:
+def silences(stamps: NDArray[np.int64], factor: float, longer: float = 0.0) -> list[TopicSilence]:
     """Return the intervals that are longer than ``factor`` times the median.
 
     Args:
@@ -58,6 +58,8 @@ def silences(stamps: NDArray[np.int64], factor: float, longer: float = 0.0) -> l
     usual = int(np.median(steps))
     long = np.flatnonzero((steps > factor * usual) & (steps > longer * 1e9))
     return [
-        Silence(int(ordered[i]), int(steps[i]), usual, round(steps[i] / usual) - 1 if usual else 0)
+        TopicSilence(
+            int(ordered[i]), int(steps[i]), usual, round(steps[i] / usual) - 1 if usual else 0
+        )
         for i in long
     ]

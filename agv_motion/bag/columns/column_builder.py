@@ -29,7 +29,7 @@ class Part(NamedTuple):
     (1, counts) if the values are the same too"""
 
 
-class Memory:
+class ColumnMemory:
     """Hands out memory for columns, to small ones in common blocks.
 
     In large blocks the operating system has huge pages; 40 columns of 2 MB each take their pages
@@ -95,7 +95,7 @@ class Growing:
 class ColumnBuilder:
     """Values of one field, row after row; rows of changing length cost an offset each."""
 
-    def __init__(self, memory: Memory, dtype: DTypeLike, rows: int, limit: int) -> None:
+    def __init__(self, memory: ColumnMemory, dtype: DTypeLike, rows: int, limit: int) -> None:
         """Begin.
 
         Args:

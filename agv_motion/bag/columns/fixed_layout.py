@@ -22,7 +22,7 @@ _GAPS = (32, 8, 0)
 """[bytes] Between lengths and texts may lie what seldom changes: names nobody wants, padding."""
 
 
-class Rows(NamedTuple):
+class LayoutRows(NamedTuple):
     """Bytes of messages at equal distances; places in a row count from its first wanted byte."""
 
     data: Buffer | NDArray[Any]
@@ -81,17 +81,17 @@ class FixedLayout:
         """what all messages with the same lengths and texts have in common, the last of these
         exactly; the others compare fewer and longer parts, as long as what is between agrees"""
 
-    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> Rows:
+    def rows(self, data: Buffer, starts: NDArray[np.int64]) -> LayoutRows:
         """Return messages as rows: as they lie if they lie equally far apart, else gathered."""
         first, count, size = int(starts[0]) + self._first, len(starts), self._size
         stride = int(starts[1] - starts[0]) if count > 1 else size
         if stride >= size and (starts[1:] - starts[:-1] == stride).all():
-            return Rows(data, first, stride, count)
+            return LayoutRows(data, first, stride, count)
         raw, room = np.dtype((np.void, size)), len(data) - size + 1
         windows = np.ndarray((room,), raw, data, strides=(1,))
-        return Rows(windows[starts + self._first], 0, size, count)
+        return LayoutRows(windows[starts + self._first], 0, size, count)
 
-    def same(self, rows: Rows) -> bool:
+    def same(self, rows: LayoutRows) -> bool:
         """Return whether all rows have this layout, and the same texts too."""
         for i, told in enumerate(self._told):
             if all(repeats(rows.values('u1', at, len(part)), part) for at, part in told):
@@ -99,7 +99,7 @@ class FixedLayout:
                 return True
         return False
 
-    def agree(self, rows: Rows) -> NDArray[np.bool_]:
+    def agree(self, rows: LayoutRows) -> NDArray[np.bool_]:
         """Return which rows have this layout."""
         agree = np.ones(rows.number, bool)
         for at, length in self._guards:
@@ -107,7 +107,7 @@ class FixedLayout:
         return agree
 
     def values(
-        self, rows: Rows, leaf: Leaf, texts: Mapping[int, TextCodes], *, same: bool
+        self, rows: LayoutRows, leaf: Leaf, texts: Mapping[int, TextCodes], *, same: bool
     ) -> NDArray[Any]:
         """Return the values of a leaf in rows that agree.
 
@@ -134,7 +134,7 @@ class FixedLayout:
         return np.concatenate(parts, axis=1) if parts else np.empty((rows.number, 0), dtype)
 
     def _codes(
-        self, rows: Rows, number: int, code: Callable[[bytes], int], *, same: bool
+        self, rows: LayoutRows, number: int, code: Callable[[bytes], int], *, same: bool
     ) -> NDArray[np.uint32]:
         places = [(at, max(size - 1, 0)) for at, size, _ in self._places[number]]  # no final zero
         if same:

@@ -11,7 +11,7 @@ import numpy as np
 from agv_motion.bag.cdr.layout import FieldOffsets, Leaf, layout
 from agv_motion.bag.cdr.message_type import unfold
 from agv_motion.bag.cdr.primitives import NUMPY
-from agv_motion.bag.columns.column_builder import ColumnBuilder, Growing, Memory, Part
+from agv_motion.bag.columns.column_builder import ColumnBuilder, ColumnMemory, Growing, Part
 from agv_motion.bag.columns.fixed_layout import FixedLayout
 from agv_motion.bag.columns.text_codes import TextCodes
 from agv_motion.bag.damage import DamagedBagError
@@ -63,7 +63,7 @@ class TopicDecoder:
         self._layout = layout(kind)
         self.leaves = _wanted(self._layout.leaves, fields, connection)
         self.texts = {leaf.number: TextCodes() for leaf in self.leaves if leaf.type == 'string'}
-        memory = Memory()
+        memory = ColumnMemory()
         self.builders = {
             leaf.number: ColumnBuilder(
                 memory, 'bool' if leaf.type == 'bool' else NUMPY[leaf.type], rows, limit

@@ -27,7 +27,7 @@ _HEAD = np.dtype([*((n, HEAD[n]) for n in HEAD.names or ()), ('form', '>u2'), ('
 _LATEST = 2**64 - 1
 
 
-class Together(NamedTuple):
+class BatchesTogether(NamedTuple):
     """Chunks whose contents lie in one buffer."""
 
     chunks: Sequence[Chunk]
@@ -50,11 +50,11 @@ def groups(chunks: Iterable[Chunk]) -> Iterator[list[Chunk]]:
         yield group
 
 
-def unpacked(file: ChunkedFile, chunks: Sequence[Chunk], buffer: memoryview) -> Together:
+def unpacked(file: ChunkedFile, chunks: Sequence[Chunk], buffer: memoryview) -> BatchesTogether:
     """Return the contents of some chunks in one buffer: ``buffer``, if it is large enough."""
     if len(chunks) == 1 and chunks[0].size > len(buffer):
         content = file.unpacked(chunks[0])
-        return Together(chunks, content, np.array([len(content)]))
+        return BatchesTogether(chunks, content, np.array([len(content)]))
     ends, begin = [], 0
     for chunk in chunks:
         target = buffer[begin : begin + chunk.size]
@@ -66,11 +66,11 @@ def unpacked(file: ChunkedFile, chunks: Sequence[Chunk], buffer: memoryview) -> 
             target[: len(content)] = content
         begin += len(content)
         ends.append(begin)
-    return Together(chunks, buffer[:begin], np.array(ends, np.int64))
+    return BatchesTogether(chunks, buffer[:begin], np.array(ends, np.int64))
 
 
 def batches(
-    file: ChunkedFile, together: Together, channels: Sequence[int], start: int, stop: int
+    file: ChunkedFile, together: BatchesTogether, channels: Sequence[int], start: int, stop: int
 ) -> list[Batch]:
     """Return the messages of each channel, after a look whether they are where the index says."""
     data, ends = together.data, together.ends

@@ -36,7 +36,7 @@ MOST_LATCHED = 100
 """messages of a latched topic that are repeated in a new file"""
 
 
-class Message(NamedTuple):
+class QueuedMessage(NamedTuple):
     """A message as it comes from the middleware."""
 
     topic: int
@@ -67,7 +67,7 @@ class TopicReport(NamedTuple):
 @dataclass
 class _Topic:
     name: str
-    latest: deque[Message]
+    latest: deque[QueuedMessage]
     """what a latched topic tells a late listener"""
     gaps: SequenceGaps = field(default_factory=SequenceGaps)
     dropped: int = 0
@@ -92,7 +92,7 @@ class Recording:
         """why the recording ended by itself; empty while it goes on"""
         self._given = given
         self._writer = BagWriter(path, compression=given.compression)
-        self._queue: deque[Message] = deque()
+        self._queue: deque[QueuedMessage] = deque()
         self._topics: list[_Topic] = []
         self._handed, self._taken = 0, 0
         self._limit = given.cache * MEGABYTE
@@ -142,7 +142,7 @@ class Recording:
             self._topics[topic - 1].dropped += 1
             return
         self._handed += len(data)
-        self._queue.append(Message(topic, received, data, sent, sequence))
+        self._queue.append(QueuedMessage(topic, received, data, sent, sequence))
 
     def interrupt(self) -> None:
         """Take what comes next as a new beginning: the messages of a pause are not lost."""

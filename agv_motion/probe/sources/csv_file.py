@@ -45,7 +45,11 @@ class CsvParameters:
     )  # fmt: skip
     day_offsets: Annotated[
         tuple[float, ...],
-        Spec('each probe is read so many days later in the file', 'd', (-1e5, 1e5)),
+        Spec(
+            'days by which each probe is read later in the file',
+            'd',
+            (-1e5, 1e5),
+        ),
     ] = (0.0, 0.0, 0.0)
     unit: Annotated[str, Spec('of the columns', choices=UNITS)] = 'mV'
     kelvin_per_millivolt: Annotated[float, Spec('of the thermocouple', 'K/mV', (0.1, 1e4))] = (

@@ -47,7 +47,7 @@ class TrackingTrialParameters:
     heading_noise: Annotated[
         float, Spec('standard deviation of the measured heading', 'rad', (0.0, 1.0))
     ] = 0.01
-    slip: Annotated[float, Spec('up to so much, of each wheel by itself', '1', (0.0, 0.5))] = 0.05
+    slip: Annotated[float, Spec('largest share, of each wheel by itself', '1', (0.0, 0.5))] = 0.05
     cruising_speed: Annotated[float, Spec('of the Ghost', 'm/s', (0.01, 5.0))] = 0.5
     speed_ramps: Annotated[float, Spec('of the Ghost', 'm/s2', (0.01, 10.0))] = 0.5
     robot: DifferentialRobotParameters = field(default_factory=DifferentialRobotParameters)
