@@ -77,6 +77,11 @@ def test_a_link_that_leads_nowhere_is_found():
     assert broken(ROOT / 'README.md', text) == ['no/such.md', '#no-such-heading', 'README.md#no']
 
 
+def test_every_room_has_a_page():
+    rooms = {path.parent for path in (ROOT / 'agv_motion').glob('*/*.py') if '__' not in path.name}
+    assert [room.name for room in sorted(rooms) if not (room / 'README.md').exists()] == []
+
+
 def test_every_page_can_be_reached_from_the_readme():
     reached, waiting = set(), [ROOT / 'README.md']
     while waiting:
