@@ -58,6 +58,18 @@ def test_imports_run_from_the_nodes_down_to_planar():
             assert LAYERS[target[1]] < LAYERS[parts[0]], f'{path} imports {module}'
 
 
+def test_no_circle_of_files():
+    """Imports for type checking count, too."""
+    package = ROOT.parent
+    names = {'.'.join(p.relative_to(package).with_suffix('').parts): p for p in files('.')}
+    needs = {name: set(imports(path)) & names.keys() for name, path in names.items()}
+    while needs:
+        done = [name for name, others in needs.items() if not others & needs.keys()]
+        assert done, f'in a circle, or led to by one: {sorted(needs)}'
+        for name in done:
+            del needs[name]
+
+
 def test_one_public_class_name_is_one_class():
     where = {}
     for path in files('.'):
