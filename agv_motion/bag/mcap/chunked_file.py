@@ -33,8 +33,9 @@ class Entries(NamedTuple):
 
     stamps: NDArray[np.uint64]
     """[ns] log time of each"""
-    offsets: NDArray[Any]
-    """[bytes] of each in the content of the chunk"""
+    offsets: NDArray[np.uint64]
+    """[bytes] of each in the content of the chunk; without a sign, since numpy would join such
+    numbers and others as floats, 256 ns apart"""
 
 
 class ChunkedFile:
@@ -157,8 +158,7 @@ class ChunkedFile:
             entries = self.entries(chunk, unpacked).get(channel)
             if entries is None:
                 return message_index.NONE
-            # numpy would join numbers with and without a sign as floats, 256 ns apart
-            return np.column_stack([entries.stamps, entries.offsets.astype(np.uint64)])
+            return np.column_stack([entries.stamps, entries.offsets])
         at = chunk.indexes.get(channel)
         return (
             message_index.NONE
@@ -181,11 +181,7 @@ class ChunkedFile:
 
         """
         if chunk.indexes is not None:
-            return {
-                channel: self._indexed(chunk, channel, at)
-                for channel, at in chunk.indexes.items()
-                if wanted is None or channel in wanted
-            }
+            return self._indexed(chunk, wanted)
         unpacked = self.content(chunk) if unpacked is None else unpacked
         offsets = message_offsets(unpacked)
         found = self.heads(chunk, unpacked, offsets)
@@ -195,17 +191,27 @@ class ChunkedFile:
             if wanted is not None and int(channel) not in wanted:
                 continue
             mine = channels == channel
-            entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine])
+            entries[int(channel)] = Entries(found['stamp'][mine], offsets[mine].astype(np.uint64))
         return entries
 
-    def _indexed(self, chunk: Chunk, channel: int, at: int) -> Entries:
-        """Return what the index at byte ``at`` says of a channel in a chunk."""
-        table = message_index.rows(self.data, channel, at, self.path)
-        stamps = table[:, 0]
-        if len(stamps) and not chunk.start <= int(stamps.min()) <= int(stamps.max()) <= chunk.end:
+    def _indexed(self, chunk: Chunk, wanted: Container[int] | None) -> dict[int, Entries]:
+        """Return what its indexes say of wanted channels in a chunk."""
+        tables = {
+            channel: message_index.rows(self.data, channel, at, self.path)
+            for channel, at in (chunk.indexes or {}).items()
+            if wanted is None or channel in wanted
+        }
+        times = np.concatenate([message_index.NONE[:, 0], *(t[:, 0] for t in tables.values())])
+        if len(times) and not chunk.start <= int(times.min()) <= int(times.max()) <= chunk.end:
             finding = f'a message index of times outside of its chunk at byte {chunk.offset}'
-            raise DamagedBagError(self.path, at, finding)
-        return Entries(stamps, table[:, 1])
+            raise DamagedBagError(self.path, self._outside(chunk, tables), finding)
+        return {channel: Entries(table[:, 0], table[:, 1]) for channel, table in tables.items()}
+
+    def _outside(self, chunk: Chunk, tables: Mapping[int, NDArray[np.uint64]]) -> int:
+        """Return where the index lies that tells of times outside of its chunk [bytes]."""
+        low, high = np.uint64(chunk.start), np.uint64(chunk.end)
+        wrong = (c for c, t in tables.items() if ((t[:, 0] < low) | (t[:, 0] > high)).any())
+        return (chunk.indexes or {})[next(wrong)]
 
     def unpacked(self, chunk: Chunk, target: memoryview | None = None) -> Buffer:
         """Return the uncompressed content of a chunk, without keeping it; for any thread.

@@ -119,24 +119,20 @@ class _Listed(NamedTuple):
 
 def _listed(told: Sequence[Mapping[int, Entries]], sizes: Sequence[int]) -> _Listed | None:
     """Return the entries of some chunks, whose contents have ``sizes`` [bytes]; None without."""
-    channels, stamps, places, counts, ends, begin = [], [], [], [], [], 0
-    for by_channel, size in zip(told, sizes, strict=True):
-        for channel, entries in by_channel.items():
-            channels.append(channel)
-            stamps.append(entries.stamps)
-            # no further than the end of the content, where no message is: the sum cannot wrap
-            offsets = np.minimum(entries.offsets.astype(np.uint64), np.uint64(size))
-            places.append(offsets + np.uint64(begin))
-            counts.append(len(entries.stamps))
-            ends.append(begin + size)
-        begin += size
-    if not channels:
+    entries = [one for by_channel in told for one in by_channel.values()]
+    if not entries:
         return None
+    counts = [len(one.stamps) for one in entries]
+    ends = np.repeat(np.cumsum(sizes, dtype=np.uint64), [len(by_channel) for by_channel in told])
+    room = np.repeat(np.array(sizes, np.uint64), [len(by_channel) for by_channel in told])
+    ends, room = np.repeat(ends, counts), np.repeat(room, counts)
+    offsets = np.concatenate([one.offsets for one in entries])
     return _Listed(
-        np.repeat(channels, counts),
-        np.concatenate(stamps),
-        np.concatenate(places),
-        np.repeat(np.array(ends, np.uint64), counts),
+        np.repeat([channel for by_channel in told for channel in by_channel], counts),
+        np.concatenate([one.stamps for one in entries]),
+        # no further than the end of the content, where no message is: the sum cannot wrap
+        np.minimum(offsets, room) + (ends - room),
+        ends,
     )
 
 
@@ -152,10 +148,10 @@ def _sorted(
     if listed is None:
         return None
     lie = file.heads(chunk, content, listed.places)
-    file.require_described(chunk, lie)
     wrong = (lie['channel'] != listed.channels) | (lie['stamp'] != listed.stamps)
     wrong |= listed.places + lie['length'] + np.uint64(records.PREFIX.size) > listed.ends
     if wrong.any():
+        file.require_described(chunk, lie)
         finding = 'in this chunk, messages that are not those of its index'
         raise DamagedBagError(file.path, chunk.offset, finding)
     wanted = inside(listed.stamps, span.start, span.stop)
