@@ -20,7 +20,7 @@ def test_a_short_sequence_leaves_a_bag_and_a_figure(alone, tmp_path):
     file.write_text(SEQUENCE, encoding='utf-8')
     status, out, errors = alone(
         'demo', 'differential', '--sequence', file, '--time-factor', 4, '--output', tmp_path,
-        timeout=60.0,
+        timeout=180.0,
     )  # fmt: skip
     assert status == 0, out + errors
     x, y = map(float, re.search(r'ends at (-?[\d.]+) m, (-?[\d.]+) m', out).groups())

@@ -17,7 +17,7 @@ from agv_motion.report.walks import gaps, read_walks
 def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     status, out, errors = alone(
         'demo', 'trees', '--count', 2, '--minutes', 3, '--time-factor', 15, '--output', tmp_path,
-        timeout=120.0,
+        timeout=180.0,
     )  # fmt: skip
     assert status == 0, errors
     assert (tmp_path / 'trees.png').stat().st_size > 10_000
@@ -35,7 +35,7 @@ def test_ctrl_c_at_the_very_beginning_is_no_error(alone, tmp_path, wait_until):
     process = alone.start('demo', 'trees', '--output', tmp_path)
     wait_until(lambda: list(tmp_path.glob('bag/*.mcap')))
     process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=120.0)
+    out, errors = process.communicate(timeout=180.0)
     assert process.returncode == 0, errors
     assert 'Bag: ' in out
 
