@@ -27,6 +27,9 @@ CONFIGS = {
 }
 """The node of each kind of base, and the file of config/ with its drawing."""
 
+OF_ONE_NODE = ('steering_zero',)
+"""What the node of the wheels alone knows; the rest is the shape of the robot, told once."""
+
 
 def calibrate(
     bag: Annotated[Path, typer.Argument(help='Bag of the drive: a folder, or one file.')],
@@ -91,11 +94,18 @@ def calibrate(
                 raise SignalError(msg)
             found = fit(drawing.model, drive.recording, found.slip)
         _print(found, drive.topic)
-        values = {unknown.name: unknown.value for unknown in found.unknowns}
-        content = {f'{prefix or "/**"}/{name}': {'ros__parameters': drawing.written(values)}}
+        content = _sections(drawing, found, prefix, name)
         with replacing(output) as made:
             made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
         typer.echo(f'Parameters: {output}')
+
+
+def _sections(drawing: Drawing, found: Calibration, prefix: str, node: str) -> dict[str, Any]:
+    """Return the content of a parameter file: the shape for all nodes, the rest for one."""
+    written = drawing.written({unknown.name: unknown.value for unknown in found.unknowns})
+    own = {name: written.pop(name) for name in OF_ONE_NODE if name in written}
+    sections = {f'{prefix}/**': written, f'{prefix or "/**"}/{node}': own}
+    return {name: {'ros__parameters': values} for name, values in sections.items() if values}
 
 
 def _print(found: Calibration, topic: str) -> None:

@@ -69,7 +69,7 @@ def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
     status, out, errors = alone('calibrate', tmp_path / 'bag', '-o', out_file, timeout=60.0)
     assert status == 0, errors
     assert 'not told' not in out
-    given = yaml.safe_load(out_file.read_text())['/**/differential_kinematics']['ros__parameters']
+    given = yaml.safe_load(out_file.read_text())['/**']['ros__parameters']
     assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
     assert given['track_multiplier'] * 0.3 == pytest.approx(TRACK, abs=3e-3)
     status, out, _ = alone('parameters', 'differential_kinematics')
@@ -83,9 +83,7 @@ def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
     (track,) = [line for line in out.splitlines() if line.startswith('track')]
     assert 'not told by this motion' in track
     given = yaml.safe_load((tmp_path / 'new.yaml').read_text())
-    assert given['/**/differential_kinematics']['ros__parameters']['track_multiplier'] == (
-        pytest.approx(1.0, abs=1e-3)
-    )
+    assert given['/**']['ros__parameters']['track_multiplier'] == (pytest.approx(1.0, abs=1e-3))
 
 
 @pytest.mark.parametrize(
@@ -159,9 +157,7 @@ def test_no_other_robot_tells_the_places(alone, tmp_path):
     assert 'has no fix, pose or ground_truth of /oak' in ' '.join(errors.split())
     told, _ = calibrated(alone, tmp_path, *options, '--reference', '/elm/fix')
     assert '/elm/fix' in told
-    assert list(yaml.safe_load((tmp_path / 'new.yaml').read_text())) == [
-        '/oak/differential_kinematics'
-    ]
+    assert list(yaml.safe_load((tmp_path / 'new.yaml').read_text())) == ['/oak/**']
 
 
 def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
