@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 import yaml
@@ -16,6 +16,7 @@ from agv_motion.files.unfinished import replacing
 
 if TYPE_CHECKING:
     from agv_motion.odometry.calibration import Calibration
+    from agv_motion.report.calibration_drawing import Drawing
 
 NINETY_FIVE = 1.96
 """Standard deviations to either side that hold 95 of 100 truths."""
