@@ -169,6 +169,8 @@ class ReservationExchange:
         except SignalError as error:
             right.alarm(f'a reservation was refused: {error}', now)
             raise
+        if self._port.is_recorded and reservation.name == self._name:
+            return  # what this tree said when it was recorded: no other calls itself so
         right.receive(reservation, now)
         if reservation.name != self._name:
             try:  # before this tree tells it that it was heard

@@ -75,6 +75,11 @@ class InProcessPort:
         """type of each service, and what it does"""
 
     @property
+    def is_recorded(self) -> bool:
+        """Whether what comes is a recording, in which the node hears what it said itself."""
+        return bool(self.graph.recorded)
+
+    @property
     def name(self) -> str:
         """Name of the node."""
         return self._place.name

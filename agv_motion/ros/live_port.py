@@ -153,6 +153,11 @@ class LivePort:
         """Whether the node's clock is simulated."""
         return bool(self.node.get_parameter('use_sim_time').value)
 
+    @property
+    def is_recorded(self) -> bool:
+        """Whether what comes is a recording: never, as far as a live node can know."""
+        return False
+
     def nanoseconds(self) -> int:
         """Return the time of the node's clock [ns]."""
         return int(self._now().nanoseconds)

@@ -142,6 +142,10 @@ class Port(Protocol):
     def is_simulated(self) -> bool:
         """Whether the node's clock is simulated (`use_sim_time`)."""
 
+    @property
+    def is_recorded(self) -> bool:
+        """Whether what comes is a recording, in which the node hears what it said itself."""
+
     def seconds(self) -> float:
         """Return the time of the node's clock [s]."""
 

@@ -10,10 +10,12 @@ pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, Vector3, Vector3Stamped
 
+from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
+from agv_motion.ros.reservations import reservation_message
 
 SECOND = 1_000_000_000
 CLOSING = int(datetime(2015, 6, 15, 18, 0, tzinfo=timezone.utc).timestamp()) * SECOND
@@ -90,3 +92,19 @@ def test_commands_go_on_between_thoughts():
     tree.graph.run(CLOSING + 5 * SECOND)
     assert len(tree.twists) >= 50
     assert all(x > 0.0 for t, x, _ in tree.twists if t > 0.05)
+
+
+@pytest.mark.parametrize('recorded', [False, True])
+def test_on_a_recording_a_tree_takes_its_own_word_for_that_of_no_other(tmp_path, recorded):
+    """Live, another of the same name is a mistake of whoever set it up."""
+    zone = tmp_path / 'zone.yaml'
+    zone.write_text('boundary: [[-3, -3], [12, -3], [12, 3], [-3, 3]]\n', encoding='utf-8')
+    sharing = {'share_zone': True, 'tree_name': 'oak', 'traffic.expected': ('ash',)}
+    tree = Tree(CLOSING, zone_file=str(zone), **sharing)
+    tree.graph.recorded = {'/reservations'} if recorded else ()
+    tree.stand(0.05)
+    tree.flow(0.05)
+    own = Reservation('oak', MessageId(1, 1), 1.48, ((0.0, 0.0),))
+    tree._feed(0.1, '/reservations', reservation_message(own, 'map', CLOSING / SECOND))  # noqa: SLF001
+    told = [text for text in tree.graph.complaints if "calls itself 'oak'" in text]
+    assert bool(told) is not recorded
