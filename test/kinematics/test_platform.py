@@ -40,8 +40,8 @@ def test_a_turret_outside_the_rim_is_refused():
 
 
 @pytest.mark.parametrize('radius', [0.3, 1.18, 2.0])
-def test_mind_and_traffic_have_the_rim_of_the_platform(radius):
+def test_agent_and_reservations_have_the_rim_of_the_platform(radius):
     given = MotionGeneratorParameters(platform_radius=radius)
-    assert given.mind().platform_radius == radius
+    assert given.agent().platform_radius == radius
     assert given.sharing().body == radius
     assert given.sharing().tolerance == given.traffic.tolerance

@@ -39,8 +39,8 @@ def start_process(*arguments):
         (['--bogus'], '--bogus'),
         (['-p', 'track'], "-p 'track': write -p name:=value"),
         (
-            ['-p', 'track:=0.5', '--params-file', str(CONFIG)],
-            f"-p track:=0.5 counts for nothing: '{CONFIG}' says track",
+            ['-p', 'max_wheel_speed:=0.5', '--params-file', str(CONFIG)],
+            f"-p max_wheel_speed:=0.5 counts for nothing: '{CONFIG}' says max_wheel_speed",
         ),
     ],
 )
