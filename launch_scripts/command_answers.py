@@ -143,9 +143,12 @@ def made(to: Path) -> object:
     for path in sorted(to.rglob('*')):
         if path.suffix in {'.csv', '.png', '.yaml'} and path.name != 'metadata.yaml':
             found[path.name] = path.read_bytes()
-    if (to / 'again').is_dir():
-        with BagReader(to / 'again') as bag:
-            found['again'] = [(m.connection.topic, m.stamp, m.data) for m in bag.messages()]
+    again = to / 'again'
+    for folder in sorted({path.parent for path in again.rglob('*.mcap')}):  # one, or one a bag
+        with BagReader(folder) as bag:
+            found[str(folder.relative_to(to))] = [
+                (m.connection.topic, m.stamp, m.data) for m in bag.messages()
+            ]
     return found
 
 
