@@ -17,6 +17,7 @@ from agv_motion.files.unfinished import replacing
 if TYPE_CHECKING:
     from agv_motion.odometry.calibration import Calibration
     from agv_motion.report.calibration_drawing import Drawing
+    from agv_motion.report.calibration_drive import RecordedDrive
 
 NINETY_FIVE = 1.96
 """Standard deviations to either side that hold 95 of 100 truths."""
@@ -65,7 +66,6 @@ def calibrate(
     agv run omni_kinematics --ros-args --params-file calibrated.yaml
     """
     from agv_motion.nodes.catalogue import parameters_of
-    from agv_motion.odometry.calibration import calibrate as fit
     from agv_motion.report.calibration_drawing import drawing_of, node_of
     from agv_motion.report.calibration_drive import read_drive
     from agv_motion.ros.config import find_config
@@ -82,23 +82,36 @@ def calibrate(
         drive = read_drive(reader, drawing.wheels, reference, prefix)
         for note in drive.notes:
             typer.echo(note, err=True)
-        found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
-        if not wheel_noise:
-            typer.echo(f'slip of a wheel after 1 m: {1e3 * found.slip:.1f} mm')
-            if found.slip_is_open:
-                msg = (
-                    f'{bag}: only wheels that slip by {1e2 * found.slip:.0f} cm a metre or more '
-                    f'would explain the places of {drive.topic}: wrong places (reflections), or '
-                    'another robot than the drawing; no parameters are written. Record a longer '
-                    'drive, or give the slip with --wheel-noise'
-                )
-                raise SignalError(msg)
-            found = fit(drawing.model, drive.recording, found.slip)
+        found = _fitted(drawing, drive, wheel_noise)
         _print(found, drive.topic)
         content = _sections(drawing, found, prefix, name)
         with replacing(output) as made:
             made.write_text(yaml.safe_dump(content, sort_keys=False), encoding='utf-8')
         typer.echo(f'Parameters: {output}')
+
+
+def _fitted(drawing: Drawing, drive: RecordedDrive, wheel_noise: float) -> Calibration:
+    """Return the fit to a drive, with the slip that is given, or else that the drive shows.
+
+    Raises:
+        SignalError: Only impossible slip would explain the places.
+
+    """
+    from agv_motion.odometry.calibration import calibrate as fit
+
+    found = fit(drawing.model, drive.recording, wheel_noise or drawing.wheel_noise)
+    if wheel_noise:
+        return found
+    typer.echo(f'slip of a wheel after 1 m: {1e3 * found.slip:.1f} mm')
+    if found.slip_is_open:
+        msg = (
+            f'only wheels that slip by {1e2 * found.slip:.0f} cm a metre or more would explain the '
+            f'places of {drive.topic}: wrong places (reflections), or another robot than the '
+            'drawing; no parameters are written. Record a longer drive, or give the slip with '
+            '--wheel-noise'
+        )
+        raise SignalError(msg)
+    return fit(drawing.model, drive.recording, found.slip)
 
 
 def _sections(drawing: Drawing, found: Calibration, prefix: str, node: str) -> dict[str, Any]:
