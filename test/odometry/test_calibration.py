@@ -116,6 +116,8 @@ def test_driving_straight_does_not_determine_distances():
     determined = {unknown.name: unknown.determined for unknown in found.unknowns}
     assert all(determined[f'radius_{i}'] for i in range(3))
     assert not any(determined[f'distance_{i}'] for i in range(3))
+    for one in found.unknowns[3:]:
+        assert one.value == pytest.approx(one.nominal, rel=2e-3)
     assert {name for names in found.undetermined for name in names} == {
         'distance_0', 'distance_1', 'distance_2',
     }  # fmt: skip
