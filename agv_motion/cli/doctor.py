@@ -32,7 +32,6 @@ MODULES = (
     ('rclpy', 'ros-jazzy-rclpy', True, 'pip install "agv_motion[ros]", or source a ROS 2 Jazzy'),
     ('geometry_msgs', 'ros-geometry-msgs', True, 'pip install "agv_motion[ros]"'),
     ('numpy', 'numpy', True, 'pip install numpy'),
-    ('mcap', 'mcap', True, 'pip install mcap'),
     ('rosbags', 'rosbags', True, 'pip install rosbags'),
     ('yaml', 'pyyaml', True, 'pip install pyyaml'),
     ('shapely', 'shapely', True, 'pip install shapely'),

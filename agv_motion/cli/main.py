@@ -32,6 +32,7 @@ app = typer.Typer(
             'reprocess': 'recording.reprocess:reprocess',
             'bag': 'bag.group:app',
             'doctor': 'doctor:doctor',
+            'selftest': 'selftest:selftest',
         }
     ),
     no_args_is_help=True,
