@@ -40,7 +40,11 @@ MODULES = (
     ('tf2_msgs', 'tf2_msgs', False, 'comes with a ROS installation (/tf)'),
     ('ros2cli', 'ros2cli', False, 'comes with a ROS installation; agv topic stands in for it'),
 )
-EXTRAS = {'pyarrow': 'parquet', 'distributed': 'cluster', 'dask': 'cluster'}
+EXTRAS = {
+    'pyarrow': 'parquet', 'distributed': 'cluster', 'dask': 'cluster',
+    'starlette': 'dashboard', 'uvicorn': 'dashboard', 'websockets': 'dashboard',
+    'argon2': 'dashboard',
+}  # fmt: skip
 """Modules that a few options want, and the extra that brings each"""
 
 COMMANDS = (

@@ -25,6 +25,7 @@ app = typer.Typer(
             'route': 'robot.route:route',
             'sequence': 'robot.sequence:app',
             'demo': 'demo.group:app',
+            'dashboard': 'dashboard.group:app',
             'calibrate': 'robot.calibrate:calibrate',
             'record': 'recording.record:record',
             'plot': 'recording.plot:plot',

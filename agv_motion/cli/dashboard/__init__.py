@@ -1,0 +1,1 @@
+"""`agv dashboard`."""

@@ -1,0 +1,1 @@
+"""What the page knows, from messages: no server and no ROS."""

@@ -1,0 +1,48 @@
+"""The newest message of one topic, decoded only when somebody looks at it."""
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_numbers = count(1)
+_NOTHING: Any = object()
+
+
+class Entry:
+    """A message, as it came: bytes with what decodes them, or an object."""
+
+    __slots__ = ('_data', '_decode', '_message', 'at', 'number')
+
+    def __init__(self, at: float, data: Any, decode: Callable[[Any], Any] | None = None) -> None:
+        """Keep a message.
+
+        Args:
+            at: When it came [s], on the clock of the board.
+            data: The message, or its bytes.
+            decode: Makes a message of ``data``; None where it is one.
+
+        """
+        self.at, self._data, self._decode = at, data, decode
+        self.number = next(_numbers)
+        """greater than that of every message that came before"""
+        self._message: Any = _NOTHING
+
+    @property
+    def message(self) -> Any:
+        """The message; None if it cannot be decoded."""
+        if self._message is _NOTHING:
+            self._message = self._decoded()
+            self._data = self._decode = None
+        return self._message
+
+    def _decoded(self) -> Any:
+        if self._decode is None:
+            return self._data
+        try:
+            return self._decode(self._data)
+        except Exception:  # noqa: BLE001 - whatever the bytes of a stranger provoke
+            return None

@@ -1,0 +1,91 @@
+"""What is known of one robot: its newest messages, its shape, and where it was."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.dashboard.core import conversions
+from agv_motion.dashboard.core.trail import DayChart, Trail
+
+if TYPE_CHECKING:
+    from agv_motion.dashboard.core.entry import Entry
+
+MEASURED = ('turrets/state', 'wheels/state', 'odom', 'pose')
+"""What a robot measures all the time, moving or not"""
+STILL = 1e-3
+"""[m/s] A wheel that is slower stands: encoders have noise."""
+PROBES = 9
+
+
+class RobotState:
+    """One robot as the page knows it."""
+
+    def __init__(self, name: str) -> None:
+        """Know nothing but the name."""
+        self.name = name
+        self.latest: dict[str, Entry] = {}
+        """newest message by relative topic"""
+        self.nodes: dict[str, tuple[float, dict[str, Any]]] = {}
+        """what each of its nodes said last of itself, and when [s]"""
+        self.platform: dict[str, Any] = {}
+        """its shape in its own frame, where somebody has told it"""
+        self.platform_number = 0
+        self.trail, self.day = Trail(), DayChart()
+        self.trail_number = self.day_number = 0
+        self.word, self.word_since = '', 0.0
+
+    def message(self, topic: str) -> Any:
+        """Return the newest message of a topic; None without one."""
+        entry = self.latest.get(topic)
+        return None if entry is None else entry.message
+
+    def age(self, topic: str, now: float) -> float | None:
+        """Return how long ago a topic spoke [s]; None if it never did."""
+        entry = self.latest.get(topic)
+        return None if entry is None else max(now - entry.at, 0.0)
+
+    @property
+    def kind(self) -> str:
+        """tree, differential or omni; by its shape, or else by its wheels."""
+        told = self.platform.get('kind')
+        if isinstance(told, str):
+            return told
+        if 'turrets/state' in self.latest or 'turrets/command' in self.latest:
+            return 'tree'
+        joints = self.message('wheels/state') or self.message('wheels/command')
+        if joints is None:
+            return 'unknown'
+        return 'differential' if len(joints.name) == 2 else 'omni'
+
+    def wheel_speeds(self) -> list[float | None]:
+        """Return what is measured of each wheel [m/s], or [rad/s] where no radius is known."""
+        joints = self.message('turrets/state')
+        if joints is not None:
+            speeds: list[float | None] = conversions.turrets(joints, self.radius or 1.0)['speeds']
+            return speeds
+        joints = self.message('wheels/state')
+        if joints is None:
+            return []
+        fixed: list[float | None] = conversions.wheels(joints, self.radii or [1.0])['speeds']
+        return fixed
+
+    @property
+    def radius(self) -> float | None:
+        """Of the wheels of a tree [m]."""
+        radius = self.platform.get('wheel_radius')
+        return radius if isinstance(radius, float) else None
+
+    @property
+    def radii(self) -> list[float | None]:
+        """Of fixed wheels [m]."""
+        radii = self.platform.get('wheel_radii', [self.radius])
+        return list(radii) if isinstance(radii, list) else []
+
+    def stands(self) -> bool:
+        """Return whether every wheel is measured to stand; False where nothing is measured."""
+        speeds = self.wheel_speeds()
+        return bool(speeds) and all(s is not None and abs(s) < STILL for s in speeds)
+
+    def moves(self) -> bool:
+        """Return whether a wheel is measured to turn."""
+        return any(s is not None and abs(s) >= STILL for s in self.wheel_speeds())

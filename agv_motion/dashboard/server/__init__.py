@@ -1,0 +1,1 @@
+"""What serves the page: Starlette and uvicorn, no ROS."""

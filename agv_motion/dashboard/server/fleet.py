@@ -1,0 +1,39 @@
+"""What the server needs of whoever knows the robots: live on a graph, or out of a bag."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from agv_motion.errors import AgvMotionError
+
+if TYPE_CHECKING:
+    from asyncio import Future
+
+    from agv_motion.dashboard.core.board import Board
+    from agv_motion.planar import Twist
+
+
+class RefusedError(AgvMotionError):
+    """An act that was not done, with the robot's words or ours."""
+
+
+class Fleet(Protocol):
+    """The robots, as the server sees them; all is called in the server's thread."""
+
+    board: Board
+
+    @property
+    def robots(self) -> list[str]:
+        """Names of those that were ever seen."""
+
+    def now(self) -> float:
+        """Return the time of the board [s]."""
+
+    def act(self, robot: str, action: str, arguments: dict[str, Any]) -> Future[str]:
+        """Begin an act; the future has the robot's answer in words, or a `RefusedError`.
+
+        An act to which nothing answers (a topic) is done when it is sent, with no words.
+        """
+
+    def drive(self, robot: str, twist: Twist, age: float) -> None:
+        """Send a twist of a person's hand once, which is ``age`` [s] old by now."""

@@ -1,0 +1,114 @@
+"""Node `dashboard`: the operator's page, and between it and the robots the newest only."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from agv_motion.dashboard.core.board import Board
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.live_fleet import LiveFleet
+from agv_motion.parameters import Spec, check
+from agv_motion.ros.diagnosis import OK, Diagnosis
+from agv_motion.ros.plain_node import PlainNode
+from agv_motion.ros.run import run
+
+if TYPE_CHECKING:
+    from agv_motion.dashboard.server.serve import WebServer
+    from agv_motion.ros.live_port import LivePort
+
+TAKE_PERIOD = 0.05
+"""[s] between two looks for what has come, while somebody looks at the page"""
+LOOK_PERIOD = 1.0
+"""[s] between two looks at the graph, and for what has come while nobody looks at the page"""
+ACT_PERIOD = 0.02
+"""[s] within which an act of a person goes out"""
+
+
+@dataclass(frozen=True)
+class DashboardParameters:
+    """Where the page is, and whom it shows."""
+
+    host: Annotated[
+        str,
+        Spec(
+            'address on which the page is served; beyond this machine it needs '
+            'users: agv dashboard user add NAME'
+        ),
+    ] = '127.0.0.1'
+    port: Annotated[int, Spec('of the page; 0: any that is free', '', (0, 65535))] = 8080
+    next_free_port: Annotated[bool, Spec('take the next port where this one is taken')] = False
+    robots: Annotated[tuple[str, ...], Spec('names of those that are shown; empty: all')] = ()
+
+    def __post_init__(self) -> None:
+        """Check every row."""
+        check(self)
+
+
+class Dashboard(PlainNode[DashboardParameters]):
+    """Serves the page while active; when it stops it sends nothing, and the dead-man acts."""
+
+    name = 'dashboard'
+    takes = DashboardParameters
+
+    port: LivePort
+
+    def __init__(self, port: LivePort, parameters: DashboardParameters) -> None:
+        """Look at the graph; the page comes with `begin`."""
+        super().__init__(port, parameters)
+        self.board = Board()
+        self.fleet = LiveFleet(port, self.board, parameters.robots)
+        self.server: WebServer | None = None
+        self._taken_at = 0.0
+        port.every(ACT_PERIOD, self.fleet.send, steady=True)
+        port.every(TAKE_PERIOD, self._take, steady=True)
+        port.every(LOOK_PERIOD, self.fleet.look, steady=True)
+
+    def begin(self) -> None:
+        """Serve the page.
+
+        Raises:
+            ConfigurationError: Where it should be served is taken, or the extra is not installed.
+
+        """
+        try:
+            from agv_motion.dashboard.server.app import application
+            from agv_motion.dashboard.server.serve import WebServer, listening
+        except ModuleNotFoundError as error:
+            msg = f'the page needs {error.name}: pip install "agv_motion[dashboard]"'
+            raise ConfigurationError(msg) from error
+        given = self.parameters
+        self.fleet.look()
+        listener = listening(given.host, given.port, next_free=given.next_free_port)
+        application_, self._watched = application(self.fleet)
+        self.server = WebServer(application_, listener)
+        self.server.start()
+        self.port.info(f'the page is at {self.server.url}')
+
+    def halt(self) -> None:
+        """Close the page."""
+        if self.server is not None:
+            self.server.close()
+            self.server = None
+        self.fleet.close()
+
+    def diagnose(self) -> Diagnosis:
+        """Tell where the page is, and how many look at it."""
+        url = '' if self.server is None else self.server.url
+        return Diagnosis(OK, f'serving {url}', {'robots': ', '.join(self.fleet.robots)})
+
+    def _take(self) -> None:
+        now = time.monotonic()
+        if self._watched() or now - self._taken_at >= LOOK_PERIOD:
+            self._taken_at = now
+            self.fleet.take()
+
+
+def main() -> None:
+    """Run the node."""
+    run(Dashboard)
+
+
+if __name__ == '__main__':
+    main()
