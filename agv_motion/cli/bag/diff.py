@@ -58,33 +58,42 @@ def diff(
     from agv_motion.bag.editing import diff as comparison
     from agv_motion.bag.editing.pairing import Pairing
 
-    for option, value in (('tolerance', tolerance), ('relative', relative), ('within', within)):
-        if value is not None and not isfinite(value):
-            msg = f'--{option} {value}: give a finite number'
-            raise ConfigurationError(msg)
+    _require_finite(tolerance=tolerance, relative=relative, within=within)
     pairing = Pairing(by_place, None if within is None else round(within * 1e9))
-    console = terminal()
+    limits = comparison.Tolerance(tolerance, relative)
     with opened(first) as one, opened(second) as other:
         chosen = topics or sorted(
             set(one.topics) & set(other.topics) if common else {*one.topics, *other.topics}
         )
-        limits = comparison.Tolerance(tolerance, relative)
         found = [
             topic
             for name in track(chosen, 'Comparing', console=terminal(stderr=True), transient=True)
             for topic in comparison.diff(one, other, [name], limits, pairing)
         ]
-        console.print(_overview(found))
-        for topic in found:
-            _details(console, topic, one.start)
-        unpaired = sum(topic.unpaired for topic in found)
-        if unpaired and pairing == Pairing():
-            console.print(
-                f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs '
-                'the nearest, --by-place the first with the first'
-            )
+        _tell(found, one.start, by_stamp=pairing == Pairing())
     if not all(topic.same for topic in found):
         raise typer.Exit(1)
+
+
+def _require_finite(**options: float | None) -> None:
+    for option, value in options.items():
+        if value is not None and not isfinite(value):
+            msg = f'--{option} {value}: give a finite number'
+            raise ConfigurationError(msg)
+
+
+def _tell(found: list[TopicDiff], start: int, *, by_stamp: bool) -> None:
+    """Print what differs, and how to pair what has no partner of the same stamp."""
+    console = terminal()
+    console.print(_overview(found))
+    for topic in found:
+        _details(console, topic, start)
+    unpaired = sum(topic.unpaired for topic in found)
+    if unpaired and by_stamp:
+        console.print(
+            f'\n{unpaired} messages have no partner of the same stamp: --within SECONDS pairs '
+            'the nearest, --by-place the first with the first'
+        )
 
 
 def _overview(found: list[TopicDiff]) -> Table:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from itertools import islice
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-import yaml
 
 from agv_motion.cli.bag.options import Bag, Duration, StartOffset, opened, span
-from agv_motion.cli.topic.echo import part_of, predicate
 from agv_motion.cli.topic.echo_options import (
     Csv,
     Field,
@@ -22,7 +19,8 @@ from agv_motion.cli.topic.echo_options import (
     Once,
     TruncateLength,
 )
-from agv_motion.cli.topic.message_text import MessageText, is_message
+from agv_motion.cli.topic.message_printer import MessagePrinter
+from agv_motion.cli.topic.message_text import MessageText
 
 
 def echo(
@@ -52,29 +50,21 @@ def echo(
     """
     from agv_motion.bag.message_objects import decoder
 
-    length = None if full_length else truncate_length
-    text = MessageText(length, no_arr=no_arr, no_str=no_str, flow_style=flow_style)
-    wanted = predicate(filter_expr)
+    text = MessageText(
+        None if full_length else truncate_length,
+        no_arr=no_arr, no_str=no_str, flow_style=flow_style,
+    )  # fmt: skip
+    printer = MessagePrinter(
+        text, csv=csv, field=field, filter_expr=filter_expr, info=include_message_info
+    )
     with opened(bag) as reader:
         reader.require([topic_name])
         decoders = {c: decoder(c, bag) for c in reader.connections if c.topic == topic_name}
-        messages = reader.messages([topic_name], *span(reader, start_offset, duration))
-        pairs = ((m, part_of(decoders[m.connection](m), field)) for m in messages)
-        chosen = (pair for pair in pairs if wanted(pair[1]))
-        for message, part in islice(chosen, 1 if once else None):
+        for message in reader.messages([topic_name], *span(reader, start_offset, duration)):
             about = {
                 'source_timestamp': message.publish,
                 'received_timestamp': message.stamp,
                 'publication_sequence_number': message.sequence,
             }
-            _show(part, about if include_message_info else {}, text, csv=csv)
-
-
-def _show(part: Any, about: dict[str, int], text: MessageText, *, csv: bool) -> None:
-    if csv:
-        values = text.csv(part) if is_message(part) else str(part)
-        typer.echo(','.join([*map(str, about.values()), values]))
-        return
-    if about:
-        typer.echo(f'{yaml.dump(about, sort_keys=False)}---')
-    typer.echo(f'{text.yaml(part)}---' if is_message(part) else f'{part}\n---')
+            if printer.show(decoders[message.connection](message), about) and once:
+                break

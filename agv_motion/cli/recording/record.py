@@ -9,6 +9,23 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.table import Table
 
+from agv_motion.cli.recording.storage_options import (
+    Compression,
+    KeepFiles,
+    KeepFree,
+    MaxBagDuration,
+    MaxBagSize,
+    MaxCacheSize,
+    Sync,
+    WhenFull,
+)
+from agv_motion.cli.recording.topic_options import (
+    ExcludeRegex,
+    ExcludeTopics,
+    Regex,
+    Topics,
+    chosen_topics,
+)
 from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
@@ -22,44 +39,24 @@ def record(
     topic: Annotated[list[str] | None, typer.Argument(help='Topics to record.')] = None,
     *,
     all_topics: Annotated[bool, typer.Option('-a', '--all', help='Record every topic.')] = False,
-    topics: Annotated[
-        list[str] | None, typer.Option('--topics', help='Topics to record, one per option.')
-    ] = None,
-    regex: Annotated[
-        str, typer.Option('-e', '--regex', help='Record topics in whose name this is found.')
-    ] = '',
-    exclude_topics: Annotated[
-        list[str] | None, typer.Option(help='Never record this; one per option.')
-    ] = None,
-    exclude_regex: Annotated[
-        str, typer.Option('-x', '--exclude-regex', help='Never record topics with this.')
-    ] = '',
+    topics: Topics = None,
+    regex: Regex = '',
+    exclude_topics: ExcludeTopics = None,
+    exclude_regex: ExcludeRegex = '',
     include_hidden_topics: Annotated[
         bool, typer.Option('--include-hidden-topics', help='Hidden topics as well.')
     ] = False,
     output: Annotated[
         Path | None, typer.Option('-o', '--output', help='Folder of the bag; must not exist.')
     ] = None,
-    compression: Annotated[str, typer.Option(help='zstd, lz4 or none.')] = 'zstd',
-    max_bag_size: Annotated[
-        float, typer.Option('-b', '--max-bag-size', help='Bytes before a new file; 0: never.')
-    ] = 0,
-    max_bag_duration: Annotated[
-        float, typer.Option('-d', '--max-bag-duration', help='Seconds before a new file; 0: never.')
-    ] = 0,
-    keep_files: Annotated[
-        int, typer.Option(help='Keep only the newest so many finished files; 0: all.')
-    ] = 0,
-    keep_free: Annotated[float, typer.Option(help='Megabytes of the disk to leave free.')] = 100.0,
-    when_full: Annotated[
-        str, typer.Option(help='At that floor: stop, or drop_oldest to delete the oldest file.')
-    ] = 'stop',
-    max_cache_size: Annotated[
-        float, typer.Option(help='Bytes that may wait for a slow disk.')
-    ] = 256e6,
-    sync: Annotated[
-        bool, typer.Option(help='Survive a power cut as well as a crash, but for half a second.')
-    ] = True,
+    compression: Compression = 'zstd',
+    max_bag_size: MaxBagSize = 0,
+    max_bag_duration: MaxBagDuration = 0,
+    keep_files: KeepFiles = 0,
+    keep_free: KeepFree = 100.0,
+    when_full: WhenFull = 'stop',
+    max_cache_size: MaxCacheSize = 256e6,
+    sync: Sync = True,
     polling_interval: Annotated[
         float, typer.Option('-p', '--polling-interval', help='Milliseconds between looks.')
     ] = 100.0,
@@ -83,8 +80,6 @@ def record(
     given = {
         'output': str(output or ''),
         'all': all_topics,
-        'regex': regex,
-        'exclude_regex': exclude_regex,
         'include_hidden_topics': include_hidden_topics,
         'start_paused': start_paused,
         'polling_interval': polling_interval / 1e3,
@@ -98,9 +93,8 @@ def record(
         'storage__cache': max_cache_size / 1e6,
         'storage__sync': sync,
     }
-    lists = {'topics': [*(topic or ()), *(topics or ())], 'exclude_topics': exclude_topics}
-    given |= {name: values for name, values in lists.items() if values}
-    _record(given, duration)
+    named = [*(topic or ()), *(topics or ())]
+    _record(given | chosen_topics(named, regex, exclude_topics, exclude_regex), duration)
 
 
 def _record(given: dict[str, Any], duration: float) -> None:

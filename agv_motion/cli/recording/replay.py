@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from agv_motion.cli.bag.options import Duration, StartOffset
 from agv_motion.cli.recording.keys import keyboard
+from agv_motion.cli.recording.topic_options import (
+    ExcludeRegex,
+    ExcludeTopics,
+    Regex,
+    Topics,
+    chosen_topics,
+)
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
@@ -28,28 +36,16 @@ def replay(
     *,
     rate: Annotated[float, typer.Option('-r', '--rate', help='Times as fast as it was.')] = 1.0,
     loop: Annotated[bool, typer.Option('-l', '--loop', help='Begin again at the end.')] = False,
-    start_offset: Annotated[
-        float, typer.Option('--start-offset', help='Seconds into the bag to begin at.')
-    ] = 0.0,
-    playback_duration: Annotated[
-        float, typer.Option(help='Seconds of the bag to play; negative: all.')
-    ] = -1.0,
+    start_offset: StartOffset = 0.0,
+    playback_duration: Duration = -1.0,
     playback_until_sec: Annotated[
         str, typer.Option(help='Time of the bag to stop at, seconds since 1970; negative: its end.')
     ] = '-1',
     playback_until_nsec: Annotated[int, typer.Option(help='The same in nanoseconds.')] = -1,
-    topics: Annotated[
-        list[str] | None, typer.Option(help='Play only this; one per option.')
-    ] = None,
-    regex: Annotated[
-        str, typer.Option('-e', '--regex', help='Play only topics in whose name this is found.')
-    ] = '',
-    exclude_topics: Annotated[
-        list[str] | None, typer.Option(help='Do not play this; one per option.')
-    ] = None,
-    exclude_regex: Annotated[
-        str, typer.Option('-x', '--exclude-regex', help='Do not play topics with this.')
-    ] = '',
+    topics: Topics = None,
+    regex: Regex = '',
+    exclude_topics: ExcludeTopics = None,
+    exclude_regex: ExcludeRegex = '',
     remap: Annotated[
         list[str] | None, typer.Option('-m', '--remap', help='/old:=/new; one per option.')
     ] = None,
@@ -87,16 +83,13 @@ def replay(
         'start_offset': start_offset,
         'playback_duration': playback_duration,
         'playback_until_nsec': playback_until_nsec,
-        'regex': regex,
-        'exclude_regex': exclude_regex,
         'clock': clock,
         'delay': delay,
         'start_paused': start_paused,
         'qos_overrides': str(qos_profile_overrides_path or ''),
         'wait_for_all_acked': wait_for_all_acked / 1e3 if wait_for_all_acked >= 0 else -1.0,
     }
-    lists = {'topics': topics, 'exclude_topics': exclude_topics}
-    given |= {name: values for name, values in lists.items() if values}
+    given |= chosen_topics(topics, regex, exclude_topics, exclude_regex)
     _replay(given, remap or [], keys=not disable_keyboard_controls)
 
 

@@ -11,11 +11,12 @@ from rich.progress import Progress
 from rich.table import Table
 
 from agv_motion.cli.bag.options import tell
+from agv_motion.cli.recording.storage_options import Compression
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from agv_motion.reprocess.one_bag import ReprocessOutcome
+    from agv_motion.reprocess.one_bag import Plan, ReprocessOutcome
 
 NODES = ('granier_probe', 'motion_generator', 'wheel_kinematics')
 
@@ -38,7 +39,7 @@ def reprocess(
         list[str] | None,
         typer.Option('-m', '--remap', help='Name in the node:=name in the bag; one per option.'),
     ] = None,
-    compression: Annotated[str, typer.Option(help='zstd, lz4 or none.')] = 'zstd',
+    compression: Compression = 'zstd',
     workers: Annotated[
         int, typer.Option('-j', '--workers', min=1, help='Bags at the same time, on this machine.')
     ] = 1,
@@ -57,10 +58,6 @@ def reprocess(
     agv reprocess recordings/2015 results/2015 --workers 8
     agv reprocess walk again --nodes wheel_kinematics
     """
-    from agv_motion.reprocess.many_bags import outcomes
-    from agv_motion.reprocess.one_bag import Plan
-    from agv_motion.reprocess.recorded import node_class, parameters
-
     *sources, target = bags
     if not sources:
         msg = f'give at least one bag and where to write: agv reprocess {target} RESULT'
@@ -69,13 +66,39 @@ def reprocess(
     if not chosen:
         msg = f'--nodes {nodes!r}: give at least one node; the default is {",".join(NODES)}'
         raise ConfigurationError(msg)
-    robot = '/' + namespace.strip('/')
-    plan = Plan(config, chosen, tuple(_pair(one) for one in remap or ()), compression, robot)
-    for name in chosen:
+    pairs = tuple(_pair(one) for one in remap or ())
+    plan = _plan(config, chosen, pairs, compression, '/' + namespace.strip('/'))
+    found = _outcomes(_jobs(sources, target), plan, workers, scheduler)
+    _tell(found)
+    if any(one.failure or one.lossy for one in found):
+        raise typer.Exit(1)
+
+
+def _plan(
+    config: str, nodes: tuple[str, ...], pairs: tuple[tuple[str, str], ...], codec: str, robot: str
+) -> Plan:
+    """Return what is to be done with each bag; tell whom the parameter file does not know.
+
+    Raises:
+        ConfigurationError: There is no such node, or no such file.
+
+    """
+    from agv_motion.reprocess.one_bag import Plan
+    from agv_motion.reprocess.recorded import node_class, parameters
+
+    for name in nodes:
         node_class(name)
         if not parameters(config, name, robot) and config:
             typer.echo(f'note: {config} has nothing for {name}, which takes its defaults', err=True)
-    jobs = _jobs(sources, target)
+    return Plan(config, nodes, pairs, codec, robot)
+
+
+def _outcomes(
+    jobs: list[tuple[Path, Path]], plan: Plan, workers: int, scheduler: str
+) -> list[ReprocessOutcome]:
+    """Reprocess every bag, under a bar that shows how far it is."""
+    from agv_motion.reprocess.many_bags import outcomes
+
     found: list[ReprocessOutcome] = []
     with Progress(console=terminal(stderr=True), transient=True) as progress:
         bar = progress.add_task('Reprocessing', total=len(jobs))
@@ -87,9 +110,7 @@ def reprocess(
             for outcome in coming:
                 found.append(outcome)
                 show(0.0)
-    _tell(sorted(found))
-    if any(one.failure or one.lossy for one in found):
-        raise typer.Exit(1)
+    return sorted(found)
 
 
 def _pair(remap: str) -> tuple[str, str]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from typing import Annotated, Any
 
 import typer
-import yaml
 
 from agv_motion.cli.graph.session import DISCOVERY, interface_class, joined, spin, topic_class
 from agv_motion.cli.topic.echo_options import (
@@ -22,9 +20,9 @@ from agv_motion.cli.topic.echo_options import (
     Once,
     TruncateLength,
 )
-from agv_motion.cli.topic.message_text import MessageText, is_message
+from agv_motion.cli.topic.message_printer import MessagePrinter
+from agv_motion.cli.topic.message_text import MessageText
 from agv_motion.cli.topic.options import SimTime, SpinTime, Topic, preset_qos
-from agv_motion.errors import ConfigurationError
 
 
 def echo(
@@ -60,29 +58,16 @@ def echo(
     """
     text = MessageText(
         None if full_length else truncate_length,
-        no_arr=no_arr,
-        no_str=no_str,
-        flow_style=flow_style,
+        no_arr=no_arr, no_str=no_str, flow_style=flow_style,
+    )  # fmt: skip
+    printer = MessagePrinter(
+        text, csv=csv, field=field, filter_expr=filter_expr, info=include_message_info
     )
-    wanted = predicate(filter_expr)
     seen: list[None] = []
 
     def show(message: Any, about: Any) -> None:
-        if once and seen:
-            return
-        part = part_of(message, field)
-        if not wanted(part):
-            return
-        seen.append(None)
-        if include_message_info and not csv:
-            typer.echo(f'{yaml.dump(about)}---')
-        if not is_message(part):
-            typer.echo(f'{part}\n---')
-        elif csv:
-            before = ','.join(str(x) for x in about.values()) + ',' if include_message_info else ''
-            typer.echo(before + text.csv(part))
-        else:
-            typer.echo(f'{text.yaml(part)}---')
+        if not (once and seen) and printer.show(message, about):
+            seen.append(None)
 
     with joined(spin_time, use_sim_time=use_sim_time, endless=True) as node:
         kind = interface_class(message_type) if message_type else topic_class(node, topic_name)
@@ -93,48 +78,6 @@ def echo(
         )
         end = time.monotonic() + timeout if timeout else float('inf')
         spin(node, lambda: (once and bool(seen)) or time.monotonic() > end)
-
-
-def predicate(expression: str) -> Callable[[Any], bool]:
-    """Return a test of a message from the user's own Python expression.
-
-    Raises:
-        ConfigurationError: The expression is none, or (by the test) it fails on a message.
-
-    """
-    if not expression:
-        return lambda _: True
-    try:
-        code = compile(expression, '--filter', 'eval')
-    except (SyntaxError, ValueError) as error:
-        msg = f"--filter '{expression}' is no Python expression: {error}"
-        raise ConfigurationError(msg) from error
-
-    def test(message: Any) -> bool:
-        try:
-            return bool(eval(code, {'m': message}))  # noqa: S307 - as in ros2: the user's own words
-        except Exception as error:
-            msg = f"--filter '{expression}': {error} (m is a {type(message).__name__})"
-            raise ConfigurationError(msg) from error
-
-    return test
-
-
-def part_of(message: Any, field: str) -> Any:
-    """Return what a path such as ``pose.position`` leads to; '' is the message itself.
-
-    Raises:
-        ConfigurationError: There is no such field.
-
-    """
-    for name in filter(None, field.split('.')):
-        if not hasattr(message, name):
-            msg = f"Invalid field '{field}': {type(message).__name__} has no field '{name}'"
-            if is_message(message):
-                msg += f'; it has {", ".join(message.get_fields_and_field_types())}'
-            raise ConfigurationError(msg)
-        message = getattr(message, name)
-    return message
 
 
 def _lost_events(silent: bool) -> Any:  # noqa: FBT001 - one option of the command

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from agv_motion.cli.graph.session import DISCOVERY, joined, spin, topic_class
-from agv_motion.cli.topic.echo import predicate
+from agv_motion.cli.topic.message_printer import predicate
 from agv_motion.cli.topic.options import SimTime, SpinTime
 
 Duration = Annotated[float, typer.Option(help='Stop after so many seconds; 0: never.', min=0.0)]
