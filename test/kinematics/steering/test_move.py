@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin, sqrt, tan
+from math import atan2, cos, pi, sin, sqrt, tan
 
 import pytest
 
@@ -72,6 +72,22 @@ def test_wheels_that_speed_up_limit_it():
     )  # fmt: skip
     assert move.velocity == pytest.approx((0.0, 0.0, 0.4))
     assert move.limiter is Limiter.WHEEL_ACCELERATION
+
+
+def test_a_wheel_at_the_centre_of_rotation_speeds_up_along_its_line():
+    """Its velocity is nought and grows by (1, 2) / sqrt(3) for each radian: sqrt(5 / 3) m/s."""
+    half, third = sqrt(0.5), sqrt(1 / 3)
+    wanted = (sin(0.5) * third, cos(0.5) * half + sin(0.5) * third,
+              cos(0.5) * half - sin(0.5) * third)  # fmt: skip
+    move = plan(
+        wanted, direction=(0.0, half, half), speed=1.0, wheel_acceleration=1.0,
+        angles=(pi / 2, 0.0),
+    )  # fmt: skip
+    assert move.velocity == pytest.approx(
+        tuple(0.4 / sqrt(5 / 3) * share for share in (third, third, -third))
+    )
+    assert move.limiter is Limiter.WHEEL_ACCELERATION
+    assert move.free == ((1, pytest.approx(atan2(2.0, 1.0))),)
 
 
 @pytest.mark.parametrize(('angle', 'far'), [(1.7, False), (1.8, True), (-1.7, False), (-1.8, True)])
