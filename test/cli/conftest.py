@@ -2,31 +2,86 @@
 
 from __future__ import annotations
 
+import ctypes
+import json
+import os
+import socket
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+ADOPT_ORPHANS = 36
+"""PR_SET_CHILD_SUBREAPER of Linux: a process whose parent has ended becomes a child of ours"""
+
+
+class WarmPython:
+    """The one process that has imported all; it is started when it is first needed."""
+
+    def __init__(self):
+        ctypes.CDLL(None).prctl(ADOPT_ORPHANS, 1)
+        self.line, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with other:
+            command = [sys.executable, Path(__file__).with_name('warm_python.py')]
+            self._process = subprocess.Popen(command, stdin=other)  # noqa: S603 - our own
+
+    def fork(self, request, streams):
+        """Return the number of a process, our child, that runs what is asked for."""
+        socket.send_fds(self.line, [json.dumps(request).encode()], streams)
+        return int.from_bytes(self.line.recv(4), 'little')
+
+    def end(self):
+        """Let it end."""
+        self.line.close()
+        self._process.wait()
+
+
+class ForkedProcess(subprocess.Popen):
+    """A process as any other, but forked by a `WarmPython`."""
+
+    def __init__(self, warm_python, arguments, **options):
+        self._warm_python = warm_python
+        super().__init__(arguments, **options)
+
+    def _execute_child(self, args, _executable, _call, _close, _pass, cwd, env, *given):
+        """Ask for the process; of what is ``given`` the pipes and the wish for a session count."""
+        pipes, session = given[3:9], given[14]
+        request = {
+            'arguments': args,
+            'folder': str(cwd or Path.cwd()),
+            'environment': dict(env or os.environ),
+            'session': session,
+        }
+        streams = [own if own >= 0 else i for i, own in enumerate((pipes[0], pipes[3], pipes[5]))]
+        self.pid = self._warm_python.fork(request, streams)
+        self._child_created = True
+        self._close_pipe_fds(*pipes)
 
 
 class Agv:
     """Starts `agv` with arguments and spins the graph until it ends."""
 
-    def __init__(self, graph=None):
+    def __init__(self, warm_python, graph=None):
+        self.warm_python = warm_python
         self.graph = graph
         self.processes = []
 
-    def start(self, *arguments, **options):
-        """Start the command and return its process."""
-        process = subprocess.Popen(  # noqa: S603 - our own command
-            [sys.executable, '-m', 'agv_motion.cli.main', *map(str, arguments)],
-            **{'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True, **options},
-        )  # fmt: skip
+    def start(self, *arguments, cold=False, **options):
+        """Start the command and return its process; a ``cold`` one imports all by itself."""
+        options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True} | options
+        words = [*map(str, arguments)]
+        if cold:
+            words = [sys.executable, '-m', 'agv_motion.cli.main', *words]
+            process = subprocess.Popen(words, **options)  # noqa: S603 - our own command
+        else:
+            process = ForkedProcess(self.warm_python, words, **options)
         self.processes.append(process)
         return process
 
-    def __call__(self, *arguments, timeout=120.0):
+    def __call__(self, *arguments, timeout=120.0, **options):
         """Return exit status, output and errors of the command."""
-        process = self.start(*arguments)
+        process = self.start(*arguments, **options)
         if self.graph is not None:
             self.graph.spin_until(lambda: process.poll() is not None, timeout)
         out, errors = process.communicate(timeout=timeout)
@@ -40,17 +95,25 @@ class Agv:
             process.communicate()
 
 
+@pytest.fixture(scope='session')
+def warm_python():
+    """Return what makes processes of `agv` at once."""
+    warm = WarmPython()
+    yield warm
+    warm.end()
+
+
 @pytest.fixture(scope='module')
-def alone():
+def alone(warm_python):
     """Return the command without a graph beside it."""
-    agv = Agv()
+    agv = Agv(warm_python)
     yield agv
     agv.end()
 
 
 @pytest.fixture
-def agv(graph):
+def agv(graph, warm_python):
     """Return the command beside a graph that is spun while it runs."""
-    agv = Agv(graph)
+    agv = Agv(warm_python, graph)
     yield agv
     agv.end()

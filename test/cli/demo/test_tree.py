@@ -13,7 +13,7 @@ from rosbags.highlevel import AnyReader
 
 
 def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
-    status, out, errors = alone('demo', '--minutes', 3, '--output', tmp_path, timeout=180.0)
+    status, out, errors = alone('demo', '--minutes', 3, '--output', tmp_path, cold=True)
     assert status == 0, errors
     for word in ('distance', 'inside the zone', '100.0 %', 'probe to turrets', 'p99'):
         assert word in out

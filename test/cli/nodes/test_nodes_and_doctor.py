@@ -24,7 +24,7 @@ from agv_motion.ros.run import start
 def test_nodes_with_their_states(agv, graph):
     start(graph.add(LiveNode(WheelKinematics, context=graph.context)))
     graph.add(rclpy.create_node('plain', context=graph.context))
-    told = agv('nodes', '--spin-time', '5')[1].splitlines()
+    told = agv('nodes', '--spin-time', '5', cold=True)[1].splitlines()
     assert told == sorted(told)  # one that was killed before may still be announced
     assert {'/plain', '/wheel_kinematics [active]'} <= set(told)
 
@@ -35,7 +35,7 @@ def test_run_lists_and_refuses(alone):
     assert {'granier_probe', 'motion_generator', 'simulator', 'wheel_kinematics'} <= set(
         out.split()
     )
-    status, _, errors = alone('run', 'wheel_cinematics')
+    status, _, errors = alone('run', 'wheel_cinematics', cold=True)
     assert status == 1
     assert "did you mean 'wheel_kinematics'?" in errors
 
@@ -74,7 +74,7 @@ def test_a_stopped_node_says_zero_and_ends_with_0(agv, graph, number, executor):
 
 
 def test_doctor_finds_what_is_there_and_tries_to_talk(alone):
-    status, out, _ = alone('doctor', '--json')
+    status, out, _ = alone('doctor', '--json', cold=True)
     findings = {finding['what']: finding for finding in json.loads(out)}
     assert status == 0
     assert findings['rclpy']['state'] not in {'missing', ''}
@@ -95,7 +95,7 @@ def test_a_module_that_is_not_installed_is_told_in_one_line(
 ):
     (tmp_path / 'sitecustomize.py').write_text(f'import sys; sys.modules[{module!r}] = None')
     path = f'{tmp_path}{os.pathsep}{os.environ.get("PYTHONPATH", "")}'
-    process = alone.start(*command, env=os.environ | {'PYTHONPATH': path})
+    process = alone.start(*command, cold=True, env=os.environ | {'PYTHONPATH': path})
     _, errors = process.communicate(timeout=60.0)
     assert process.returncode == 1
     assert errors.startswith(f'error: this needs the module {module}, which is not installed: ')

@@ -54,7 +54,7 @@ def test_the_errors_of_a_robot_beside_its_ghost(alone, tmp_path):
         '/hare/odom': [stamped(t, 9.0, 9.0, 0.0, 'odom') for t in times],
     })  # fmt: skip
     picture = tmp_path / 'run.png'
-    status, out, errors = alone('plot', tmp_path / 'bag', '-o', picture)
+    status, out, errors = alone('plot', tmp_path / 'bag', '-o', picture, cold=True)
     assert status == 0, errors
     assert '/hare/ground_truth: 4.0 s, 1.99 m' in out
     assert 'from /hare/ghost/pose: root mean square 5.00 cm, at most 5.00 cm' in out

@@ -155,7 +155,14 @@ def test_another_configuration_decides_otherwise(recorded, tmp_path):
 def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_path):
     for name, workers in (('one', 1), ('two', 2)):
         status, out, errors = alone(
-            'reprocess', recorded, tmp_path / name / 'out', '-m', 'pose:=fix', '-j', workers
+            'reprocess',
+            recorded,
+            tmp_path / name / 'out',
+            '-m',
+            'pose:=fix',
+            '-j',
+            workers,
+            cold=True,
         )
         assert status == 1
         assert f'error: {recorded / "b"}' in errors

@@ -66,7 +66,7 @@ def differential(path, turning, spoil=lambda angles, poses: None, robots=('', ''
 def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
     differential(tmp_path / 'bag', 0.8)
     out_file = tmp_path / 'new.yaml'
-    status, out, errors = alone('calibrate', tmp_path / 'bag', '-o', out_file, timeout=60.0)
+    status, out, errors = alone('calibrate', tmp_path / 'bag', '-o', out_file)
     assert status == 0, errors
     assert 'not told' not in out
     given = yaml.safe_load(out_file.read_text())['/**']['ros__parameters']
@@ -78,7 +78,8 @@ def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
 
 def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
     differential(tmp_path / 'bag', 0.0)
-    status, out, _ = alone('calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml', timeout=60.0)
+    asked = 'calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml'
+    status, out, _ = alone(*asked, cold=True)
     assert status == 0
     (track,) = [line for line in out.splitlines() if line.startswith('track')]
     assert 'not told by this motion' in track
@@ -107,7 +108,7 @@ def test_what_is_missing_is_told(alone, tmp_path, options, word):
 def calibrated(alone, tmp_path, *options, expected=0):
     """Return what the command says, and the parameters it writes."""
     asked = 'calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml', *options
-    status, out, errors = alone(*asked, timeout=60.0)
+    status, out, errors = alone(*asked)
     assert status == expected, errors
     (given,) = yaml.safe_load((tmp_path / 'new.yaml').read_text()).values()
     return out + errors, given['ros__parameters']

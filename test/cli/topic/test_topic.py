@@ -91,7 +91,7 @@ def test_pub(agv, graph):
     node.create_subscription(TwistStamped, 'cmd_vel', heard.append, 10)
     status, out, _ = agv(
         'topic', 'pub', '--once', '/cmd_vel', 'geometry_msgs/msg/TwistStamped',
-        '{header: auto, twist: {linear: {x: 1}}}',
+        '{header: auto, twist: {linear: {x: 1}}}', cold=True,
     )  # fmt: skip
     assert status == 0
     assert 'publisher: beginning loop\npublishing #1: geometry_msgs.msg.TwistStamped(' in out
