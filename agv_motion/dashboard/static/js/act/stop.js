@@ -1,0 +1,107 @@
+import { confirm } from './confirm.js';
+import { newKey } from './actions.js';
+import { element, write } from '../words/element.js';
+import { phrase } from '../words/phrases.js';
+
+/** [ms] between two tries while the server does not answer */
+const TRY_AGAIN = 300;
+/** [s] a report older than this tells nothing of now */
+const FRESH = 2;
+
+/**
+ * STOP of all robots, by the button or Escape.
+ *
+ * It is latched in the robots. What stands on the button is what the robots report: `stopping` until
+ * the measured speed of all wheels is zero, then `STOPPED`. A click that does not reach the server is
+ * tried until it does.
+ */
+export class Stop {
+  /**
+   * @param {import('../live/screen.js').Screen} screen
+   * @param {import('./actions.js').Actions} actions
+   * @param {HTMLElement} where
+   */
+  constructor(screen, actions, where) {
+    this.screen = screen;
+    this.actions = actions;
+    this.where = where;
+    this.asked = false;
+    this.trouble = '';
+    this.label = element('span.stop-label', { text: phrase('stopAll') });
+    this.note = element('span.stop-note', { id: 'stop-note' });
+    this.button = element('button.stop-button', {
+      id: 'stop-button', type: 'button', 'aria-keyshortcuts': 'Escape', onclick: () => this.stop(),
+    }, this.label, this.note);
+    this.release = element('button.stop-release', {
+      id: 'stop-release', type: 'button', text: phrase('release'), hidden: true,
+      onclick: () => this._release(),
+    });
+    window.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape' && !event.repeat && this.button.isConnected) this.stop();
+    }, { capture: true });
+  }
+
+  /** Stop all robots: at once, without a question. */
+  async stop() {
+    if (this.asked || !this.button.isConnected) return;
+    this.asked = true;
+    this.trouble = '';
+    this.draw();
+    const key = newKey();
+    for (;;) {
+      const answer = await this.actions.post('/stop', {}, key);
+      if (answer.ok) break;
+      this.trouble = answer.text;
+      this.draw();
+      if (answer.status >= 400 && answer.status < 500 && answer.status !== 429) break; // no right
+      await new Promise((resolve) => setTimeout(resolve, TRY_AGAIN));
+    }
+    window.setTimeout(() => {
+      this.asked = false; // from here on the robots' word counts
+      this.draw();
+    }, 1000);
+  }
+
+  async _release() {
+    if (!(await confirm(phrase('releaseQuestion'), phrase('release')))) return;
+    await this.actions.act('/release', {}, phrase('act release'));
+  }
+
+  /** @param {import('../live/screen.js').Screen} screen */
+  update(screen) {
+    const may = ['operator', 'expert'].includes(screen.hello?.role ?? 'public');
+    if (may !== this.button.isConnected) {
+      if (may) this.where.append(this.release, this.button);
+      else this.where.replaceChildren();
+    }
+    this.draw();
+  }
+
+  /** Write what the robots report. */
+  draw() {
+    const store = this.screen.live;
+    const reports = store.robots.map((robot) => ({
+      robot, summary: store.value(robot, 'summary'), age: store.age(robot, 'summary'),
+    }));
+    const stopped = reports.filter((report) => report.summary?.stopped);
+    const rolling = reports.filter(
+      (report) => !report.summary?.standstill || report.age > FRESH || store.silence() > FRESH);
+    const all = reports.length > 0 && stopped.length === reports.length;
+    let state = 'ready';
+    if (all) state = rolling.length ? 'stopping' : 'stopped';
+    else if (this.asked) state = 'stopping';
+    this.where.dataset.state = state;
+    this.release.hidden = !stopped.length;
+    write(this.label, phrase(`stop ${state}`));
+    let note = phrase('keyEscape');
+    if (state === 'stopping') note = rolling.map((report) => report.robot).join(', ');
+    if (state === 'ready' && stopped.length) {
+      note = phrase('someStopped', { robots: stopped.map((report) => report.robot).join(', ') });
+    }
+    if (state === 'stopped') note = phrase('untilReleased');
+    if (this.trouble && state !== 'stopped') note = this.trouble;
+    if (state === 'stopped') this.trouble = '';
+    write(this.note, note);
+    this.button.setAttribute('aria-label', `${phrase(`stop ${state}`)}. ${note}`);
+  }
+}

@@ -1,0 +1,68 @@
+import { phrase, language } from './phrases.js';
+
+/** @returns {boolean} */
+const isNumber = (/** @type {any} */ value) => typeof value === 'number' && Number.isFinite(value);
+
+/**
+ * @param {number|null|undefined} value
+ * @param {number} digits after the point
+ * @param {string} unit
+ * @returns {string} such as `1.25 m`, or the word for unknown
+ */
+export function number(value, digits = 2, unit = '') {
+  if (!isNumber(value)) return phrase('unknown');
+  const text = Number(value).toFixed(digits).replace('-', '\u2212');
+  return unit ? `${text}\u202f${unit}` : text;
+}
+
+/**
+ * @param {number|null|undefined} seconds
+ * @returns {string} such as `0.3 s`, `12 s`, `4 min`, `3 h`
+ */
+export function age(seconds) {
+  if (!isNumber(seconds)) return phrase('never');
+  const value = Number(seconds);
+  if (value < 10) return number(value, 1, 's');
+  if (value < 120) return number(value, 0, 's');
+  if (value < 7200) return number(value / 60, 0, 'min');
+  return number(value / 3600, 0, 'h');
+}
+
+/**
+ * @param {number|null|undefined} time seconds since 1970
+ * @param {Intl.DateTimeFormatOptions} options
+ */
+function written(time, options) {
+  if (!isNumber(time)) return phrase('unknown');
+  return new Intl.DateTimeFormat(language(), options).format(new Date(Number(time) * 1000));
+}
+
+/** @returns {string} such as `13:42:07` */
+export const clockTime = (/** @type {number|null|undefined} */ time) =>
+  written(time, { hour: '2-digit', minute: '2-digit', second: '2-digit', hour12: false });
+
+/** @returns {string} such as `13:42` */
+export const hourMinute = (/** @type {number|null|undefined} */ time) =>
+  written(time, { hour: '2-digit', minute: '2-digit', hour12: false });
+
+/** @returns {string} such as `30 Nov, 13:42:07` */
+export const dateTime = (/** @type {number|null|undefined} */ time) =>
+  written(time, {
+    day: 'numeric', month: 'short', hour: '2-digit', minute: '2-digit', second: '2-digit',
+    hour12: false,
+  });
+
+/** @returns {string} such as `1.02 m/min`: what people can follow */
+export const pace = (/** @type {number|null|undefined} */ speed) =>
+  isNumber(speed) ? number(Number(speed) * 60, 2, 'm/min') : phrase('unknown');
+
+/** @returns {string} an angle in degrees */
+export const degrees = (/** @type {number|null|undefined} */ angle) =>
+  isNumber(angle) ? `${number((Number(angle) * 180) / Math.PI, 0)}°` : phrase('unknown');
+
+/** @returns {string} any value of a parameter as a person would write it */
+export function plain(/** @type {any} */ value) {
+  if (value === null || value === undefined) return phrase('unknown');
+  if (typeof value === 'string') return value;
+  return JSON.stringify(value);
+}
