@@ -21,11 +21,15 @@ screen.add(new Bar());
 screen.add(new Stop(screen, actions, byId('stop')));
 screen.add(new RobotList(byId('robots')));
 screen.add(new Chosen(actions, byId('chosen'), {
-  drive: () => drive.show(),
+  drive: () => {
+    drawers.close();
+    drive.show();
+  },
   place: () => map.begin('pose'),
 }));
 screen.add(map);
 screen.add(drive);
 screen.add(new Timeline(screen, actions, byId('look-back')));
-screen.add(new Drawers(screen, actions, map));
+const drawers = new Drawers(screen, actions, map, () => drive.hide());
+screen.add(drawers);
 screen.redraw();

@@ -1,5 +1,5 @@
 /** The public view: the map, each robot's word, and what it drank. Nothing here can act. */
-import { amount } from './drawers/probes.js';
+import { drankToday } from './drawers/probes.js';
 import { Screen } from './live/screen.js';
 import { WorldMap } from './map/map.js';
 import { OLD, verdict } from './robots/verdict.js';
@@ -7,7 +7,6 @@ import { byId, element, refill, write } from './words/element.js';
 import { language, phrase, writePhrases } from './words/phrases.js';
 
 writePhrases();
-document.title = phrase('publicTitle');
 const other = language() === 'fr' ? 'en' : 'fr';
 const link = byId('other-language');
 link.textContent = { en: 'English', fr: 'Français' }[other];
@@ -25,10 +24,13 @@ screen.add({
     silent.hidden = !(old && screen.hello);
     write(silent, silent.hidden ? '' : phrase('publicSilent'));
     document.body.toggleAttribute('data-stale', old && Boolean(screen.hello));
+    const others = screen.robots.some((robot) =>
+      ['differential', 'omni'].includes(screen.live.value(robot, 'summary')?.kind));
+    document.title = phrase(others ? 'publicRobots' : 'publicTitle');
+    write(byId('public-title'), document.title);
     const rows = screen.robots.map((robot) => {
       const { word } = verdict(screen, robot);
-      const drank = screen.live.value(robot, 'drank');
-      return { robot, word, drank: drank === null ? '' : phrase('drankToday', { amount: amount(drank) }) };
+      return { robot, word, drank: drankToday(screen.live.value(robot, 'drank')) };
     });
     refill(byId('public-robots'), JSON.stringify(rows), () => rows.map(({ robot, word, drank }) =>
       element('li', {}, element('span.public-name', { text: robot }),

@@ -2,7 +2,7 @@ import { element } from '../words/element.js';
 import { phrase } from '../words/phrases.js';
 
 /**
- * Ask before something is done.
+ * Ask before something is done. The page behind stays alive: STOP can be pressed while it asks.
  *
  * @param {string} question
  * @param {string} yes what the button that does it says
@@ -17,13 +17,19 @@ export function confirm(question, yes, fields = []) {
       element('div.question-buttons', {},
         element('button', { type: 'button', text: phrase('cancel'), onclick: () => end(false) }),
         element('button.primary', { type: 'button', text: yes, onclick: () => end(true) })));
+    const before = /** @type {HTMLElement|null} */ (document.activeElement);
     const end = (/** @type {boolean} */ answer) => {
-      dialog.close();
       dialog.remove();
+      before?.focus();
       resolve(answer);
     };
-    dialog.addEventListener('cancel', () => end(false));
+    dialog.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
+      if (event.key === 'Escape') end(false);
+      else if (event.key === 'Enter' && event.target instanceof HTMLInputElement) end(true);
+    });
+    document.querySelector('.question')?.remove(); // one question at a time
     document.body.append(dialog);
-    dialog.showModal();
+    dialog.show();
+    (fields.length ? dialog.querySelector('input') : dialog.querySelector('.primary'))?.focus();
   });
 }

@@ -5,7 +5,7 @@ import { ProbesDrawer } from './probes.js';
 import { ReportsDrawer } from './reports.js';
 import { WhyDrawer } from './why.js';
 import { ZoneDrawer } from './zone.js';
-import { byId, element, write } from '../words/element.js';
+import { byId, element, refill, write } from '../words/element.js';
 import { phrase } from '../words/phrases.js';
 
 /**
@@ -19,8 +19,10 @@ export class Drawers {
    * @param {import('../live/screen.js').Screen} screen
    * @param {import('../act/actions.js').Actions} actions
    * @param {import('../map/operator_map.js').OperatorMap} map
+   * @param {() => void} opening called before a drawer opens
    */
-  constructor(screen, actions, map) {
+  constructor(screen, actions, map, opening) {
+    this.opening = opening;
     this.where = byId('drawer');
     /** @type {Record<string, Drawer>} */
     this.drawers = {
@@ -40,8 +42,9 @@ export class Drawers {
     }, element('span', { text: phrase(`drawer ${name}`) }), name === 'log' ? this.badge : null)]));
     byId('drawer-tabs').append(...Object.values(this.tabs));
     this.title = element('h2');
+    this.robot = element('select', { 'aria-label': phrase('robots'), onchange: () => screen.choose(this.robot.value) });
     this.where.append(
-      element('header.drawer-head', {}, this.title,
+      element('header.drawer-head', {}, element('div.drawer-title', {}, this.title, this.robot),
         element('button', { type: 'button', id: 'drawer-close', text: phrase('close'), onclick: () => this.toggle(this.opened) })),
     );
   }
@@ -58,6 +61,7 @@ export class Drawers {
     this.where.hidden = !this.opened;
     document.body.toggleAttribute('data-drawer', Boolean(this.opened));
     if (this.opened) {
+      this.opening();
       const drawer = this.drawers[this.opened];
       drawer.open?.();
       drawer.body.classList.add('drawer-body');
@@ -70,6 +74,10 @@ export class Drawers {
     this.shown?.redraw('drawer');
   }
 
+  close() {
+    if (this.opened) this.toggle(this.opened);
+  }
+
   /** @param {import('../live/screen.js').Screen} screen @param {Set<string>} changed */
   update(screen, changed) {
     this.shown = screen;
@@ -77,7 +85,11 @@ export class Drawers {
       .filter((/** @type {any} */ alert) => !alert.cleared || !alert.acknowledged).length;
     write(this.badge, open ? String(open) : '');
     if (!this.opened) return;
-    write(this.title, [phrase(`drawer ${this.opened}`), screen.chosen].filter(Boolean).join(' · '));
+    write(this.title, phrase(`drawer ${this.opened}`));
+    refill(this.robot, screen.robots.join('\n'), () =>
+      screen.robots.map((robot) => element('option', { value: robot, text: robot })));
+    this.robot.hidden = ['log', 'reports'].includes(this.opened) || screen.robots.length < 2;
+    if (this.robot.value !== screen.chosen) this.robot.value = screen.chosen;
     this.drawers[this.opened].update(screen, changed);
   }
 }

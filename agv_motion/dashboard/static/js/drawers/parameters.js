@@ -21,7 +21,7 @@ export class ParametersDrawer {
     this.count = element('span', { role: 'status' });
     this.rows = element('div.parameters');
     this.saved = new SavedParameters(screen, actions);
-    this.body = element('div.columns.columns-wide', {},
+    this.body = element('div.columns', {},
       element('section', {},
         element('div.search', {},
           element('label', { for: 'parameter-search', text: phrase('search') }), this.search,

@@ -15,13 +15,12 @@ export class ProbesDrawer {
     this.signals = element('div.meters');
     this.drank = element('p.drank');
     this.signalChart = new Chart(phrase('sapFlow'));
-    this.drunkChart = new Chart(phrase('drunk'));
     this.body = element('div.probes', {},
       element('section', {}, element('h3', { text: phrase('probes') }), this.probes,
-        element('h3', { text: phrase('signals') }), this.signals, this.drank),
+        element('h3', { text: phrase('signals') }), this.signals),
       element('section', {},
         element('h3', { text: phrase('dayOfSapFlow') }), this.signalChart.canvas,
-        element('h3', { text: phrase('dayOfDrinking') }), this.drunkChart.canvas));
+        this.drank));
   }
 
   /** @param {import('../live/screen.js').Screen} screen @param {Set<string>} changed */
@@ -32,11 +31,11 @@ export class ProbesDrawer {
         element('span.probe-name', { text: probe.name }),
         element('span.probe-quality', { text: probe.quality }),
         element('span.probe-value', { text: number(probe.temperature_difference, 3, 'K') }),
-        element('span.probe-signal', { text: probe.signal ? String(probe.signal) : '' })))
+        element('span.probe-signal', { text: number(probe.signal, 2) }),
+        element('span.probe-text', { text: probe.text ?? '' })))
       : [element('p.empty', { text: phrase('noProbes') })]));
     this._drawSignals(store.value(chosen, 'sap_flow'));
-    const drank = store.value(chosen, 'drank');
-    write(this.drank, drank === null ? '' : phrase('drankToday', { amount: amount(drank) }));
+    write(this.drank, drankToday(store.value(chosen, 'drank')));
     const day = store.value(chosen, 'day');
     if (day && (day !== this.day || changed.has('drawer'))) {
       this.day = day;
@@ -68,15 +67,10 @@ export class ProbesDrawer {
         name: signal, colour: COLOURS[/** @type {keyof COLOURS} */ (signal)], values: day[signal],
       })),
     });
-    this.drunkChart.show({
-      times, unit: day.unit ?? '', low: 0, time: hourMinute,
-      lines: [{ name: day.unit ?? phrase('drunk'), colour: '--series-4', values: day.drunk ?? [] }],
-    });
   }
 }
 
-/** @returns {string} what it drank with its unit, however the server tells it */
-export function amount(/** @type {any} */ drank) {
-  if (typeof drank === 'number') return number(drank, 1);
-  return number(drank?.value, 1, drank?.unit ?? '');
+/** @returns {string} what it drank today: hours at full flow, as the signals of its probes say */
+export function drankToday(/** @type {{hours: number|null}|null} */ drank) {
+  return drank ? phrase('drankToday', { hours: number(drank.hours, 1, 'h') }) : '';
 }

@@ -1,7 +1,7 @@
 import { DriveKeys } from './keys.js';
 import { DriveSocket } from './drive_socket.js';
 import { Stick } from './stick.js';
-import { element, refill, write } from '../words/element.js';
+import { byId, element, refill, write } from '../words/element.js';
 import { degrees, pace } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
 
@@ -40,7 +40,8 @@ export class DrivePanel {
     this.robot = this.screen.chosen;
     this._build();
     this._open();
-    this.map.canvas.after(/** @type {HTMLElement} */ (this.panel));
+    byId('main').append(/** @type {HTMLElement} */ (this.panel));
+    document.body.toggleAttribute('data-driving', true);
     this.surface.focus({ preventScroll: true });
   }
 
@@ -56,6 +57,7 @@ export class DrivePanel {
     this.socket = null;
     if (this.turning) this.map.end();
     this.turning = null;
+    document.body.toggleAttribute('data-driving', false);
     this.panel?.remove();
     this.panel = null;
   }

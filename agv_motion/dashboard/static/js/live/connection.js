@@ -43,12 +43,17 @@ export class Connection {
    */
   want(slots) {
     for (const slot of slots) this.wanted.add(slot);
-    this.send({ want: slots });
+    this._sendWanted();
   }
 
-  /** @param {string[]} slots ask for them no more, from the next connection on */
+  /** @param {string[]} slots that are not needed any more */
   forget(slots) {
     for (const slot of slots) this.wanted.delete(slot);
+    this._sendWanted();
+  }
+
+  _sendWanted() {
+    this.send({ want: [...this.wanted] });
   }
 
   /** @param {object} message */
@@ -107,7 +112,7 @@ export class Connection {
       this.wait = FIRST_WAIT;
       this.listener.state?.(true);
       this.listener.hello?.(message);
-      if (this.wanted.size) this.send({ want: [...this.wanted] });
+      if (this.wanted.size) this._sendWanted();
     } else if (message.kind === 'frame') {
       this.send({ ack: message.n });
       this.listener.frame?.(message);

@@ -1,7 +1,7 @@
 import './types.js';
 
 /** What a robot itself says, by which the page judges whether it has fallen silent. */
-const SPOKEN = ['pose', 'twist', 'turrets', 'driver', 'state'];
+const SPOKEN = ['pose', 'twist', 'turrets', 'wheels', 'driver'];
 
 /** @returns {number} [s] of the browser's steady clock: no change of the date moves it */
 export const steady = () => performance.now() / 1000;

@@ -1,6 +1,7 @@
 import { confirm } from '../act/confirm.js';
 import { byId, element, refill, write } from '../words/element.js';
 import { clockTime, dateTime } from '../words/format.js';
+import { icon } from '../words/icon.js';
 import { phrase } from '../words/phrases.js';
 
 const DAY = 86400;
@@ -24,19 +25,19 @@ export class Timeline {
     this.where = where;
     this.playing = false;
     this.timer = 0;
-    const button = (/** @type {string} */ id, /** @type {string} */ sign, /** @type {() => void} */ onclick) =>
-      element('button', { type: 'button', id: `look-${id}`, text: sign, title: phrase(`look ${id}`), 'aria-label': phrase(`look ${id}`), onclick });
+    const button = (/** @type {string} */ id, /** @type {() => void} */ onclick) =>
+      element('button', { type: 'button', id: `look-${id}`, title: phrase(`look ${id}`), 'aria-label': phrase(`look ${id}`), onclick }, icon(/** @type {any} */ (id)));
     this.slider = element('input', {
       type: 'range', id: 'look-slider', min: '0', max: '1', step: '1', value: '1', 'aria-label': phrase('lookBack'),
     });
     this.slider.addEventListener('input', () => this._jumpSoon(Number(this.slider.value)));
     this.ticks = element('div.ticks', { 'aria-hidden': 'true' });
     this.begin = element('span.look-end');
-    this.play = button('play', '▶', () => this._play());
+    this.play = button('play', () => this._play());
     this.now = element('button.look-now', { type: 'button', id: 'look-now', text: phrase('now'), onclick: () => this.screen.lookAtNow() });
-    this.save = button('save', '⤓', () => this._save());
+    this.save = button('save', () => this._save());
     this.mark = element('button.look-mark', { type: 'button', id: 'look-mark', text: phrase('mark'), onclick: () => this._mark() });
-    where.append(this.now, button('before', '⏮', () => this._step(-1)), this.play, button('after', '⏭', () => this._step(1)),
+    where.append(this.now, button('before', () => this._step(-1)), this.play, button('after', () => this._step(1)),
       element('div.look-slider', {}, this.ticks, this.slider, this.begin), this.save, this.mark);
   }
 
@@ -71,7 +72,7 @@ export class Timeline {
     const banner = byId('past-banner');
     banner.hidden = !past;
     if (past) write(banner, phrase('pastBanner', { time: dateTime(screen.store.heard === null ? Number(this.slider.value) : screen.store.now()) }));
-    write(this.play, this.playing ? '⏸' : '▶');
+    refill(this.play, String(this.playing), () => [icon(this.playing ? 'pause' : 'play')]);
     if (!span) return;
     this.slider.min = String(Math.floor(span.begin));
     this.slider.max = String(Math.ceil(span.end));

@@ -67,7 +67,7 @@ export class Bodies {
    * @param {any} platform
    */
   _wheels({ context, view, palette, store }, robot, platform) {
-    const state = store.value(robot, 'turrets') ?? {};
+    const state = wheelState(store, robot);
     const places = wheelPlaces(platform, state);
     const radius = platform.wheel_radius ?? 0.1;
     const speeds = state.speeds ?? [];
@@ -111,6 +111,11 @@ export function rim(/** @type {any} */ platform) {
   if (platform?.radius) return platform.radius;
   const reach = (platform?.outline ?? []).map((/** @type {number[]} */ [x, y]) => Math.hypot(x, y));
   return Math.max(0.3, ...reach);
+}
+
+/** @returns {any} what is measured of turrets, or of fixed wheels */
+export function wheelState(/** @type {import('../live/store.js').Store} */ store, /** @type {string} */ robot) {
+  return store.value(robot, 'turrets') ?? store.value(robot, 'wheels') ?? {};
 }
 
 /** @returns {{x: number, y: number, angle: number}[]} in the body's frame */

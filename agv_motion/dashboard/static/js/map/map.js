@@ -46,6 +46,7 @@ export class WorldMap {
     this.view.ratio = window.devicePixelRatio || 1;
     this.view.width = clientWidth;
     this.view.height = clientHeight;
+    this.view.inset = inset(clientWidth, clientHeight);
     this.canvas.width = Math.round(clientWidth * this.view.ratio);
     this.canvas.height = Math.round(clientHeight * this.view.ratio);
     if (whole) this.fit();
@@ -80,8 +81,20 @@ export class WorldMap {
     if (placed && told !== this.fitted && !this.view.touched && !this.draft) {
       this.fitted = told;
       this.fit();
+    } else if (!this.zone() && !this.view.touched && this._lost()) {
+      this.fit();
     }
     this.draw();
+  }
+
+  /** @returns {boolean} whether a robot has left the picture */
+  _lost() {
+    return this.screen.robots.some((robot) => {
+      const pose = this.screen.store.value(robot, 'pose');
+      if (!pose || pose.x === null) return false;
+      const [column, row] = this.view.toScreen(pose.x, pose.y);
+      return column < 20 || row < 20 || column > this.view.width - 20 || row > this.view.height - 20;
+    });
   }
 
   draw() {
@@ -131,4 +144,11 @@ export class WorldMap {
       return Math.hypot(pose.x - x, pose.y - y) <= reach;
     }) ?? null;
   }
+}
+
+/** What the tools cover: a strip at the left, on a phone at the top, and on a very low map nothing. */
+function inset(/** @type {number} */ width, /** @type {number} */ height) {
+  if (height < 260) return { left: 12, right: 12, top: 12, bottom: 12 };
+  if (width < 600) return { left: 16, right: 16, top: 72, bottom: 56 };
+  return { left: 80, right: 24, top: 24, bottom: 56 };
 }

@@ -8,6 +8,7 @@ import { TurnAbout } from './turn_about.js';
 import { ZoneEdit } from './zone_edit.js';
 import { byId, element, refill } from '../words/element.js';
 import { number } from '../words/format.js';
+import { icon } from '../words/icon.js';
 import { phrase } from '../words/phrases.js';
 
 const LAYERS = ['trail', 'reservations', 'light', 'memory/sap_flow', 'memory/last_visit'];
@@ -85,19 +86,19 @@ export class OperatorMap extends WorldMap {
   }
 
   _makeTools() {
-    const tool = (/** @type {string} */ key, /** @type {string} */ sign, /** @type {() => void} */ act) =>
-      element('button.tool', { type: 'button', 'aria-label': phrase(key), title: phrase(key), text: sign, onclick: act });
+    const tool = (/** @type {string} */ key, /** @type {any} */ sign, /** @type {() => void} */ act) =>
+      element('button.tool', { type: 'button', 'aria-label': phrase(key), title: phrase(key), onclick: act }, icon(sign));
     const zoom = (/** @type {number} */ factor) => {
       this.view.zoomAt(factor, this.view.width / 2, this.view.height / 2);
       this.view.touched = true;
       this.screen.redraw('look');
     };
     const layers = element('details.layers', {},
-      element('summary.tool', { 'aria-label': phrase('layers'), title: phrase('layers'), text: '☰' }),
+      element('summary.tool', { 'aria-label': phrase('layers'), title: phrase('layers') }, icon('layers')),
       element('div.layer-list', {}, ...LAYERS.map((layer) => this._layerBox(layer))));
     byId('map-tools').append(
-      tool('zoomIn', '+', () => zoom(1.4)), tool('zoomOut', '−', () => zoom(1 / 1.4)),
-      tool('fit', '⤢', () => this.fit()), layers);
+      tool('zoomIn', 'plus', () => zoom(1.4)), tool('zoomOut', 'minus', () => zoom(1 / 1.4)),
+      tool('fit', 'fit', () => this.fit()), layers);
   }
 
   /** @param {string} layer */

@@ -1,4 +1,4 @@
-import { rim, wheelPlaces } from './body.js';
+import { rim, wheelPlaces, wheelState } from './body.js';
 import { trace } from './palette.js';
 import { fromBody } from './view.js';
 
@@ -40,7 +40,7 @@ export function drawRotationCentre(scene, robot) {
   context.globalAlpha = 0.7;
   context.setLineDash([3, 4]);
   context.beginPath();
-  for (const wheel of wheelPlaces(platform, store.value(robot, 'turrets'))) {
+  for (const wheel of wheelPlaces(platform, wheelState(store, robot))) {
     trace(context, [view.toScreen(...fromBody(pose, wheel.x, wheel.y)), [column, row]]);
   }
   context.stroke();

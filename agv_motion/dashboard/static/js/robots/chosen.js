@@ -46,7 +46,7 @@ export class Chosen {
     const facts = [
       [phrase('speed'), twist ? pace(Math.hypot(twist.vx ?? NaN, twist.vy ?? NaN)) : phrase('unknown')],
       [phrase('turning'), twist ? `${degrees(twist.wz === null ? null : twist.wz * 60)}/min` : phrase('unknown')],
-      [phrase('drivenBy'), driver?.driver || summary?.driver || phrase('nobody')],
+      [phrase('drivenBy'), driver ? driver.driver || phrase('nobody') : phrase('unknown')],
     ];
     if (goal) {
       const place = `(${number(goal.x, 1)}, ${number(goal.y, 1)})`;
