@@ -32,14 +32,14 @@ class Arbiter:
         """Start with sources that have never spoken.
 
         Args:
-            timeouts: Silence after which each source counts no more [s].
+            timeouts: Silence after which each driver counts no more [s].
             hold: What is held from before.
 
         Raises:
-            ConfigurationError: A source has no time-out, or one that is not positive.
+            ConfigurationError: A driver has no time-out, or one that is not positive.
 
         """
-        for source in RANKED:
+        for source in DRIVERS:
             if not timeouts.get(source, 0.0) > 0.0:
                 msg = f'time-out of {source.value} = {timeouts.get(source)} s: must be above 0'
                 raise ConfigurationError(msg)
@@ -51,12 +51,15 @@ class Arbiter:
     # What the sources say
 
     def receive(self, source: TwistSource, twist: Twist, spoken: float) -> None:
-        """Take a twist that ``source`` asked for at ``spoken`` [s].
+        """Take a twist that ``source`` asked for at ``spoken`` [s]; any of STOP's latches.
 
         Raises:
             SignalError: A number is not finite, or beyond any robot.
 
         """
+        if source is TwistSource.STOP:
+            self.stop('asked for', spoken)
+            return
         require_finite('twist (vx, vy, wz)', twist)
         if max(map(abs, twist)) > FASTEST:
             msg = f'twist {tuple(twist)}: at most {FASTEST:g} m/s and rad/s; look at the units'
@@ -65,10 +68,13 @@ class Arbiter:
         if source in self.hold.lost:
             self.hold = self.hold._replace(lost=self.hold.lost - {source})
 
-    def rest(self, source: TwistSource) -> None:
-        """Let ``source`` ask for no motion from now on, without a sign that it lives."""
-        if source in self._said:
-            self._said[source] = REST, self._said[source][1]
+    def rest(self, source: TwistSource) -> bool:
+        """Let ``source`` ask for no motion, and be no younger for it; return whether it moved."""
+        twist, spoken = self._said.get(source, (REST, 0.0))
+        if twist == REST:
+            return False
+        self._said[source] = REST, spoken
+        return True
 
     def forget(self) -> None:
         """Let nothing count any more that was said; a dead-man that drove is lost."""

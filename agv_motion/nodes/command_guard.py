@@ -1,4 +1,4 @@
-"""When driven wheels stand: a zero, silence of `cmd_vel` or of the encoders, and `~/stop`.
+"""When driven wheels stand: a zero, silence of what they hear, `standstill`, and `~/stop`.
 
 What both kinds of kinematics do about their inputs is here, once. How wheels stop they know best.
 """
@@ -8,18 +8,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import Twist as TwistMessage
+from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import require_frame, twist_of
-from agv_motion.ros.qos import COMMAND
+from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.twist_rows import TwistRows
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from agv_motion.nodes.input_parameters import DrivenParameters
     from agv_motion.ros.port import Port
+
+
+STANDSTILL = 'standstill: STOP holds, or a dead-man was let go; the topic driver tells which'
+"""Why wheels stand that an arbiter holds."""
 
 
 class DrivenWheels(Protocol):
@@ -67,6 +72,8 @@ class CommandGuard:
         """Why nobody knows what the wheels do; empty if somebody does, or never did"""
         self.stopped_by = ''
         """Why the wheels stand until a person releases them; empty if they need not"""
+        self.standstill = False
+        """Whether the arbiter lets them stand; false for ever where there is none"""
         self._port, self._wheels, self._frame = port, wheels, given.base_frame
         self._lost = f'{encoders} is lost'
         if given.stamped:
@@ -74,12 +81,13 @@ class CommandGuard:
             port.listen_to_rows(rows, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
             port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        port.listen(Bool, 'standstill', self._on_standstill, LATCHED, sole=True)
         port.serve(SetBool, '~/stop', self._on_stop)
 
     @property
     def reason(self) -> str:
         """Why the wheels are held; empty if they are not."""
-        return self.stopped_by or self.blind
+        return self.stopped_by or (STANDSTILL if self.standstill else self.blind)
 
     def stop_for(self, reason: str) -> None:
         """Hold the wheels until a person releases them by `~/stop`."""
@@ -111,6 +119,14 @@ class CommandGuard:
         if not self._port.clock.fault:
             self._wheels.drive(twist)
             self.command.note()
+
+    def _on_standstill(self, message: Bool) -> None:
+        """Stand at once, by no ramp; once released, wait for the next twist."""
+        held, self.standstill = self.standstill, message.data
+        if self.standstill:
+            self._wheels.stand()
+        elif held:
+            self._wheels.start_anew()
 
     def _on_stop(self, request: Any) -> str:
         if request.data:

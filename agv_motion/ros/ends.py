@@ -59,7 +59,7 @@ class Ends:
         self._node, self._owner = node, owner
         self._closers: list[Callable[[], Any]] = []
         self._unheard: dict[str, Callable[[], None]] = {}
-        """Latched messages that came while inactive, by topic"""
+        """Messages that are to be kept and came while inactive, by topic"""
 
     def __bool__(self) -> bool:
         """Return whether anything is open."""
@@ -90,15 +90,16 @@ class Ends:
         return publisher
 
     def listen(
-        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
-    ) -> None:
-        """Call ``callback`` with each message; what is latched is kept while inactive."""
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile,
+        *, kept: bool = False,
+    ) -> None:  # fmt: skip
+        """Call ``callback`` with each message; the last one is kept while inactive, if latched."""
         node, owner, unheard = self._node, self._owner, self._unheard
-        latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        kept = kept or qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
         def guarded(message: Any) -> None:
             if not owner.active:
-                if latched:
+                if kept:
                     unheard[topic] = lambda: guarded(message)
                 return
             try:

@@ -123,6 +123,12 @@ class InProcessPort:
         del qos, sole
         self._add(topic, InProcessListener(self, kind, topic, callback))
 
+    def listen_always(
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
+    ) -> None:
+        """Do the same: over a recording a node is active all the time."""
+        self.listen(kind, topic, callback, qos)
+
     def listen_ahead(
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], ahead: Ahead,
         qos: QoSProfile,

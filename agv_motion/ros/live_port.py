@@ -102,6 +102,13 @@ class LivePort:
         self.graph.add(kind, topic, qos, publishes=False, sole=sole)
         self.ends.listen(kind, topic, callback, qos)
 
+    def listen_always(
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
+    ) -> None:
+        """Do the same, but what came last while the node was inactive is heard in any case."""
+        self.graph.add(kind, topic, qos, publishes=False, sole=False)
+        self.ends.listen(kind, topic, callback, qos, kept=True)
+
     def listen_ahead(
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], ahead: Ahead,
         qos: QoSProfile,

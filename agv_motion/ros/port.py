@@ -102,6 +102,11 @@ class Port(Protocol):
         messages should come from a ``sole`` node, it is told when several publish them.
         """
 
+    def listen_always(
+        self, kind: type[Any], topic: str, callback: Callable[[Any], None], qos: QoSProfile
+    ) -> None:
+        """Do the same, but what came last while the node was inactive is heard in any case."""
+
     def listen_ahead(
         self, kind: type[Any], topic: str, callback: Callable[[Any], None], ahead: Ahead,
         qos: QoSProfile,

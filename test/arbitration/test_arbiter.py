@@ -95,6 +95,13 @@ def test_stop_holds_at_once_and_until_it_is_released():
     assert found.choose(99.5).twist == B
 
 
+@pytest.mark.parametrize('number', [0.0, nan, inf])
+def test_whatever_comes_from_stop_latches(number):
+    found = arbiter()
+    found.receive(TwistSource.STOP, Twist(number, 0.0, 0.0), 7.0)
+    assert found.choose(99.0).hold.stop == HeldStop('asked for', 7.0)
+
+
 def test_a_stop_from_before_holds_from_the_start():
     found = arbiter(Hold(HeldStop('before', 1.0)))
     found.receive(TwistSource.MANUAL, A, 0.0)

@@ -11,6 +11,7 @@ pytest.importorskip('rclpy')
 from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
 from agv_motion.nodes.command_guard import CommandGuard
@@ -90,6 +91,9 @@ class Trial:
         message = JointState()
         message.header.stamp = stamp_of(self._at(seconds))
         self._feed('/wheels/state', seconds, message)
+
+    def standstill(self, seconds, *, holds):
+        self._feed('/standstill', seconds, Bool(data=holds))
 
     def pass_until(self, seconds):
         self.graph.run(self._at(seconds))
@@ -181,6 +185,40 @@ def test_a_stop_holds_until_it_is_released():
     assert trial.stop(data=False) == 'free to drive'
     trial.twist(0.06)
     assert trial.clear() == [(0.05, 'start anew'), (0.06, FAST)]
+
+
+def test_a_standstill_stands_at_once_and_holds_until_the_arbiter_lets_go():
+    trial = Trial()
+    trial.twist(0.05)
+    trial.standstill(0.06, holds=True)
+    trial.twist(0.07)
+    assert trial.clear() == [(0.05, FAST), (0.06, 'stand'), (0.07, 'hold')]
+    assert trial.cart.guard.reason.startswith('standstill: STOP holds')
+    trial.standstill(0.08, holds=False)
+    trial.twist(0.09)
+    assert trial.clear() == [(0.08, 'start anew'), (0.09, FAST)]
+    assert trial.cart.guard.reason == ''
+
+
+def test_a_standstill_that_never_held_changes_nothing():
+    trial = Trial()
+    trial.standstill(0.05, holds=False)
+    trial.twist(0.06)
+    assert trial.clear() == [(0.06, FAST)]
+
+
+def test_a_request_and_a_standstill_are_released_each_by_itself():
+    trial = Trial()
+    trial.stop(data=True)
+    trial.standstill(0.01, holds=True)
+    trial.stop(data=False)
+    trial.twist(0.02)
+    assert trial.clear()[-1] == (0.02, 'hold')
+    trial.stop(data=True)
+    trial.standstill(0.03, holds=False)
+    trial.twist(0.04)
+    assert trial.clear()[-1] == (0.04, 'hold')
+    assert trial.cart.guard.reason == 'by request'
 
 
 def test_a_reason_of_the_node_holds_as_a_request_does():
