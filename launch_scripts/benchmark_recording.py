@@ -10,7 +10,6 @@ import sys
 import tempfile
 import time
 from contextlib import contextmanager
-from datetime import datetime, timezone
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -27,15 +26,9 @@ from agv_motion.bag.playback.playback import Playback
 from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.nodes.granier_probe import GranierProbe
-from agv_motion.nodes.motion_generator import MotionGenerator
-from agv_motion.nodes.simulator import Simulator
-from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.reprocess.one_bag import Plan, Transcript, reprocess
-from agv_motion.reprocess.recorded import parameters
+from agv_motion.reprocess import Plan, reprocess
+from agv_motion.reprocess.simulated_tree import NOON, record_simulated_tree
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process_graph import InProcessGraph
-from agv_motion.ros.in_process_node import InProcessNode
 
 MESSAGES = 200_000
 LIVE_RATE, LIVE_SECONDS, LIVE_TOPICS = 10_000, 5, 8
@@ -144,39 +137,19 @@ def replay_row(folder: Path) -> Row:
     return Row('replay at rate 1, lateness of 99 %', playback.lag.quantile(0.99), target='2 ms')
 
 
-def record_tree(path: Path, start: str, seconds: int) -> None:
-    """Write what the whole simulated tree says, without middleware."""
-    begin = int(datetime.fromisoformat(start).replace(tzinfo=timezone.utc).timestamp())
-    kinds: dict[Any, dict[str, Any]] = {
-        GranierProbe: parameters('tree.yaml', 'granier_probe'),
-        MotionGenerator: parameters('tree.yaml', 'motion_generator'),
-        WheelKinematics: parameters('tree.yaml', 'wheel_kinematics'),
-        Simulator: parameters('tree.yaml', 'simulator') | {'start_time': start},
-    }
-    with BagWriter(path) as writer:
-        transcript = Transcript(writer)
-        graph = InProcessGraph(transcript.record, begin * 1_000_000_000)
-        for kind, given in kinds.items():
-            InProcessNode(graph, kind, given, {'/pose': '/fix'})
-        graph.start()
-        graph.run((begin + seconds) * 1_000_000_000)
-        graph.stop()
-        transcript.flush()
-
-
 def reprocess_rows(folder: Path) -> list[Row]:
     """The tree at 10 Hz through three nodes, from ten minutes of noon and of night.
 
     What it takes to start, measured on a bag of one second, counts once a day.
     """
     took, messages = [], 0
-    for name, start, seconds in (
-        ('first', '2015-06-15T11:00:00', 1),
-        ('start', '2015-06-15T11:00:00', 1),
-        ('noon', '2015-06-15T11:00:00', 600),
-        ('night', '2015-06-15T00:00:00', 600),
+    for name, begin, seconds in (
+        ('first', NOON, 1),
+        ('start', NOON, 1),
+        ('noon', NOON, 600),
+        ('night', NOON - 11 * 3600, 600),
     ):
-        record_tree(folder / name, start, seconds)
+        record_simulated_tree(folder / name, seconds, begin)
         outcome = reprocess(folder / name, folder / f'{name}_again', PLAN)
         took.append(outcome.took)
         messages += (outcome.messages_in + outcome.messages_out) * (seconds > 1)

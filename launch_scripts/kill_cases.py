@@ -18,16 +18,9 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.bag.writer import BagWriter
-from agv_motion.nodes.granier_probe import GranierProbe
-from agv_motion.nodes.motion_generator import MotionGenerator
-from agv_motion.nodes.simulator import Simulator
-from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.odometry.columns import pose_columns
-from agv_motion.reprocess.one_bag import Transcript
-from agv_motion.reprocess.recorded import parameters
+from agv_motion.reprocess.simulated_tree import record_simulated_tree
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process_graph import InProcessGraph
-from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import stamp_of
 
 if TYPE_CHECKING:
@@ -120,34 +113,13 @@ def prepare(sources: Path, chosen: list[Case]) -> None:
     read = ' '.join(word for case in chosen for word in case.command)
     sources.mkdir()
     if str(sources / 'walk') in read or str(sources / 'torn') in read:
-        _walk(sources / 'walk', 20)
+        record_simulated_tree(sources / 'walk', 20)
         whole = (sources / 'walk' / 'walk_0.mcap').read_bytes()
         (sources / 'torn.mcap').write_bytes(whole[: len(whole) * 3 // 4])
     for seed, name in enumerate('abc' if str(sources / 'walks') in read else '', 1):
-        _walk(sources / 'walks' / name, 20, seed)
+        record_simulated_tree(sources / 'walks' / name, 20, seed=seed)
     if str(sources / 'drive') in read:
         _drive(sources / 'drive')
-
-
-def _walk(path: Path, seconds: int, seed: int = 1) -> None:
-    """Record what a tree says before a June noon."""
-    with BagWriter(path) as writer:
-        transcript = Transcript(writer)
-        graph = InProcessGraph(transcript.record, NOON)
-        for kind, name in (
-            (GranierProbe, 'granier_probe'),
-            (MotionGenerator, 'motion_generator'),
-            (WheelKinematics, 'wheel_kinematics'),
-            (Simulator, 'simulator'),
-        ):
-            given = parameters('tree.yaml', name)
-            if name == 'simulator':
-                given |= {'seed': seed, 'start_time': '2015-06-15T11:00:00'}
-            InProcessNode(graph, kind, given, {'/pose': '/fix'})
-        graph.start()
-        graph.run(NOON + seconds * SECOND)
-        graph.stop()
-        transcript.flush()
 
 
 def _drive(path: Path) -> None:

@@ -60,7 +60,7 @@ settings.load_profile('agv_motion')
 
 
 LONG = ('test_pipeline', 'test_topic', 'test_season', 'test_reprocess', 'test_tree', 'test_trees',
-        'test_calibrate', 'test_nodes_and_doctor')  # fmt: skip
+        'test_calibrate', 'test_nodes_and_doctor', 'test_one_bag')  # fmt: skip
 """Files that take longest: first, so that no worker is left alone with one at the end"""
 
 
@@ -187,6 +187,20 @@ def graph():
     for node in graph.nodes:
         node.destroy_node()
     rclpy.shutdown(context=context)
+
+
+@pytest.fixture(scope='session')
+def recorded(tmp_path_factory):
+    """Return a folder of three recordings of a tree, the second of them spoilt."""
+    pytest.importorskip('rclpy')
+    from agv_motion.reprocess.simulated_tree import record_simulated_tree
+
+    folder = tmp_path_factory.mktemp('recorded')
+    record_simulated_tree(folder / 'a', 60)
+    record_simulated_tree(folder / 'c', 30, seed=2)
+    (folder / 'b').mkdir()
+    (folder / 'b' / 'b_0.mcap').write_bytes(b'no bag')
+    return folder
 
 
 SPRUCE = 'granier_spruce_2012_2014.csv'

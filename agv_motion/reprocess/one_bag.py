@@ -8,8 +8,6 @@ from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError
@@ -17,13 +15,11 @@ from agv_motion.files.unfinished import beside
 from agv_motion.reprocess import provenance
 from agv_motion.reprocess.bag_clock import BagClock
 from agv_motion.reprocess.recorded import node_class, parameters
+from agv_motion.reprocess.transcript import TOGETHER, Transcript
 from agv_motion.ros.config import find_config
-from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.in_process_port import full_name
-from agv_motion.ros.in_process_topic import InProcessEnd, InProcessRowPublisher
-from agv_motion.ros.messages import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -81,60 +77,6 @@ class ReprocessOutcome(NamedTuple):
 
 class Abandoned(BaseException):
     """Nobody waits for the result any more; like KeyboardInterrupt, no error of the bag."""
-
-
-class Transcript:
-    """What the nodes of a graph say, in a bag; each topic begins with its first message.
-
-    Messages are written many together: `flush` when the last has come.
-    """
-
-    def __init__(self, writer: BagWriter) -> None:
-        """Start with no topic."""
-        self.messages = 0
-        self._writer = writer
-        self._topics: dict[str, int] = {}
-        self._waiting: list[tuple[InProcessEnd, int, Any]] = []
-
-    def record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
-        """Take a message, or a row, of time ``stamp`` [ns]."""
-        self._waiting.append((publisher, stamp, data))
-        if len(self._waiting) >= TOGETHER:
-            self.flush()
-
-    def flush(self) -> None:
-        """Hand what has come to the writer."""
-        if not self._waiting:
-            return
-        publishers, stamps, found = zip(*self._waiting, strict=True)
-        topics = {publisher: self._topic(publisher) for publisher in dict.fromkeys(publishers)}
-        rows: dict[InProcessEnd, list[int]] = {}
-        for i, (publisher, data) in enumerate(zip(publishers, found, strict=True)):
-            if type(data) is not bytes:
-                rows.setdefault(publisher, []).append(i)
-        messages = list(found)
-        for publisher, places in rows.items():
-            assert isinstance(publisher, InProcessRowPublisher)
-            times = np.array([stamps[i] for i in places], np.int64)
-            made = publisher.table.messages(times, [found[i].row for i in places])
-            for i, message in zip(places, made, strict=True):
-                messages[i] = message
-        self._writer.write_several([topics[one] for one in publishers], stamps, messages)
-        self.messages += len(messages)
-        self._waiting.clear()
-
-    def _topic(self, publisher: InProcessEnd) -> int:
-        if publisher.topic not in self._topics:
-            self._topics[publisher.topic] = self._add(publisher)
-        return self._topics[publisher.topic]
-
-    def _add(self, publisher: InProcessEnd) -> int:
-        kind, qos = type_name(publisher.kind), [offer(publisher.qos)]
-        return self._writer.add_topic(publisher.topic, kind, qos=qos)
-
-
-TOGETHER = 1024
-"""Messages that are looked at, and written, together."""
 
 
 def reprocess(

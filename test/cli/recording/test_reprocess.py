@@ -1,4 +1,4 @@
-"""`agv reprocess` over recordings: the decisions of the live nodes, the same bytes every time."""
+"""`agv reprocess`: workers, clusters, signals, and what is told."""
 
 from __future__ import annotations
 
@@ -8,39 +8,14 @@ import shutil
 import signal
 import subprocess
 import sys
-from math import nan
 from pathlib import Path
 
 import pytest
 
-rclpy = pytest.importorskip('rclpy')
+pytest.importorskip('rclpy')
 
-from geometry_msgs.msg import TwistStamped
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from agv_motion.reprocess import Plan, reprocess
 
-from agv_motion.bag.editing.diff import Tolerance, diff
-from agv_motion.bag.reader import BagReader
-from agv_motion.bag.writer import BagWriter
-from agv_motion.errors import ConfigurationError
-from agv_motion.nodes.catalogue import available
-from agv_motion.nodes.granier_probe import GranierProbe
-from agv_motion.nodes.localization import Localization
-from agv_motion.nodes.motion_generator import MotionGenerator
-from agv_motion.nodes.omni_kinematics import OmniKinematics
-from agv_motion.nodes.omni_simulator import OmniSimulator
-from agv_motion.nodes.simulator import Simulator
-from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.reprocess.one_bag import Plan, Transcript, reprocess
-from agv_motion.reprocess.recorded import LIVE_ONLY, node_class, parameters
-from agv_motion.ros.cdr import codec
-from agv_motion.ros.in_process_graph import InProcessGraph
-from agv_motion.ros.in_process_node import InProcessNode
-from agv_motion.ros.in_process_topic import InProcessListener, InProcessRowPublisher
-from agv_motion.ros.messages import stamp_of
-
-SECOND = 1_000_000_000
-NOON = 1434366000 * SECOND
 PLAN = Plan(
     'tree.yaml',
     ('granier_probe', 'motion_generator', 'wheel_kinematics'),
@@ -49,107 +24,9 @@ PLAN = Plan(
 )
 
 
-def record(path, seconds, seed=1):
-    """Write what the whole tree says in ``seconds`` before a June noon."""
-    with BagWriter(path) as writer:
-        transcript = Transcript(writer)
-        graph = InProcessGraph(transcript.record, NOON)
-        for kind, name in (
-            (GranierProbe, 'granier_probe'),
-            (MotionGenerator, 'motion_generator'),
-            (WheelKinematics, 'wheel_kinematics'),
-            (Simulator, 'simulator'),
-        ):
-            given = parameters('tree.yaml', name)
-            if name == 'simulator':
-                given |= {'seed': seed, 'start_time': '2015-06-15T11:00:00'}
-            InProcessNode(graph, kind, given, {'/pose': '/fix'})
-        graph.start()
-        graph.run(NOON + seconds * SECOND)
-        graph.stop()
-        transcript.flush()
-    return path
-
-
-@pytest.fixture(scope='module')
-def recorded(tmp_path_factory):
-    """Return a folder of three recordings, the second of them spoilt."""
-    folder = tmp_path_factory.mktemp('recorded')
-    record(folder / 'a', 60)
-    record(folder / 'c', 30, seed=2)
-    (folder / 'b').mkdir()
-    (folder / 'b' / 'b_0.mcap').write_bytes(b'no bag')
-    return folder
-
-
 def content(folder):
     """Return the bytes of all files of a folder."""
     return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob('*.mcap'))}
-
-
-def test_what_was_decided_is_decided_again(recorded, tmp_path):
-    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN)
-    assert not outcome.failure
-    with BagReader(recorded / 'a') as before, BagReader(tmp_path / 'out') as after:
-        after.require(['/cmd_vel', '/turrets/command', '/odom', '/granier/sap_flow'])
-        for topic in diff(before, after, sorted(after.topics), Tolerance()):
-            assert topic.same, topic
-        assert any(
-            m.data != next(after.messages(['/cmd_vel'])).data for m in after.messages(['/cmd_vel'])
-        )
-
-
-def one_by_one(monkeypatch, *, rows=True):
-    """Let nothing be known before it comes, and where asked let no row go as it is."""
-    monkeypatch.setattr(InProcessListener, 'look_ahead', lambda *_: None)
-    if rows:
-        monkeypatch.setattr(InProcessRowPublisher, 'goes_as_it_is', lambda _: False)
-
-
-@pytest.mark.parametrize('rows', [False, True])
-def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch, rows):
-    reprocess(recorded / 'a', tmp_path / 'together' / 'out', PLAN)
-    one_by_one(monkeypatch, rows=rows)
-    reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
-    assert content(tmp_path / 'together') == content(tmp_path / 'apart')
-
-
-def test_states_that_cannot_be_taken_together_are_taken_one_by_one(recorded, tmp_path, monkeypatch):
-    joints = codec(JointState)
-    with BagReader(recorded / 'a') as bag, BagWriter(tmp_path / 'odd') as writer:
-        topics = {name: writer.add_topic(name, c.type) for name, c in bag.topics.items()}
-        for i, message in enumerate(bag.messages()):
-            data = message.data
-            if message.connection.topic == '/turrets/state' and i > 2000:
-                state = joints.decode(data)
-                if i < 2100:
-                    state.position[1] = nan
-                elif i > 3000:
-                    state.name.reverse()
-                    state.position.reverse()
-                    state.velocity.reverse()
-                data = joints.encode(state)
-            writer.write(topics[message.connection.topic], message.stamp, data)
-    together = reprocess(tmp_path / 'odd', tmp_path / 'together' / 'out', PLAN)
-    one_by_one(monkeypatch)
-    apart = reprocess(tmp_path / 'odd', tmp_path / 'apart' / 'out', PLAN)
-    assert content(tmp_path / 'together') == content(tmp_path / 'apart')
-    assert together.complaints == apart.complaints
-    assert any('must be finite' in text for text in together.complaints)
-
-
-def test_another_configuration_decides_otherwise(recorded, tmp_path):
-    reprocess(recorded / 'a', tmp_path / 'one', PLAN)
-    tuned = tmp_path / 'tuned.yaml'
-    tuned.write_text('/**/wheel_kinematics:\n  ros__parameters: {wheel_radius: 0.2}\n')
-    only = PLAN._replace(config=str(tuned), nodes=('wheel_kinematics',))
-    outcome = reprocess(recorded / 'a', tmp_path / 'two', only)
-    assert not outcome.failure
-    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
-        assert '/cmd_vel' not in two.topics
-        (commands,) = diff(one, two, ['/turrets/command'], Tolerance(1e-9))
-    worst = commands.worst['velocity[4]']
-    assert 0.0 < worst.second < 0.8 * worst.first  # a larger wheel turns more slowly
 
 
 def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_path):
@@ -285,30 +162,6 @@ def test_a_killed_worker_takes_one_bag_with_it_and_no_other(alone, recorded, tmp
     assert not list(out.glob('.*'))
 
 
-def test_a_result_is_made_anew_for_another_configuration_only(recorded, tmp_path):
-    out = tmp_path / 'out'
-    assert not reprocess(recorded / 'c', out, PLAN).made_before
-    before = content(out)
-    assert reprocess(recorded / 'c', out, PLAN).made_before
-    tuned = tmp_path / 'tuned.yaml'
-    tuned.write_text('/**/wheel_kinematics:\n  ros__parameters: {wheel_radius: 0.2}\n')
-    for plan in (PLAN._replace(config=str(tuned)), PLAN._replace(remap=())):
-        assert 'File exists' in reprocess(recorded / 'c', out, plan).failure
-    assert 'File exists' in reprocess(recorded / 'a', out, PLAN).failure
-    assert content(out) == before
-
-
-def test_a_failure_leaves_no_half_result(recorded, tmp_path):
-    outcome = reprocess(
-        recorded / 'a', tmp_path / 'out', PLAN._replace(remap=(('/path', '/path'),))
-    )
-    assert not outcome.failure
-    shutil.rmtree(tmp_path / 'out')
-    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN._replace(nodes=('nothing',)))
-    assert "no node 'nothing'" in outcome.failure
-    assert not (tmp_path / 'out').exists()
-
-
 def test_a_bag_that_has_lost_something_is_told_each_time_with_status_1(alone, recorded, tmp_path):
     (file,) = (recorded / 'c').glob('*.mcap')
     torn = tmp_path / 'torn.mcap'
@@ -318,155 +171,6 @@ def test_a_bag_that_has_lost_something_is_told_each_time_with_status_1(alone, re
         assert status == 1
         assert 'torn.mcap, byte ' in errors
         assert word in out
-
-
-def test_every_node_that_can_be_without_a_graph_runs(recorded, tmp_path):
-    nodes = tuple(name for name in available() if name not in LIVE_ONLY)
-    assert {'sequence', 'route_follower', 'localization', 'ghost_trajectory'} <= set(nodes)
-    for name in nodes:
-        assert node_class(name).__name__
-    quiet = Plan('', ('sequence', 'route_follower', 'ghost_trajectory'), (), 'zstd')
-    outcome = reprocess(recorded / 'c', tmp_path / 'out', quiet)
-    assert not outcome.failure
-    assert outcome.messages_in > 0
-    for name in LIVE_ONLY:
-        with pytest.raises(ConfigurationError, match='live graph only'):
-            node_class(name)
-
-
-FILE = """
-oak:
-  wheel_kinematics: {ros__parameters: {wheel_radius: 0.21}}
-/elm/wheel_kinematics: {ros__parameters: {wheel_radius: 0.22}}
-/oak/**: {ros__parameters: {rate: 7.0, laps: 3}}
-"""
-
-
-def test_parameters_are_those_that_the_live_node_would_take(tmp_path):
-    path = tmp_path / 'two.yaml'
-    path.write_text(FILE)
-    given = parameters(str(path), 'wheel_kinematics', '/oak')
-    assert given['wheel_radius'] == 0.21
-    assert 'laps' not in given
-    assert parameters(str(path), 'wheel_kinematics', '/elm') == {'wheel_radius': 0.22}
-    assert parameters(str(path), 'route_follower', '/oak')['laps'] == 3
-    assert parameters(str(path), 'route_follower', '/') == {}
-    with pytest.raises(ConfigurationError, match='it is for /elm or /oak; give it by --namespace'):
-        parameters(str(path), 'wheel_kinematics')
-    path.write_text(FILE + '"/**": {ros__parameters: {wheel_radius: 0.3}}\n')
-    assert parameters(str(path), 'wheel_kinematics', '/oak')['wheel_radius'] == 0.3  # as rcl does
-
-
-def test_what_the_robot_has_learnt_stays_untouched(tmp_path):
-    path = tmp_path / 'one.yaml'
-    path.write_text('/**: {ros__parameters: {memory_file: /m, state_file: /s}}\n')
-    assert parameters(str(path), 'motion_generator')['memory_file'] == ''
-    assert parameters(str(path), 'granier_probe')['state_file'] == ''
-
-
-def copied(source, target, change):
-    """Write a bag again, message by message as ``change`` of (topic, stamp, data) has it."""
-    with BagReader(source) as bag, BagWriter(target) as writer:
-        topics = {}
-        for message in bag.messages():
-            for topic, stamp, data, kind in change(message):
-                if topic not in topics:
-                    topics[topic] = writer.add_topic(topic, kind)
-                writer.write(topics[topic], stamp, data)
-    return target
-
-
-def test_a_robot_with_a_namespace_is_the_same_robot(recorded, tmp_path):
-    def named(message):
-        topic = message.connection.topic
-        yield f'/oak{topic}', message.stamp, message.data, message.connection.type
-
-    copied(recorded / 'c', tmp_path / 'oak', named)
-    joints = codec(JointState)
-    only = PLAN._replace(nodes=('wheel_kinematics',))
-    there = only._replace(namespace='/oak', remap=())
-    assert not reprocess(recorded / 'c', tmp_path / 'one', only).failure
-    assert not reprocess(tmp_path / 'oak', tmp_path / 'two', there).failure
-    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
-        assert set(two.topics) == {f'/oak{topic}' for topic in one.topics}
-        assert one.counts['/turrets/command'] > 0
-        for a, b in zip(
-            one.messages(['/turrets/command']), two.messages(['/oak/turrets/command']), strict=True
-        ):
-            ours, theirs = (joints.decode(message.data) for message in (a, b))
-            assert (a.stamp, ours.position, ours.velocity) == (
-                b.stamp, theirs.position, theirs.velocity
-            )  # fmt: skip
-
-
-def test_the_time_is_that_of_the_clock_in_the_bag(recorded, tmp_path):
-    """Beside a simulation ten times as fast as the clock on the wall."""
-    clocks = codec(Clock)
-
-    def hurried(message):
-        wall = NOON + (message.stamp - NOON) // 10
-        tick = clocks.encode(Clock(clock=stamp_of(message.stamp)))
-        if message.connection.topic != '/clock':
-            yield '/clock', wall, tick, 'rosgraph_msgs/msg/Clock'
-            yield message.connection.topic, wall, message.data, message.connection.type
-
-    copied(recorded / 'c', tmp_path / 'hurried', hurried)
-    only = PLAN._replace(nodes=('wheel_kinematics',))
-    assert not reprocess(recorded / 'c', tmp_path / 'one', only).simulated
-    outcome = reprocess(tmp_path / 'hurried', tmp_path / 'two', only)
-    assert not outcome.failure
-    assert outcome.simulated
-    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
-        assert one.counts['/odom'] > 100
-        for topic in diff(one, two, ['/odom', '/turrets/command'], Tolerance()):
-            assert topic.same, topic
-        assert abs(one.end - two.end) < SECOND
-
-
-OMNI = (
-    ('omni_kinematics', OmniKinematics),
-    ('localization', Localization),
-    ('omni_simulator', OmniSimulator),
-)
-
-
-def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(tmp_path):
-    """Odometry is derived in the run, the gyro is in the bag: who comes first is as it was."""
-    twists = codec(TwistStamped)
-    with BagWriter(tmp_path / 'live') as writer:
-        transcript = Transcript(writer)
-        graph = InProcessGraph(transcript.record, NOON)
-        for name, kind in OMNI:
-            InProcessNode(graph, kind, parameters('omni.yaml', name))
-        graph.start()
-        topic = writer.add_topic('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
-        for i in range(1, 200):
-            twist = TwistStamped()
-            twist.header.stamp = stamp_of(NOON + i * SECOND // 10)
-            twist.header.frame_id = 'base_link'
-            twist.twist.linear.x, twist.twist.angular.z = 0.3, 0.5
-            data = twists.encode(twist)
-            graph.feed('/cmd_vel', NOON + i * SECOND // 10, data)
-            writer.write(topic, NOON + i * SECOND // 10, data)
-        graph.stop()
-        transcript.flush()
-    plan = Plan('omni.yaml', ('omni_kinematics', 'localization'), (), 'zstd')
-    assert not reprocess(tmp_path / 'live', tmp_path / 'again', plan).failure
-    with BagReader(tmp_path / 'live') as live, BagReader(tmp_path / 'again') as again:
-        assert live.counts['/pose'] > 100
-        for found in diff(live, again, ['/odom', '/pose'], Tolerance()):
-            assert found.same, found
-
-
-def test_a_clock_that_goes_back_is_told(tmp_path):
-    clocks = codec(Clock)
-    with BagWriter(tmp_path / 'in') as writer:
-        topic = writer.add_topic('/clock', 'rosgraph_msgs/msg/Clock')
-        for i, second in enumerate((5, 6, 2)):
-            writer.write(topic, i, clocks.encode(Clock(clock=stamp_of(second * SECOND))))
-    outcome = reprocess(tmp_path / 'in', tmp_path / 'out', PLAN)
-    assert '/clock goes back from 6000000000 to 2000000000 ns' in outcome.failure
-    assert not (tmp_path / 'out').exists()
 
 
 def test_no_node_is_an_error(alone, recorded, tmp_path):
