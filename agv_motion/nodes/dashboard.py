@@ -16,6 +16,7 @@ from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
     from agv_motion.dashboard.server.serve import WebServer
+    from agv_motion.dashboard.server.site import Site
     from agv_motion.ros.live_port import LivePort
 
 TAKE_PERIOD = 0.05
@@ -39,6 +40,15 @@ class DashboardParameters:
     ] = '127.0.0.1'
     port: Annotated[int, Spec('of the page; 0: any that is free', '', (0, 65535))] = 8080
     next_free_port: Annotated[bool, Spec('take the next port where this one is taken')] = False
+    names: Annotated[
+        tuple[str, ...],
+        Spec('by which browsers may know this host, beside its addresses and localhost'),
+    ] = ()
+    certificate: Annotated[str, Spec('file of a certificate (PEM), for TLS; empty: none')] = ''
+    key: Annotated[str, Spec('file of its key')] = ''
+    state_folder: Annotated[
+        str, Spec('where users, marks and saved parameters are kept; empty: of the user, by XDG')
+    ] = ''
     robots: Annotated[tuple[str, ...], Spec('names of those that are shown; empty: all')] = ()
 
     def __post_init__(self) -> None:
@@ -59,6 +69,7 @@ class Dashboard(PlainNode[DashboardParameters]):
         super().__init__(port, parameters)
         self.board = Board()
         self.fleet = LiveFleet(port, self.board, parameters.robots)
+        self.site: Site | None = None
         self.server: WebServer | None = None
         self._taken_at = 0.0
         port.every(ACT_PERIOD, self.fleet.send, steady=True)
@@ -74,23 +85,29 @@ class Dashboard(PlainNode[DashboardParameters]):
         """
         try:
             from agv_motion.dashboard.server.app import application
+            from agv_motion.dashboard.server.opening import opened
             from agv_motion.dashboard.server.serve import WebServer, listening
         except ModuleNotFoundError as error:
             msg = f'the page needs {error.name}: pip install "agv_motion[dashboard]"'
             raise ConfigurationError(msg) from error
         given = self.parameters
         self.fleet.look()
+        self.site = opened(self.fleet, given.host, given.state_folder)
         listener = listening(given.host, given.port, next_free=given.next_free_port)
-        application_, self._watched = application(self.fleet)
-        self.server = WebServer(application_, listener)
+        page = application(self.site, given.names)
+        self.server = WebServer(page, listener, given.certificate, given.key)
         self.server.start()
-        self.port.info(f'the page is at {self.server.url}')
+        who = 'users log in' if self.site.access.needs_login else 'for this machine alone'
+        self.port.info(f'the page is at {self.server.url}, {who}')
 
     def halt(self) -> None:
         """Close the page."""
         if self.server is not None:
             self.server.close()
             self.server = None
+        if self.site is not None:
+            self.site.close()
+            self.site = None
         self.fleet.close()
 
     def diagnose(self) -> Diagnosis:
@@ -100,7 +117,8 @@ class Dashboard(PlainNode[DashboardParameters]):
 
     def _take(self) -> None:
         now = time.monotonic()
-        if self._watched() or now - self._taken_at >= LOOK_PERIOD:
+        watched = self.site is not None and self.site.is_watched
+        if watched or now - self._taken_at >= LOOK_PERIOD:
             self._taken_at = now
             self.fleet.take()
 

@@ -11,7 +11,7 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from agv_motion.dashboard.server.fleet import RefusedError
+from agv_motion.dashboard.server.fleet import NoAnswerError, RefusedError
 from agv_motion.nodes.robot_acts import RobotActs
 from agv_motion.nodes.robot_listener import RobotListener
 from agv_motion.nodes.robot_services import RobotServices
@@ -111,4 +111,5 @@ def _settle(future: asyncio.Future[str], words: str | Exception) -> None:
     if isinstance(words, str):
         future.set_result(words)
     else:
-        future.set_exception(words if isinstance(words, RefusedError) else RefusedError(str(words)))
+        known = isinstance(words, (RefusedError, NoAnswerError))
+        future.set_exception(words if known else RefusedError(str(words)))

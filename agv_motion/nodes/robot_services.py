@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from agv_motion.dashboard.server.fleet import NoAnswerError
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -11,10 +13,6 @@ if TYPE_CHECKING:
 
 PATIENCE = 1.0
 """[s] within which a service is to answer"""
-
-
-class NoAnswerError(Exception):
-    """A service that is not there, or has not answered in time."""
 
 
 class _Call(NamedTuple):

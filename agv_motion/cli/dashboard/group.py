@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from typing import Annotated
 
 import typer
 
+from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.ros.stop import end_at_once
 
-app = typer.Typer()
+app = typer.Typer(cls=lazy_group({'user': 'dashboard.user:app'}))
 
 
 @app.callback(invoke_without_command=True)
@@ -19,6 +21,10 @@ def dashboard(
     host: Annotated[str, typer.Option(help='Address on which the page is served.')] = '127.0.0.1',
     port: Annotated[int, typer.Option(min=0, max=65535, help='Of the page; 0: any.')] = 8080,
     robots: Annotated[str, typer.Option(help='Names of those shown, by commas; all.')] = '',
+    name: Annotated[str, typer.Option(help='By which browsers know this host, by commas.')] = '',
+    certificate: Annotated[str, typer.Option(help='File of a certificate (PEM), for TLS.')] = '',
+    key: Annotated[str, typer.Option(help='File of its key.')] = '',
+    state_folder: Annotated[str, typer.Option(help='Where users and marks are kept.')] = '',
     next_free_port: Annotated[
         bool, typer.Option('--next-free-port', help='Take the next port where this is taken.')
     ] = False,
@@ -30,16 +36,25 @@ def dashboard(
     agv dashboard
 
     agv dashboard --port 8081 --robots oak,ash
+
+    agv dashboard user add anna --role operator
+
+    agv dashboard --host 0.0.0.0 --certificate page.pem --key page.key
     """
     if context.invoked_subcommand:
         return
     end_at_once()  # until the node's `run` takes over
     from agv_motion.nodes.dashboard import main
 
-    given = {'host': f"'{host}'", 'port': port, 'next_free_port': str(next_free_port).lower()}
-    names = [name.strip() for name in robots.split(',') if name.strip()]
-    if names:
-        given['robots'] = str(names)
-    words = (word for name, value in given.items() for word in ('-p', f'{name}:={value}'))
+    given: dict[str, object] = {'port': port, 'next_free_port': str(next_free_port).lower()}
+    texts = {
+        'host': host, 'certificate': certificate, 'key': key, 'state_folder': state_folder,
+    }  # fmt: skip
+    given |= {option: json.dumps(value) for option, value in texts.items() if value}
+    for option, value in (('robots', robots), ('names', name)):
+        listed = [one.strip() for one in value.split(',') if one.strip()]
+        if listed:
+            given[option] = json.dumps(listed)
+    words = (word for option, value in given.items() for word in ('-p', f'{option}:={value}'))
     sys.argv = ['dashboard', '--ros-args', *words]
     main()

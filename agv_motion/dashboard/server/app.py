@@ -3,30 +3,51 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from contextlib import asynccontextmanager, suppress
 from typing import TYPE_CHECKING
 
 from starlette.applications import Starlette
-from starlette.responses import FileResponse, JSONResponse
+from starlette.responses import FileResponse, JSONResponse, RedirectResponse
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
-from agv_motion.dashboard.server.live import Client, Hub
-from agv_motion.dashboard.server.site import STATIC, Site
+from agv_motion.dashboard.server.door import is_public
+from agv_motion.dashboard.server.doors import doors
+from agv_motion.dashboard.server.drive import drive
+from agv_motion.dashboard.server.gate import Gate
+from agv_motion.dashboard.server.live import Client
+from agv_motion.dashboard.server.login import login_doors
+from agv_motion.dashboard.server.roles import Role
+from agv_motion.dashboard.server.site import STATIC
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable
+    from collections.abc import AsyncIterator, Callable, Collection
 
     from starlette.requests import Request
     from starlette.responses import Response
+    from starlette.types import ASGIApp
     from starlette.websockets import WebSocket
 
-    from agv_motion.dashboard.server.fleet import Fleet
+    from agv_motion.dashboard.server.site import Site
+
+MOST_CLIENTS = 100
+"""that look at once; a tablet, a few phones and a laptop are ten"""
+MOST_OF_ONE = 40
+"""of them from one address"""
 
 
-def application(fleet: Fleet) -> tuple[Starlette, Callable[[], bool]]:
-    """Return the application for some robots, and what tells whether anybody looks."""
-    site = Site(fleet, Hub(fleet.board, fleet.now))
+def application(
+    site: Site, names: Collection[str] = (), clock: Callable[[], float] = time.monotonic
+) -> ASGIApp:
+    """Return the application of a page.
+
+    Args:
+        site: Robots, access and what is kept.
+        names: By which browsers may know this host, beside its addresses and ``localhost``.
+        clock: Returns seconds that never go back.
+
+    """
 
     @asynccontextmanager
     async def life(_: Starlette) -> AsyncIterator[None]:
@@ -36,26 +57,65 @@ def application(fleet: Fleet) -> tuple[Starlette, Callable[[], bool]]:
         with suppress(asyncio.CancelledError):
             await running
 
-    async def page(_: Request) -> Response:
-        return FileResponse(STATIC / 'index.html')
-
-    async def public(_: Request) -> Response:
-        return FileResponse(STATIC / 'public.html')
-
-    async def health(_: Request) -> Response:
-        return JSONResponse({'robots': fleet.robots, 'clients': len(site.hub.clients)})
-
-    async def live(socket: WebSocket) -> None:
-        await socket.accept()
-        hello = {'role': 'expert', 'csrf': '', 'robots': fleet.robots}
-        await site.hub.serve(socket, Client(public=False), hello)
-
-    routes = [
-        Route('/', page),
-        Route('/public', public),
-        Route('/health', health),
-        WebSocketRoute('/live', live),
-    ]
+    routes = [*_pages(site), *doors(site), *login_doors(site), *_sockets(site)]
     if STATIC.is_dir():
         routes.append(Mount('/static', StaticFiles(directory=STATIC)))
-    return Starlette(routes=routes, lifespan=life), lambda: bool(site.hub.clients)
+    return Gate(Starlette(routes=routes, lifespan=life), names, clock)
+
+
+def _pages(site: Site) -> list[Route]:
+    async def page(request: Request) -> Response:
+        if site.access.visitor(request).role is Role.PUBLIC:
+            return RedirectResponse('/login', 303)
+        return _file('index.html')
+
+    async def public(_: Request) -> Response:
+        return _file('public.html')
+
+    async def login(_: Request) -> Response:
+        return _file('login.html')
+
+    async def health(_: Request) -> Response:
+        return JSONResponse({'robots': len(site.fleet.robots), 'clients': len(site.hub.clients)})
+
+    return [
+        Route('/', page),
+        Route('/public', public),
+        Route('/login', login, methods=['GET']),
+        Route('/health', health),
+    ]
+
+
+def _file(name: str) -> Response:
+    path = STATIC / name
+    if not path.is_file():
+        return JSONResponse({'error': f'{name} is missing: install agv_motion anew'}, 503)
+    return FileResponse(path)
+
+
+def _sockets(site: Site) -> list[WebSocketRoute]:
+    async def live(socket: WebSocket) -> None:
+        address = '' if socket.client is None else socket.client.host
+        here = sum(client.address == address for client in site.hub.clients)
+        if len(site.hub.clients) >= MOST_CLIENTS or here >= MOST_OF_ONE:
+            await socket.close(1013, 'too many look at once')
+            return
+        public = is_public(site, socket)
+        visitor = site.access.visitor(socket)
+        await socket.accept()
+        hello = {
+            'role': Role.PUBLIC.word if public else visitor.role.word,
+            'user': '' if public else visitor.name,
+            'csrf': '' if public else visitor.csrf,
+            'robots': site.fleet.robots,
+        }
+        client = Client(
+            public=public, address=address,
+            welcome=lambda: public or site.access.visitor(socket) == visitor,
+        )  # fmt: skip
+        await site.hub.serve(socket, client, hello)
+
+    async def hand(socket: WebSocket) -> None:
+        await drive(site, socket)
+
+    return [WebSocketRoute('/live', live), WebSocketRoute('/robots/{robot}/drive', hand)]

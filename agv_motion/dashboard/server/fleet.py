@@ -17,6 +17,10 @@ class RefusedError(AgvMotionError):
     """An act that was not done, with the robot's words or ours."""
 
 
+class NoAnswerError(AgvMotionError):
+    """A robot that is not there, or has not answered in time."""
+
+
 class Fleet(Protocol):
     """The robots, as the server sees them; all is called in the server's thread."""
 
@@ -30,7 +34,10 @@ class Fleet(Protocol):
         """Return the time of the board [s]."""
 
     def act(self, robot: str, action: str, arguments: dict[str, Any]) -> Future[str]:
-        """Begin an act; the future has the robot's answer in words, or a `RefusedError`.
+        """Begin an act; the future has the robot's answer in words, or why there is none.
+
+        A `RefusedError` has the robot's words, or ours where nobody there does such a thing; a
+        `NoAnswerError` tells that nobody answered in time.
 
         An act to which nothing answers (a topic) is done when it is sent, with no words.
         """

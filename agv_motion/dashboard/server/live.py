@@ -29,6 +29,10 @@ PATIENCE = 1.0
 """[s] after which a frame goes out though the last one was not acknowledged"""
 MOST_WANTED = 40
 """slots that a client may ask for"""
+RENEWAL = 2.0
+"""[s] after which it is looked whether a client is still welcome"""
+MOST_SAID = 60
+"""messages that a client may send in `RENEWAL`: it acknowledges ten frames a second"""
 MOST_OUTCOMES = 100
 """of acts that a client has not been told yet"""
 
@@ -42,14 +46,18 @@ PUBLIC = frozenset({
 class Client:
     """One browser that looks."""
 
-    def __init__(self, *, public: bool) -> None:
+    def __init__(
+        self, *, public: bool, address: str = '', welcome: Callable[[], bool] = lambda: True
+    ) -> None:
         """Start with nothing sent.
 
         Args:
             public: Whether it sees the slots for everyone only.
+            address: From where it looks.
+            welcome: Returns whether it may still see what it sees: its session may have ended.
 
         """
-        self.public = public
+        self.public, self.address, self.welcome = public, address, welcome
         self.wanted: set[tuple[str, str]] = set()
         self.sent: dict[tuple[str, str], int] = {}
         """version of each cell that it has"""
@@ -57,9 +65,12 @@ class Client:
         """of acts, to be told with the next frame"""
         self.number = self.acknowledged = 0
         self.news = asyncio.Event()
+        self.said = 0
+        """messages since it was last looked whether it is welcome"""
 
     def hear(self, text: str) -> None:
         """Take what the client says: an acknowledgement, or what it wants; all else is let be."""
+        self.said += 1
         try:
             told = json.loads(text)
         except (ValueError, RecursionError):
@@ -167,8 +178,9 @@ class Hub:
         client.news.set()
         sending = asyncio.create_task(self._send(socket, client))
         try:
-            while True:
+            while client.said < MOST_SAID:
                 client.hear(await socket.receive_text())
+            await socket.close(1008, 'too many messages')
         except (WebSocketDisconnect, RuntimeError, KeyError):
             return  # it left, or sent what is no text
         finally:
@@ -177,7 +189,7 @@ class Hub:
 
     async def _send(self, socket: WebSocket, client: Client) -> None:
         """Send frame after frame, each only when the last one has been acknowledged, or is old."""
-        sent_at = -PATIENCE
+        sent_at, welcomed_at = -PATIENCE, time.monotonic()
         try:
             while True:
                 await client.news.wait()
@@ -186,6 +198,11 @@ class Hub:
                 for outcome in outcomes:
                     await socket.send_text(outcome)
                 now = time.monotonic()
+                if now - welcomed_at > RENEWAL:
+                    welcomed_at, client.said = now, 0
+                    if not client.welcome():
+                        await socket.close(4401, 'the session has ended: log in again')
+                        return
                 if client.acknowledged < client.number and now - sent_at < PATIENCE:
                     continue
                 frame = client.frame(self.board, self.now())

@@ -12,7 +12,7 @@ import uvicorn
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from starlette.applications import Starlette
+    from starlette.types import ASGIApp
 
 LARGEST_MESSAGE = 64 * 1024
 """[bytes] that a browser may send at once"""
@@ -59,7 +59,7 @@ class WebServer:
     """Serves an application until it is closed."""
 
     def __init__(
-        self, application: Starlette, listener: socket.socket, certificate: str = '', key: str = ''
+        self, application: ASGIApp, listener: socket.socket, certificate: str = '', key: str = ''
     ) -> None:
         """Prepare.
 
