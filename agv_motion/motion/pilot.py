@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.activity import Activity, Cause, Doing
 from agv_motion.motion.command.polar import PolarCommand, polar_command
-from agv_motion.motion.navigation.navigator import Guidance
+from agv_motion.motion.navigation.navigator import Guidance, StraightNavigator
+from agv_motion.motion.navigation.path_follower import PathFollower
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.agent import Agent
@@ -23,7 +25,7 @@ class MotionCommand(NamedTuple):
 
     wanted: PolarCommand
     """before the limits"""
-    activity: str
+    state: str
     """what it does, in words"""
     rules: FloorRules
     """what the floor allows, for the limits"""
@@ -31,6 +33,17 @@ class MotionCommand(NamedTuple):
     """what it seeks, or would if it moved"""
     path: Path
     """corners from here to where it goes; empty if it goes nowhere"""
+    activity: Activity = Activity.RESTING
+    """what it does, for programs"""
+    because: Cause = Cause.GOAL
+    """what that goes back to"""
+    waits_for: str = ''
+    """the other tree for which it waits, in words; empty if for none"""
+
+    @property
+    def doing(self) -> Doing:
+        """What it does, in words and for programs."""
+        return Doing(self.state, self.activity, self.because, self.waits_for)
 
 
 class Pilot:
@@ -74,16 +87,28 @@ class Pilot:
         return self.navigator.navigate(decision.destination, here, now, straight=decision.straight)
 
 
+def pilot_alone(agent: Agent) -> Pilot:
+    """Return the pilot of a tree that is alone: by paths in its zone, straight without one."""
+    planner = agent.planner
+    return Pilot(agent, StraightNavigator() if planner is None else PathFollower(planner))
+
+
 def motion_command(decision: Decision, guidance: Guidance, pose: Pose) -> MotionCommand:
     """Return the command of a tree at ``pose`` that takes a decision and is guided there."""
-    activity, speed, rotation = decision.activity, decision.speed, decision.rotation
+    state, speed, rotation = decision.state, decision.speed, decision.rotation
+    activity, because = decision.activity, decision.because
     if guidance.failure is not None:
-        activity, speed, rotation = f'stopped: {guidance.failure}', 0.0, 0.0
+        state, speed, rotation = f'stopped: {guidance.failure}', 0.0, 0.0
+        activity, because = Activity.STOPPED, Cause.ZONE
     if guidance.reason:
-        activity = f'{activity}: {guidance.reason}'
+        state, because = f'{state}: {guidance.reason}', Cause.OTHERS
+        activity = Activity.WALKING if guidance.target is not None else Activity.WAITING
     if guidance.target is None:
         wanted = PolarCommand(0.0, 0.0, rotation)
     else:
         least = decision.yield_speed if guidance.gives_way else 0.0
         wanted = polar_command(pose, guidance.target, max(speed, least), rotation)
-    return MotionCommand(wanted, activity, decision.rules, decision.goal, guidance.path)
+    return MotionCommand(
+        wanted, state, decision.rules, decision.goal, guidance.path, activity, because,
+        guidance.waits_for,
+    )  # fmt: skip

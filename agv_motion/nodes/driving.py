@@ -9,6 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
+from agv_motion.activity import Activity, Cause
 from agv_motion.blocked import BlockedParameters
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.differential_platform import TrackParameters
@@ -88,6 +89,7 @@ class DrivingNode(PlainNode[P]):
         self._pose_watch = InputWatch(port, given.position, given.freshness())
         self._last_cycle: float | None = None
         self._farewell = 0.0
+        self._activity, self._active_since = (Activity.STARTING, Cause.NOTHING), port.seconds()
         arm = 0.5 * self.limits().track
         self.guard = BlockedReport(port, given.blocked, arm, f'clear its way, then {self.release}')
         """Watches that the robot moves when told to"""
@@ -119,6 +121,29 @@ class DrivingNode(PlainNode[P]):
     def cycle(self, dt: float) -> None:
         """Command the robot, ``dt`` [s] after the last time."""
         raise NotImplementedError
+
+    def activity(self) -> tuple[Activity, Cause]:
+        """Return what the robot does, for programs, and what that goes back to."""
+        raise NotImplementedError
+
+    def hindered(self) -> tuple[Activity, Cause]:
+        """Return the same of a robot with an `obstacle`."""
+        if self.port.clock.fault:
+            return Activity.STOPPED, Cause.CLOCK
+        if self.lost:
+            return Activity.STOPPED, Cause.POSE
+        return Activity.BLOCKED, Cause.MOTION
+
+    def activity_values(self) -> dict[str, str]:
+        """Return the activity for the diagnostics, and since when it is that."""
+        activity = self.activity()
+        if activity != self._activity:
+            self._activity, self._active_since = activity, self.port.seconds()
+        return {
+            'activity': activity[0].value,
+            'because': activity[1].value,
+            'since [s]': f'{self._active_since:.1f}',
+        }
 
     def tell(self, state: str) -> None:
         """Say what the robot does, where that has changed."""

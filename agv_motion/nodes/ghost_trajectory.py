@@ -10,6 +10,7 @@ from nav_msgs.msg import Path
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.activity import Activity, Cause
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
@@ -46,6 +47,20 @@ WORDS = {
     FollowerState.CORRECTING: 'correcting: driving to where the Ghost stands',
     FollowerState.ARRIVED: 'arrived',
     FollowerState.ABORTED: 'aborted',
+}
+
+
+ACTIVITIES = {
+    FollowerState.IDLE: (Activity.WAITING, Cause.NOTHING),
+    FollowerState.LOCKED: (Activity.PAUSED, Cause.PERSON),
+    FollowerState.DRIVING: (Activity.DRIVING, Cause.GOAL),
+    FollowerState.WAITING: (Activity.WAITING, Cause.MOTION),
+    FollowerState.SETTLING: (Activity.DRIVING, Cause.GOAL),
+    FollowerState.CORRECTING: (Activity.DRIVING, Cause.GOAL),
+    FollowerState.ARRIVED: (Activity.ARRIVED, Cause.GOAL),
+    FollowerState.ABORTED: (Activity.STOPPED, Cause.PERSON),
+    FollowerState.LOST: (Activity.FAILED, Cause.MOTION),
+    FollowerState.NOT_ARRIVED: (Activity.FAILED, Cause.MOTION),
 }
 
 
@@ -139,12 +154,21 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
             'Ghost': f'{follower.ghost.time:.1f} s of {follower.ghost.trajectory.duration:.1f} s',
             'locked': str(follower.ghost.locked), 'rotating': str(follower.ghost.rotating),
             'backward': str(follower.ghost.backward), 'finished': str(follower.ghost.finished),
-        }  # fmt: skip
+        } | self.activity_values()  # fmt: skip
         if follower.failure or self.guard.reason:
             return Diagnosis(ERROR, self.told, values)
         blind = bool(self.lost) and not follower.at_rest
         waits = follower.state is FollowerState.WAITING
         return Diagnosis(WARN if blind or waits else OK, self.told, values)
+
+    def activity(self) -> tuple[Activity, Cause]:
+        """Return what the robot does, for programs, and what that goes back to."""
+        follower = self._follower
+        if self.obstacle and not follower.at_rest:
+            return self.hindered()
+        if follower.state is FollowerState.DRIVING and follower.ghost.rotating:
+            return Activity.TURNING, Cause.GOAL
+        return ACTIVITIES[follower.state]
 
     def cycle(self, dt: float) -> None:
         """Command the robot to stay with its Ghost, or not at all."""

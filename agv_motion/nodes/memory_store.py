@@ -11,9 +11,10 @@ from nav_msgs.msg import OccupancyGrid
 
 from agv_motion.motion.behavior.memory_file import restore, save
 from agv_motion.ros.qos import LATCHED
+from agv_motion.saved_state import set_aside
 
 if TYPE_CHECKING:
-    from agv_motion.motion.behavior.memory import Map, Mask, Memory
+    from agv_motion.motion.behavior.memory import Grid, Map, Mask, Memory
     from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
     from agv_motion.ros.port import Port
 
@@ -48,7 +49,7 @@ class MemoryStore:
         self._port, self._memory = port, memory
         self._file, self._span = given.memory_file, given.last_visit_span
         self._frame = given.map_frame
-        self._message = self._empty_map()
+        self._message = self._empty_map(memory)
         self._flow = port.publisher(OccupancyGrid, 'memory/sap_flow', LATCHED)
         self._visit = port.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         self._shown = False
@@ -71,6 +72,16 @@ class MemoryStore:
         self._shown = False
         self.publish()
         self.save()
+
+    def move_to(self, memory: Memory) -> None:
+        """Show and keep the memory of another zone; that of the last is set aside beside it."""
+        if self._writer is not None:
+            self._check()
+            grids = self._memory.grid(), memory.grid()
+            self._writing = self._writer.submit(_replace, self._file, *grids)
+            self._saved = memory.newest
+        self._memory, self._message = memory, self._empty_map(memory)
+        self.publish()
 
     def publish(self) -> None:
         """Show both maps: 0 to 100, unknown -1."""
@@ -122,8 +133,8 @@ class MemoryStore:
         shares = {'visited': f'{100 * visited:.1f} %', 'felt': f'{100 * felt:.1f} %'}
         return shares | ({'memory_file': self._trouble} if self._trouble else {})
 
-    def _empty_map(self) -> OccupancyGrid:
-        memory, message = self._memory, OccupancyGrid()
+    def _empty_map(self, memory: Memory) -> OccupancyGrid:
+        message = OccupancyGrid()
         message.header.frame_id = self._frame
         message.info.map_load_time = message.header.stamp
         message.info.resolution = memory.parameters.cell
@@ -139,3 +150,15 @@ class MemoryStore:
         cells[known] = np.clip(np.rint(values[known]), 0, 100).astype(np.int8)
         message.data = array('b', cells.tobytes())
         publisher.publish(message)
+
+
+def _replace(file: str, old: Grid, new: Grid) -> None:
+    """Keep what was known of a zone beside what is of the other, as a start in that would.
+
+    Raises:
+        OSError: The disk does not take it.
+
+    """
+    save(file, old)
+    set_aside(file, '.other_zone')
+    save(file, new)

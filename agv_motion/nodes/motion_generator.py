@@ -8,22 +8,19 @@ from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Sta
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.activity import Activity, Cause, Doing
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.sap_flow import SapFlow, checked_sap_flow
 from agv_motion.motion.command.limits import CommandLimits, Limited
 from agv_motion.motion.command.polar import to_twist
-from agv_motion.motion.navigation.navigator import StraightNavigator
-from agv_motion.motion.navigation.path_follower import PathFollower
-from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.zone_file import load_zone
-from agv_motion.motion.pilot import Pilot
+from agv_motion.motion.pilot import pilot_alone
 from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.memory_store import MemoryStore
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
-from agv_motion.nodes.motion_report import MotionReport
+from agv_motion.nodes.motion_report import MotionReport, missing
 from agv_motion.nodes.reservation_exchange import ReservationExchange
+from agv_motion.nodes.zone_report import ZoneReport, require_standing
 from agv_motion.planar import REST, Pose
-from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import pose_of, require_frame
@@ -59,11 +56,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         super().__init__(port, parameters)
         given = parameters
         self._rim = given.rim
-        zone = load_zone(find_config(given.zone_file), self._rim) if given.zone_file else None
-        planner = None if zone is None else PathPlanner(zone)
-        self._agent = Agent(planner, given.agent())
-        self._pilot = Pilot(self._agent, PathFollower(planner) if planner else StraightNavigator())
+        self._agent = Agent(given.planner(), given.agent())
+        self._pilot = pilot_alone(self._agent)
         self._exchange = self._join(given) if given.share_zone else None
+        self._zone = ZoneReport(port, self._exchange.others if self._exchange else ())
         self._limits = CommandLimits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
@@ -76,7 +72,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._twist = REST
         self._guard = BlockedReport(port, given.blocked, self._rim, RELEASE)
         self._lost = 'sap flow'
-        self._obstacle = 'resting: no input'
+        self._obstacle: Doing | None = None
         limits = given.freshness()
         self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
@@ -106,31 +102,61 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._lost = 'sap flow'
         self._judge()
         self._report.publish_goal(self._agent.goal, self._agent.refusals)
+        self._zone.publish(self._agent.zone)
         if self._store is not None:
             self._store.begin()
 
     def halt(self) -> None:
         """Send the last word: no motion; then keep what is remembered."""
-        self._publish(self._limits.stop(), 'stopped')
+        self._publish(self._limits.stop(), Doing('stopped', Activity.STOPPED, Cause.PERSON))
         if self._exchange is not None and self._pose is not None:
             self._exchange.park(self._pose)
         if self._store is not None:
             self._store.save_at_last()
 
     def accept(self, parameters: MotionGeneratorParameters) -> None:
-        """Take over new thresholds."""
-        self._agent.rest = parameters.rest
+        """Take over new thresholds and hours, a rest until a time, and another zone."""
+        before = self.parameters
+        parameters.require_to_come(before, self.port.seconds())
+        if parameters.zone != before.zone:
+            self._move_to_zone(parameters)
+        self._agent.retune(parameters.agent())
         self._motion = None
+
+    def _move_to_zone(self, parameters: MotionGeneratorParameters) -> None:
+        """Go on in another zone, if the tree stands in it as far as is known.
+
+        Raises:
+            AgvMotionError: It is none, or this tree or another stands outside of it.
+
+        """
+        lost = self._watches['pose'].silence() is Silence.LOST
+        pose, planner = None if lost else self._pose, parameters.planner(self._agent.home)
+        here = require_standing(pose, planner, self._agent.zone)
+        if self._exchange is not None:
+            self._exchange.require_inside(here.planner.zone)
+        agent = self._agent.moved_to(here.planner)
+        if self._exchange is not None:
+            self._exchange.move_to(agent, here.pose)
+        self._agent, self._pilot = agent, pilot_alone(agent)
+        if self._store is not None and agent.memory is not None:
+            self._store.move_to(agent.memory)
+        self._zone.publish(agent.zone)
+        self._report.publish_goal(agent.goal, ())
 
     def diagnose(self) -> Diagnosis:
         """Tell what the tree does, why, and what it misses."""
-        values = {'limits in force': ', '.join(self._limited_by) or 'none'}
+        hour = self._agent.hour_now(self.port.seconds())
+        values = self._report.values(hour, self.parameters.schedule.time_zone)
+        values['limits in force'] = ', '.join(self._limited_by) or 'none'
         if self._agent.goal is not None:
             values['goal'] = self._agent.goal.reason
         if self._store is not None:
             values |= self._store.report()
         if self._exchange is not None:
             values |= self._exchange.report()
+        if different := self._zone.different():
+            values['zone differs from'] = ', '.join(different)
         alarmed = self._exchange is not None and self._exchange.alarm
         if self._guard.reason:
             return Diagnosis(ERROR, self._report.state, values)
@@ -230,20 +256,25 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         """Find out whether the tree may move; again whenever what it knows has changed."""
         self._obstacle = self._find_obstacle()
 
-    def _find_obstacle(self) -> str:
-        """Return why the tree must not move now, in words; empty if it may."""
+    def _find_obstacle(self) -> Doing | None:
+        """Return what keeps the tree from moving now; None if nothing does."""
         if self._paused:
-            return 'paused'
+            return Doing('paused', Activity.PAUSED, Cause.PERSON)
         if not self._valid:
-            return 'resting: a probe cannot be believed'
+            why = 'resting: a probe cannot be believed'
+            return Doing(why, Activity.RESTING, Cause.PROBES)
         if self._lost or self._sap_flow is None or self._pose is None:
-            return f'resting: {self.port.clock.fault or "no " + (self._lost or "input")}'
-        return self._guard.reason
+            return missing(self._pose, self._sap_flow, self._lost, self.port.clock.fault)
+        if self._guard.reason:
+            return Doing(self._guard.reason, Activity.BLOCKED, Cause.MOTION)
+        return None
 
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
         if self._obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(self._limits.stop(), self._obstacle)
+            self._publish(
+                self._limits.stop(), self._obstacle or missing(self._pose, self._sap_flow)
+            )
             if self._exchange is not None and self._pose is not None:
                 self._exchange.stay(self._pose, fresh=not self._lost)
             return
@@ -251,7 +282,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         motion = self._update(now, self._pose, self._sap_flow)
         # after a hiccup the command goes on from where it was, as if no time had passed
         dt = min(max(now - self._commanded_at, 0.0), 2.0 / self.parameters.rate)
-        self._publish(self._limits.apply(motion.wanted, motion.rules, dt), motion.activity)
+        self._publish(self._limits.apply(motion.wanted, motion.rules, dt), motion.doing)
         self._report.update(motion.goal, self._agent.refusals, motion.path)
 
     def _update(self, now: float, pose: Pose, flow: SapFlow) -> MotionCommand:
@@ -262,14 +293,14 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
             self._motion, self._decided_at = self._pilot.update(now, pose, flow, now), now
         return self._motion
 
-    def _publish(self, limited: Limited, state: str) -> None:
+    def _publish(self, limited: Limited, doing: Doing) -> None:
         # when it is said, not when the decision began: by their stamps the rates hold
         self._limited_by, self._commanded_at = limited.by, self.port.seconds()
         self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
         self._command(self._twist)
         if 'translation only' in limited.by:
-            state = f'{state}; not turning: delicate floor'
-        self._report.publish_state(state)
+            doing = doing._replace(state=f'{doing.state}; not turning: delicate floor')
+        self._report.publish_state(doing)
 
 
 def main() -> None:

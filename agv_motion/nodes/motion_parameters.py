@@ -16,9 +16,13 @@ from agv_motion.motion.behavior.sap_flow import RestParameters
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.limits import LimitParameters
 from agv_motion.motion.command.polar import LINEAR_SPEED
+from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
+from agv_motion.motion.navigation.zone_file import load_zone
+from agv_motion.motion.navigation.zone_text import zone_of_text
 from agv_motion.nodes.input_parameters import CommandParameters
 from agv_motion.parameters import Spec
+from agv_motion.ros.config import find_config
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,22 @@ class MotionGeneratorParameters(CommandParameters, PlatformOutline):
     zone_file: Annotated[
         str, Spec('zone that is never left: a path, or a file of config/; empty: anywhere')
     ] = ''
+    zone: Annotated[
+        str,
+        Spec(
+            'zone as text, YAML or JSON with the keys of a zone file; empty: as zone_file says',
+            dynamic=True,
+        ),
+    ] = ''
+    rest_until: Annotated[
+        float,
+        Spec(
+            'rest until then, whatever flows, seconds since 1970; 0: do not',
+            's',
+            (0.0, 1e11),
+            dynamic=True,
+        ),
+    ] = 0.0
     memory_file: Annotated[
         str, Spec('where to keep the memory of places over a restart; empty: nowhere')
     ] = ''
@@ -87,10 +107,46 @@ class MotionGeneratorParameters(CommandParameters, PlatformOutline):
             rest=self.rest,
             schedule=self.schedule,
             home=self.home,
+            rest_until=self.rest_until,
             goal=(self.goal[0], self.goal[1]),
             linear_speed=self.linear_speed,
             platform_radius=self.rim,
         )
+
+    def planner(self, home: tuple[float, float] | None = None) -> PathPlanner | None:
+        """Return the paths in the zone that the parameters tell; None: there is none.
+
+        Args:
+            home: Where the tree is parked if a text does not say [m].
+
+        Raises:
+            AgvMotionError: The zone cannot be read, or is none.
+
+        """
+        if self.zone:
+            return PathPlanner(zone_of_text(self.zone, self.rim, home))
+        if self.zone_file:
+            return PathPlanner(load_zone(find_config(self.zone_file), self.rim))
+        return None
+
+    def require_to_come(self, before: MotionGeneratorParameters, now: float) -> None:
+        """Raise where a rest is asked for that is over already.
+
+        Args:
+            before: The parameters in force.
+            now: Time of the node's clock [s since 1970].
+
+        Raises:
+            ConfigurationError: It is.
+
+        """
+        until = self.rest_until
+        if until != before.rest_until and 0.0 < until <= now:
+            msg = (
+                f'rest_until = {until:.0f} s is past: it is {now:.0f} s now; give a time to come, '
+                'in seconds since 1970, or 0 to end the rest'
+            )
+            raise ConfigurationError(msg)
 
     def sharing(self) -> TrafficParameters:
         """Return how the zone is shared by a platform of this outline."""

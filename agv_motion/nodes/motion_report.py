@@ -8,6 +8,7 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
 from std_msgs.msg import String
 
+from agv_motion.activity import Activity, Cause, Doing
 from agv_motion.planar import Pose
 from agv_motion.ros.messages import fill_path, fill_pose
 from agv_motion.ros.qos import LATCHED
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.motion.behavior.goals.goal import Goal
+    from agv_motion.motion.behavior.sap_flow import SapFlow
+    from agv_motion.motion.behavior.schedule import Hour
     from agv_motion.motion.navigation.polyline import Path as Corners
     from agv_motion.ros.port import Port
 
@@ -31,8 +34,9 @@ class MotionReport:
             frame: Of the map.
 
         """
-        self.state = ''
+        self.doing = Doing('', Activity.STARTING, Cause.NOTHING)
         """as it was told last"""
+        self._since = port.seconds()
         self._port, self._frame = port, frame
         self._goal: Goal | None = None
         self._path: Corners = ()
@@ -40,11 +44,31 @@ class MotionReport:
         self._goals = port.publisher(PoseStamped, 'goal', LATCHED)
         self._states = port.publisher(String, 'state', LATCHED, sole=True)
 
-    def publish_state(self, state: str) -> None:
+    @property
+    def state(self) -> str:
+        """What the tree does, in words, as it was told last."""
+        return self.doing.state
+
+    def publish_state(self, doing: Doing) -> None:
         """Tell what the tree does, if that is new."""
-        if state != self.state:
-            self.state = state
-            self._states.publish(String(data=state))
+        before, self.doing = self.doing, doing
+        if doing[1:3] != before[1:3] or self._since <= 0.0:
+            self._since = self._port.seconds()
+        if doing.state != before.state:
+            self._states.publish(String(data=doing.state))
+
+    def values(self, hour: Hour, time_zone: str) -> dict[str, str]:
+        """Return what the tree does, for programs that read the diagnostics."""
+        doing = self.doing
+        return {
+            'activity': doing.activity.value,
+            'because': doing.because.value,
+            'since [s]': f'{self._since:.1f}',
+            'waits for': doing.waits_for,
+            'hours': hour.phase.name.lower(),
+            'hours until [s]': f'{hour.until:.0f}',
+            'time zone': time_zone,
+        }
 
     def update(self, goal: Goal | None, refusals: Sequence[str], path: Corners) -> None:
         """Tell goal and path, each if it is new."""
@@ -74,3 +98,25 @@ class MotionReport:
         self._port.stamp(message)
         fill_path(message, [Pose(x, y, 0.0) for x, y in path])
         self._paths.publish(message)
+
+
+def missing(pose: Pose | None, flow: SapFlow | None, lost: str = '', fault: str = '') -> Doing:
+    """Return what a tree does without an input; at the start it has only to wait for it.
+
+    Args:
+        pose: None: not told yet.
+        flow: None: not told yet.
+        lost: Which input is lost; empty if none is.
+        fault: Why the clock cannot be believed; empty if it can.
+
+    """
+    state = f'resting: {fault or "no " + (lost or "input")}'
+    if fault:
+        return Doing(state, Activity.STOPPED, Cause.CLOCK)
+    without_pose = lost == 'pose' if lost else pose is None and flow is not None
+    known = pose is not None and flow is not None
+    return Doing(
+        state,
+        Activity.STOPPED if known else Activity.STARTING,
+        Cause.POSE if without_pose else Cause.SAP_FLOW,
+    )

@@ -18,6 +18,7 @@ from agv_motion.ros.reservations import reservation_message, reservation_of
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.agent import Agent
     from agv_motion.motion.behavior.sap_flow import SapFlow
+    from agv_motion.motion.navigation.zone import Zone
     from agv_motion.motion.pilot import MotionCommand
     from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
     from agv_motion.planar import Pose
@@ -98,6 +99,47 @@ class ReservationExchange:
         now = self._now()
         self._joined(pose).rest((pose.x, pose.y), now, fresh=fresh)
         self._publish_if_due(now)
+
+    @property
+    def others(self) -> list[str]:
+        """Names of the trees that were told or ever heard."""
+        return sorted({*self._parameters.expected, *self._roster.names} - {self._name})
+
+    def require_inside(self, zone: Zone) -> None:
+        """Raise where another tree stands that a zone leaves out; one that is off may be a hole.
+
+        Raises:
+            ConfigurationError: One stands there.
+
+        """
+        peers = () if self._navigator is None else self._navigator.right.peers
+        for peer in peers:
+            told = peer.reservation
+            if not (peer.silent or told.parked or zone.contains(*told.held[0])):
+                x, y = told.held[0]
+                msg = (
+                    f'zone: {told.name} stands at ({x:.2f}, {y:.2f}), which '
+                    f'{zone.why_not(x, y)}: let it walk in first, or draw the zone round it'
+                )
+                raise ConfigurationError(msg)
+
+    def move_to(self, agent: Agent, pose: Pose) -> None:
+        """Go on as ``agent``, in the zone that it knows.
+
+        The tree lets go of all floor but where it stands, as it may at any time, and asks anew for
+        what a path through the other zone needs. What it knows of the others stays.
+
+        Raises:
+            ConfigurationError: The agent has no zone.
+
+        """
+        if agent.planner is None:
+            msg = 'zone: a zone that is shared can only be replaced by another'
+            raise ConfigurationError(msg)
+        self.stay(pose, fresh=True)
+        self._agent, self._planner, self._pilot = agent, agent.planner, None
+        if self._navigator is not None:
+            self._navigator = SharedNavigator(self._navigator.right, self._planner)
 
     def park(self, pose: Pose) -> None:
         """Say at the end that the tree stays here: nobody needs to wait for its answer."""

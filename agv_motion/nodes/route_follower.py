@@ -11,6 +11,7 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.activity import Activity, Cause
 from agv_motion.errors import SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
@@ -70,7 +71,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         super().__init__(port, parameters)
         self._follower: RouteFollower | None = None
         self._route: Route | None = None
-        self._ended = IDLE
+        self._ended, self._idle_as = IDLE, (Activity.WAITING, Cause.NOTHING)
         self._paused = False
         self._point = port.publisher(PointStamped, 'route/virtual_point', SENSOR)
         self._limits = port.publisher(DiagnosticStatus, 'route/limits', SENSOR)
@@ -113,10 +114,19 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def diagnose(self) -> Diagnosis:
         """Tell what the robot does, and what is missing."""
+        values = self.activity_values()
         if self.guard.reason:
-            return Diagnosis(ERROR, self.guard.reason, {})
+            return Diagnosis(ERROR, self.guard.reason, values)
         waiting = self._follower is not None and bool(self.lost)
-        return Diagnosis(WARN if waiting else OK, self.told or IDLE, {})
+        return Diagnosis(WARN if waiting else OK, self.told or IDLE, values)
+
+    def activity(self) -> tuple[Activity, Cause]:
+        """Return what the robot does, for programs, and what that goes back to."""
+        if self._follower is None:
+            return self._idle_as
+        if self._paused:
+            return Activity.PAUSED, Cause.PERSON
+        return self.hindered() if self.obstacle else (Activity.DRIVING, Cause.GOAL)
 
     def cycle(self, dt: float) -> None:
         """Command one step along the route, or none."""
@@ -136,7 +146,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         self.drive(twist)
         self._publish(point, limits)
         if arrived:
-            self._end('arrived')
+            self._end('arrived', Activity.ARRIVED, Cause.GOAL)
         else:
             self.tell(_progress(follower))
 
@@ -160,9 +170,9 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
                 )
             )
 
-    def _end(self, how: str) -> None:
+    def _end(self, how: str, activity: Activity, because: Cause) -> None:
         self._follower = None
-        self._ended = how
+        self._ended, self._idle_as = how, (activity, because)
         self.port.info(how)
         self.tell(how)
 
@@ -202,7 +212,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
             msg = 'no route is being followed'
             raise SignalError(msg)
         self.stand()
-        self._end('aborted')
+        self._end('aborted', Activity.STOPPED, Cause.PERSON)
         return 'stopped; ~/restart follows the same route from its start'
 
     def _on_restart(self, _: Any) -> str:

@@ -10,6 +10,7 @@ from nav_msgs.msg import Path
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from agv_motion.activity import Activity, Cause
 from agv_motion.blocked import STOP
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
@@ -30,6 +31,17 @@ if TYPE_CHECKING:
     from agv_motion.sequence.prediction import Predicted
     from agv_motion.twist_limits import TwistLimits
 
+
+ACTIVITIES = {
+    SequenceState.READY: (Activity.WAITING, Cause.NOTHING),
+    SequenceState.RUNNING: (Activity.DRIVING, Cause.GOAL),
+    SequenceState.PAUSED: (Activity.PAUSED, Cause.PERSON),
+    SequenceState.STOPPING: (Activity.STOPPED, Cause.PERSON),
+    SequenceState.BLIND: (Activity.STOPPED, Cause.POSE),
+    SequenceState.DONE: (Activity.ARRIVED, Cause.GOAL),
+    SequenceState.FAILED: (Activity.FAILED, Cause.MOTION),
+    SequenceState.ABORTED: (Activity.STOPPED, Cause.PERSON),
+}
 
 TOLD_EVERY = 0.2
 """[s] between two words on progress."""
@@ -112,7 +124,17 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         failed = self.runner is not None and self.runner.status.state is SequenceState.FAILED
         blind = bool(self.lost) and self.runner is not None and not self.runner.ended
         failed = failed or bool(self.guard.reason)
-        return Diagnosis(ERROR if failed else WARN if blind else OK, self.told, {})
+        level = ERROR if failed else WARN if blind else OK
+        return Diagnosis(level, self.told, self.activity_values())
+
+    def activity(self) -> tuple[Activity, Cause]:
+        """Return what the robot does, for programs, and what that goes back to."""
+        runner = self.runner
+        if runner is None:
+            return Activity.WAITING, Cause.NOTHING
+        if self.obstacle and not runner.ended:
+            return self.hindered()
+        return ACTIVITIES[runner.status.state]
 
     def cycle(self, dt: float) -> None:
         """Command one step of the sequence, or none."""

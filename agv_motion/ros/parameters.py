@@ -147,9 +147,8 @@ def changed(values: T, changes: Mapping[str, Any]) -> T:
         AgvMotionError: A value is out of range, or does not go with the others.
 
     """
-    for name, value in changes.items():
-        values = _with(values, name.split('.'), _plain(value))
-    return values
+    candidate: T = _with(values, {name: _plain(value) for name, value in changes.items()})
+    return candidate
 
 
 def _types(kind: type[Any], prefix: str) -> Iterator[tuple[str, Any]]:
@@ -211,10 +210,13 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, (str, bool, int, float)) else tuple(value)
 
 
-def _with(values: Any, path: list[str], value: Any) -> Any:
-    """Return ``values`` with one dotted name replaced; names of others (use_sim_time) pass by."""
-    if not hasattr(values, path[0]):
-        return values
-    if len(path) > 1:
-        value = _with(getattr(values, path[0]), path[1:], value)
-    return replace(values, **{path[0]: value})
+def _with(values: Any, changes: Mapping[str, Any]) -> Any:
+    """Return ``values`` with others, all at once: what goes together is never judged by halves."""
+    own = {name: value for name, value in changes.items() if hasattr(values, name)}
+    for group in {name.partition('.')[0] for name in changes if '.' in name}:
+        if hasattr(values, group):
+            inner = {
+                n.partition('.')[2]: v for n, v in changes.items() if n.startswith(f'{group}.')
+            }
+            own[group] = _with(getattr(values, group), inner)
+    return replace(values, **own)

@@ -8,14 +8,21 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from agv_motion.nodes.motion_report import MotionReport
+from agv_motion.activity import Activity, Cause, Doing
+from agv_motion.motion.behavior.sap_flow import SapFlow
+from agv_motion.motion.behavior.schedule import ALWAYS
+from agv_motion.nodes.motion_report import MotionReport, missing
+from agv_motion.planar import Pose
 
 
 class Port:
     """A port that notes what is published and logged."""
 
     def __init__(self):
-        self.told = []
+        self.told, self.now = [], 1.0
+
+    def seconds(self):
+        return self.now
 
     def publisher(self, _kind, topic, _qos, **_):
         return SimpleNamespace(publish=lambda message: self.told.append((topic, message)))
@@ -43,7 +50,7 @@ def goal(x, y, reason='asked for'):
 
 def test_a_state_is_told_when_it_changes(port, report):
     for state in ('resting', 'resting', 'moving'):
-        report.publish_state(state)
+        report.publish_state(Doing(state, Activity.RESTING, Cause.SAP))
     assert [(topic, message.data) for topic, message in port.told] == [
         ('state', 'resting'), ('state', 'moving'),
     ]  # fmt: skip
@@ -76,3 +83,36 @@ def test_a_path_is_told_when_its_corners_change_not_its_beginning(port, report):
     corners = [[(p.pose.position.x, p.pose.position.y) for p in m.poses] for m in paths]
     assert corners == [[(0.0, 0.0), (3.0, 0.0)], [(0.2, 0.0), (2.0, 1.0), (3.0, 0.0)]]
     assert {message.header.frame_id for message in paths} == {'map'}
+
+
+def test_since_when_counts_from_the_last_change_of_activity_or_cause(port, report):
+    """The sentence of a walk changes with its goal; it walks all the while."""
+    for now, state, activity, because in (
+        (2.0, 'resting: the sap stands', Activity.RESTING, Cause.SAP),
+        (5.0, 'walking to (1, 2)', Activity.WALKING, Cause.GOAL),
+        (9.0, 'walking to (3, 4)', Activity.WALKING, Cause.GOAL),
+    ):
+        port.now = now
+        report.publish_state(Doing(state, activity, because, 'ash'))
+    assert report.values(ALWAYS, 'Europe/Paris') == {
+        'activity': 'walking', 'because': 'goal', 'since [s]': '5.0', 'waits for': 'ash',
+        'hours': 'open', 'hours until [s]': 'inf', 'time zone': 'Europe/Paris',
+    }  # fmt: skip
+
+
+HERE, FLOW = Pose(0.0, 0.0, 0.0), SapFlow(1.0, 0.5, 0.5)
+
+
+@pytest.mark.parametrize(
+    ('given', 'expected'),
+    [
+        ((None, None), ('resting: no input', Activity.STARTING, Cause.SAP_FLOW)),
+        ((None, FLOW), ('resting: no input', Activity.STARTING, Cause.POSE)),
+        ((HERE, None, 'sap flow'), ('resting: no sap flow', Activity.STARTING, Cause.SAP_FLOW)),
+        ((HERE, FLOW, 'sap flow'), ('resting: no sap flow', Activity.STOPPED, Cause.SAP_FLOW)),
+        ((HERE, FLOW, 'pose'), ('resting: no pose', Activity.STOPPED, Cause.POSE)),
+        ((HERE, FLOW, '', 'it stands'), ('resting: it stands', Activity.STOPPED, Cause.CLOCK)),
+    ],
+)
+def test_what_is_missing_is_told_for_programs(given, expected):
+    assert missing(*given)[:3] == expected

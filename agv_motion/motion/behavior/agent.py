@@ -10,22 +10,24 @@ from __future__ import annotations
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
-from agv_motion.errors import ConfigurationError, GeometryError
-from agv_motion.motion.behavior.decision import Decision
+from agv_motion.activity import Activity, Cause
+from agv_motion.errors import ConfigurationError
+from agv_motion.motion.behavior.decision import Decision, resting, standing
 from agv_motion.motion.behavior.goals.goal import Goal, Objective
 from agv_motion.motion.behavior.goals.strategy import GoalSetting
+from agv_motion.motion.behavior.ground import Ground
 from agv_motion.motion.behavior.homing import Homing
 from agv_motion.motion.behavior.memory import Memory
 from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import Sleep
 from agv_motion.motion.behavior.schedule import ALWAYS, Phase, Schedule
-from agv_motion.motion.command.limits import FloorRules
 from agv_motion.motion.navigation.open_floor import OpenFloor
 
 if TYPE_CHECKING:
     import shapely
 
-    from agv_motion.motion.behavior.sap_flow import RestParameters, SapFlow
+    from agv_motion.motion.behavior.sap_flow import SapFlow
+    from agv_motion.motion.behavior.schedule import Hour
     from agv_motion.motion.navigation.path_planner import PathPlanner
     from agv_motion.motion.navigation.polyline import Point
     from agv_motion.planar import Pose
@@ -55,7 +57,8 @@ class Agent:
         self.parameters = given = parameters or AgentParameters()
         self.planner = planner
         """Of the zone of the tree, for whoever navigates there; None: it knows of no zone."""
-        self._zone = zone = None if planner is None else planner.zone
+        self.zone = zone = None if planner is None else planner.zone
+        """Where the tree may be; None: anywhere"""
         if zone is None and given.goals.kind.remembers:
             msg = f"strategy '{given.goals.strategy}' remembers places of a zone: give zone_file"
             raise ConfigurationError(msg)
@@ -63,12 +66,10 @@ class Agent:
         self._floor = None if planner is None else OpenFloor(planner)
         self._homing = Homing(planner, given.home, given.linear_speed)
         self._sleep = Sleep(given.rest)
-        self._schedule = Schedule(given.schedule)
-        self._hour, self._hour_from = ALWAYS, inf
+        self._take_hours(given)
         self._retry_at = -inf
         self._arrived = False
-        self._seen: Pose | None = None
-        self._inside, self._rules = True, FloorRules()
+        self._ground = Ground(zone, given.platform_radius, given.home)
         self._strategy = given.goals.kind.build(
             GoalSetting(
                 given.goal, given.goals.seed, given.goals.attempts, self._floor, self._arrival
@@ -78,14 +79,46 @@ class Agent:
         if self._strategy.first is not None:
             self._take(self._checked(self._strategy.first))
 
-    @property
-    def rest(self) -> RestParameters:
-        """When the tree rests, and when it has arrived; may be set."""
-        return self._sleep.parameters
+    def retune(self, parameters: AgentParameters) -> None:
+        """Take over other hours, and other thresholds of rest and arrival."""
+        self.parameters = parameters
+        self._sleep.parameters = parameters.rest
+        self._take_hours(parameters)
 
-    @rest.setter
-    def rest(self, value: RestParameters) -> None:
-        self._sleep.parameters = value
+    def moved_to(self, planner: PathPlanner) -> Agent:
+        """Return what goes on from here in another zone, as after a restart there.
+
+        Places that are still there are remembered; a goal there, and the way home, stay.
+
+        Raises:
+            AgvMotionError: The first goal is not walkable, or the memory does not suit the zone.
+
+        """
+        other = Agent(planner, self.parameters)
+        assert other.zone is not None
+        if self.memory is not None and other.memory is not None:
+            other.memory.recall(self.memory.grid())
+        if self.goal is not None and other.zone.walkable(*self.goal.place):
+            other.goal = self.goal
+        if other._homing.home is not None:
+            other._homing.why, other._homing.because = self._homing.why, self._homing.because
+        other._sleep.resting = self._sleep.resting
+        return other
+
+    def _take_hours(self, parameters: AgentParameters) -> None:
+        self._schedule = Schedule(parameters.schedule, parameters.rest_until)
+        self._hour, self._hour_from = ALWAYS, inf
+
+    def hour_now(self, time: float) -> Hour:
+        """Return what the hour is for at ``time`` [s since 1970], and until when."""
+        if not self._hour_from <= time < self._hour.until:
+            self._hour, self._hour_from = self._schedule.hour(time), time
+        return self._hour
+
+    @property
+    def home(self) -> Point | None:
+        """Where it is parked [m]; None: its zone has no home."""
+        return self._homing.home
 
     @property
     def refusals(self) -> list[str]:
@@ -131,14 +164,14 @@ class Agent:
         self._retry_at = -inf
         return True
 
-    def go_home(self, why: str = 'asked to') -> None:
+    def go_home(self, why: str = 'asked to', because: Cause = Cause.PERSON) -> None:
         """Go home and stay there.
 
         Raises:
             ConfigurationError: The zone has no home.
 
         """
-        self._homing.send(why)
+        self._homing.send(why, because)
         self._arrived = False
 
     def decide(
@@ -154,54 +187,25 @@ class Agent:
 
         """
         asleep = self._sleep.update(flow)
-        if not self._hour_from <= time < self._hour.until:
-            self._hour, self._hour_from = self._schedule.hour(time), time
-        hour = self._hour
+        hour = self.hour_now(time)
         if hour.phase is not Phase.OPEN:
             self._homing.why = ''
             until = self._schedule.clock(hour.until)
-            return self._stay(f'resting: {hour.phase.value} until {until}')
-        if pose != self._seen:
-            self._look(pose)
+            return standing(hour.phase.sentence(until), self.goal, *hour.phase.means)
+        self._ground.look(pose)
         here = pose.x, pose.y
-        if not self._inside:
-            return self._outside(here, flow, asleep=asleep)
+        if not self._ground.inside:
+            return self._ground.leave(here, flow, self.goal, asleep=asleep)
         if self.memory is not None and not asleep:
             self.memory.update(time, *here, flow.s3)
         closes = hour.until < inf and not self._homing.why
         if closes and self._homing.is_due(time, here, hour.until):
-            self.go_home(f'closing at {self._schedule.clock(hour.until)}')
+            self.go_home(f'closing at {self._schedule.clock(hour.until)}', Cause.HOURS)
         if self._homing.why:
             return self._go_home(here, flow)
         if asleep:
-            return self._stay('resting: the sap stands', yields=True)
+            return resting('the sap stands', self.goal, Cause.SAP, self._least)
         return self._seek(time, here, flow, closed)
-
-    def _look(self, pose: Pose) -> None:
-        """Ask the zone about a pose, once; poses come less often than decisions."""
-        self._seen = pose
-        if self._zone is not None:
-            self._inside = self._zone.holds(pose.x, pose.y)
-            radius = self.parameters.platform_radius
-            self._rules = FloorRules(self._zone.may_turn(pose.x, pose.y, radius))
-
-    def _outside(self, here: Point, flow: SapFlow, *, asleep: bool) -> Decision:
-        """Refuse to move outside the zone, or return to it."""
-        assert self._zone is not None
-        why = f'the tree {self._zone.why_not(*here)}'
-        home = self.parameters.home
-        if home.outside == 'refuse':
-            return self._stay(f'stopped: {why}; drive it back, or set home.outside to return')
-        if asleep:
-            return self._stay(f'resting: the sap stands, and {why}')
-        try:
-            back = self._zone.way_back(*here)
-        except GeometryError as error:
-            return self._stay(f'stopped: {error}')
-        return Decision(
-            f'returning slowly to the zone: {why}', self.goal, back, flow.s1, straight=True,
-            rules=FloorRules(may_turn=True, top_speed=home.return_speed),
-        )  # fmt: skip
 
     def _go_home(self, here: Point, flow: SapFlow) -> Decision:
         """Go home, even if little sap flows; stay there."""
@@ -209,8 +213,9 @@ class Agent:
         assert home is not None
         goal = Goal(*home, f'home at ({home[0]:.1f}, {home[1]:.1f}), {why}')
         if self._near(here, home, given.arrival):
-            return self._stay(f'at home: {why}', goal)
-        return self._go(goal, max(flow.s1, given.speed), 0.0, yields=False)
+            return Decision(f'at home: {why}', goal, because=self._homing.because)
+        way = self._go(goal, max(flow.s1, given.speed), 0.0, yields=False)
+        return way._replace(because=self._homing.because)
 
     def _near(self, here: Point, place: Point, arrival: float) -> bool:
         """Return whether the tree is at ``place``; once it is, noise does not carry it away."""
@@ -228,20 +233,25 @@ class Agent:
         if self.goal is None and time >= self._retry_at:
             self._choose(time, here, closed)
         if self.goal is None and lasting:
-            return self._stay('resting: no goal; send one to goal_pose', yields=True)
+            waits = resting('no goal; send one to goal_pose', None, Cause.NOTHING, self._least)
+            return waits._replace(activity=Activity.WAITING)
         if self.goal is None:
-            return self._turn(flow, 'no goal can be reached: turning on the spot')
-        if lasting and self._near(here, self.goal.place, self.rest.arrival):
+            return self._turn(flow, 'no goal can be reached: turning on the spot', Cause.ZONE)
+        if lasting and self._near(here, self.goal.place, self.parameters.rest.arrival):
             return self._turn(flow, 'turning on the spot at the goal')
         return self._go(self.goal, flow.s1, flow.rotation)
 
     def _is_reached(self, here: Point, goal: Goal) -> bool:
-        arrival = self.rest.arrival if goal.objective is None else self._arrival(goal.objective)
+        arrival = (
+            self.parameters.rest.arrival
+            if goal.objective is None
+            else self._arrival(goal.objective)
+        )
         return hypot(goal.x - here[0], goal.y - here[1]) < arrival
 
     def _arrival(self, objective: Objective) -> float:
         """Return the distance of arrival; what is to be visited must come under the platform."""
-        arrival = self.rest.arrival
+        arrival = self.parameters.rest.arrival
         if objective is Objective.UNKNOWN and self.memory is not None:
             return min(arrival, 0.8 * self.memory.reach)
         return arrival
@@ -261,8 +271,8 @@ class Agent:
             ConfigurationError: It cannot.
 
         """
-        if self._zone is not None and not self._zone.walkable(*goal.place):
-            why = self._zone.why_not(*goal.place)
+        if self.zone is not None and not self.zone.walkable(*goal.place):
+            why = self.zone.why_not(*goal.place)
             msg = f'goal ({goal.x:.2f}, {goal.y:.2f}) {why}: choose another'
             raise ConfigurationError(msg)
         return goal
@@ -272,15 +282,19 @@ class Agent:
 
     # Decisions; who seeks gives way to others, at this speed at least
 
+    @property
+    def _least(self) -> float:
+        """Speed v at least of one that gives way to others."""
+        return self.parameters.home.speed
+
     def _go(self, goal: Goal, speed: float, rotation: float, *, yields: bool = True) -> Decision:
-        least, place = self.parameters.home.speed if yields else 0.0, (goal.x, goal.y)
-        activity = f'walking to {goal.reason}'
-        return Decision(activity, goal, place, speed, rotation, least, rules=self._rules)
+        return Decision(
+            f'walking to {goal.reason}', goal, goal.place, speed, rotation,
+            self._least if yields else 0.0, rules=self._ground.rules, activity=Activity.WALKING,
+        )  # fmt: skip
 
-    def _turn(self, flow: SapFlow, activity: str) -> Decision:
-        least = self.parameters.home.speed
-        return Decision(activity, self.goal, None, 0.0, flow.rotation, least, rules=self._rules)
-
-    def _stay(self, activity: str, goal: Goal | None = None, *, yields: bool = False) -> Decision:
-        least = self.parameters.home.speed if yields else 0.0
-        return Decision(activity, goal or self.goal, yield_speed=least)
+    def _turn(self, flow: SapFlow, state: str, because: Cause = Cause.GOAL) -> Decision:
+        return Decision(
+            state, self.goal, None, 0.0, flow.rotation, self._least, rules=self._ground.rules,
+            activity=Activity.TURNING, because=because,
+        )  # fmt: skip

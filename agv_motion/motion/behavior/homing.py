@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Annotated
 
+from agv_motion.activity import Cause
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.motion.navigation.polyline import length
 from agv_motion.parameters import Spec, check
@@ -61,11 +62,13 @@ class Homing:
         self.home = None if planner is None else planner.zone.home
         self.why = ''
         """Why the tree goes home, in words; empty while it does not."""
+        self.because = Cause.PERSON
+        """What that goes back to"""
         self._planner, self._given = planner, parameters
         self._speed = parameters.speed * top
         self._looked_at, self._distance = -inf, 0.0
 
-    def send(self, why: str) -> None:
+    def send(self, why: str, because: Cause = Cause.PERSON) -> None:
         """Go home and stay there.
 
         Raises:
@@ -75,7 +78,7 @@ class Homing:
         if self.home is None:
             msg = 'there is no home: give one in the zone file, such as home: [2.0, 2.0]'
             raise ConfigurationError(msg)
-        self.why = why
+        self.why, self.because = why, because
 
     def is_due(self, time: float, here: Point, closing: float) -> bool:
         """Return whether the tree at ``here`` [m] must set out now to be home before closing [s].

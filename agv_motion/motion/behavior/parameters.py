@@ -27,6 +27,8 @@ class AgentParameters:
     home: HomeParameters = field(default_factory=HomeParameters)
     goal: Point | None = None
     """where to go, for a strategy that is told its goal [m]"""
+    rest_until: float = 0.0
+    """[s since 1970] rest until then, as somebody asked; 0: do not"""
     linear_speed: float = LINEAR_SPEED
     """[m/s] at v = 1"""
     platform_radius: float = PLATFORM_RADIUS

@@ -12,6 +12,7 @@ from enum import Enum
 from typing import Annotated, NamedTuple
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
+from agv_motion.activity import Activity, Cause
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 
@@ -23,22 +24,35 @@ DAY = 86400.0
 class ScheduleParameters:
     """Opening hours, and the hours in which the probes calibrate."""
 
-    enabled: Annotated[bool, Spec('keep these hours; false: walk whenever the sap flows')] = False
-    time_zone: Annotated[str, Spec('IANA name of the local time, such as Europe/Paris')] = 'UTC'
-    opens: Annotated[str, Spec('local time, HH:MM')] = '10:00'
-    closes: Annotated[str, Spec('local time, HH:MM; before opens: on the next day')] = '18:00'
-    days: Annotated[tuple[str, ...], Spec('on which it opens', choices=DAYS)] = DAYS[:6]
+    enabled: Annotated[
+        bool, Spec('keep these hours; false: walk whenever the sap flows', dynamic=True)
+    ] = False
+    time_zone: Annotated[
+        str, Spec('IANA name of the local time, such as Europe/Paris', dynamic=True)
+    ] = 'UTC'
+    opens: Annotated[str, Spec('local time, HH:MM', dynamic=True)] = '10:00'
+    closes: Annotated[
+        str, Spec('local time, HH:MM; before opens: on the next day', dynamic=True)
+    ] = '18:00'
+    days: Annotated[tuple[str, ...], Spec('on which it opens', choices=DAYS, dynamic=True)] = DAYS[
+        :6
+    ]
     night_start: Annotated[
         float,
         Spec(
-            'start of the hours in which the probes calibrate, local solar time', 'h', (0.0, 24.0)
+            'start of the hours in which the probes calibrate, local solar time',
+            'h',
+            (0.0, 24.0),
+            dynamic=True,
         ),
     ] = 2.0
     night_end: Annotated[
-        float, Spec('end of these hours; the tree rests until then', 'h', (0.0, 24.0))
+        float,
+        Spec('end of these hours; the tree rests until then', 'h', (0.0, 24.0), dynamic=True),
     ] = 7.0
     solar_offset: Annotated[
-        float, Spec('local solar time minus UTC, longitude / 15', 'h', (-14.0, 14.0))
+        float,
+        Spec('local solar time minus UTC, longitude / 15', 'h', (-14.0, 14.0), dynamic=True),
     ] = 0.0
 
     def __post_init__(self) -> None:
@@ -89,6 +103,20 @@ class Phase(Enum):
     OPEN = 'open'
     CLOSED = 'closed'
     CALIBRATING = 'the probes calibrate'
+    ASKED = 'as asked'
+
+    def sentence(self, until: str) -> str:
+        """Return what a tree that rests in it says; ``until`` when, in words."""
+        if self is Phase.ASKED:
+            return f'resting until {until}, {self.value}'
+        return f'resting: {self.value} until {until}'
+
+    @property
+    def means(self) -> tuple[Activity, Cause]:
+        """What a tree that rests in it does, for programs, and what that goes back to."""
+        if self is Phase.ASKED:
+            return Activity.RESTING, Cause.PERSON
+        return Activity.CLOSED, Cause.HOURS
 
 
 class Hour(NamedTuple):
@@ -105,9 +133,9 @@ ALWAYS = Hour(Phase.OPEN, float('inf'))
 class Schedule:
     """Opening hours as a function of time."""
 
-    def __init__(self, parameters: ScheduleParameters) -> None:
-        """Keep the hours of ``parameters``."""
-        self.parameters = parameters
+    def __init__(self, parameters: ScheduleParameters, rest_until: float = 0.0) -> None:
+        """Keep the hours of ``parameters``, and rest until a time [s since 1970]; 0: do not."""
+        self.parameters, self.rest_until = parameters, rest_until
         self._zone = parameters.zone()
         self._opening, self._closing = parameters.opening(), parameters.closing()
         self._days = {DAYS.index(day) for day in parameters.days}
@@ -115,8 +143,10 @@ class Schedule:
     def hour(self, now: float) -> Hour:
         """Return what the hour is for at ``now`` [s since 1970], and until when.
 
-        Hours before dawn win over opening hours.
+        A rest that somebody asked for wins over all, hours before dawn over opening hours.
         """
+        if now < self.rest_until:
+            return Hour(Phase.ASKED, self.rest_until)
         given = self.parameters
         if not given.enabled:
             return ALWAYS

@@ -29,6 +29,8 @@ class Guidance(NamedTuple):
     """[s] for how long others have kept it from going on to its goal"""
     gives_way: bool = False
     """whether it goes out of the way of others, not to its goal"""
+    waits_for: str = ''
+    """the other tree for which it stays, or out of whose way it goes; empty if for none"""
     failure: GeometryError | None = None
     """why no path leads to the goal; None if one does"""
 

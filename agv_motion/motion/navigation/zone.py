@@ -69,7 +69,7 @@ class Zone:
             msg = f'rim = {rim} m: must be zero or more, and finite'
             raise GeometryError(msg)
         self.margin, self.rim = margin, rim
-        outer = _polygon('boundary', boundary)
+        self.boundary = outer = _polygon('boundary', boundary)
         self.holes = [_polygon(f'hole {i + 1}', hole) for i, hole in enumerate(holes)]
         self._check_holes(outer)
         self.floor: Polygon = outer.difference(shapely.union_all(self.holes))

@@ -45,8 +45,15 @@ class ZoneDrawing:
         self.margin: Marked | None = None
         self.clearance_from: Marked | None = None
 
-    def zone(self, rim: float, *, may_be_degrees: bool) -> Zone:
-        """Return the zone for a platform that reaches ``rim`` [m] from its centre.
+    def zone(
+        self, rim: float, *, may_be_degrees: bool, home: tuple[float, float] | None = None
+    ) -> Zone:
+        """Return the zone for a platform.
+
+        Args:
+            rim: How far it reaches from its centre [m].
+            may_be_degrees: Whether the drawing may be in degrees, which is refused.
+            home: Where there is none in the drawing [m]; None: nowhere.
 
         Raises:
             ConfigurationError: There is no boundary, it is in degrees, or `clearance_from` is none
@@ -65,7 +72,7 @@ class ZoneDrawing:
                 for i, area in enumerate(self.translation_only, 1)
             ]
             margin = MARGIN if self.margin is None else self.margin.typed('margin', float)
-            home = None if self.home is None else _position('home', self.home)
+            home = home if self.home is None else _position('home', self.home)
         except ConfigurationError as error:
             raise as_kind(error, GeometryError) from error
         if may_be_degrees:
@@ -122,12 +129,19 @@ def load_zone(path: str | Path, rim: float = PLATFORM_RADIUS) -> Zone:
     """
     path = Path(path)
     if path.suffix.lower() in {'.json', '.geojson'}:
-        drawing = _from_geojson(json_text.load(path, 'the zone'))
+        drawing = from_geojson(json_text.load(path, 'the zone'))
         return drawing.zone(rim, may_be_degrees=True)
-    return _from_yaml(yaml_text.load(path, 'the zone')).zone(rim, may_be_degrees=False)
+    return from_yaml(yaml_text.load(path, 'the zone')).zone(rim, may_be_degrees=False)
 
 
-def _from_yaml(file: Marked) -> ZoneDrawing:
+def from_yaml(file: Marked) -> ZoneDrawing:
+    """Return what YAML of our own says of a zone.
+
+    Raises:
+        ConfigurationError: It has other keys.
+        GeometryError: A list is none.
+
+    """
     content = file.value
     if not isinstance(content, dict) or 'boundary' not in content or set(content) - set(KEYS):
         _unknown(file)
@@ -145,7 +159,7 @@ def _from_yaml(file: Marked) -> ZoneDrawing:
     return drawing
 
 
-def _from_geojson(file: Marked) -> ZoneDrawing:
+def from_geojson(file: Marked) -> ZoneDrawing:
     """Return the features of a drawing.
 
     Raises:

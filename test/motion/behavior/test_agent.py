@@ -47,8 +47,8 @@ class Life:
     def move(self):
         flow = self.flow._replace(s3=min(max(self.pose.x / 12.0, 0.0), 1.0))
         self.motion = self.pilot.update(self.time, self.pose, flow, self.time)
-        if not self.activities or self.activities[-1] != self.motion.activity:
-            self.activities.append(self.motion.activity)
+        if not self.activities or self.activities[-1] != self.motion.state:
+            self.activities.append(self.motion.state)
         if self.motion.goal is not None and self.motion.goal not in self.goals[-1:]:
             self.goals.append(self.motion.goal)
         return self.motion
@@ -106,7 +106,7 @@ def test_every_reachable_place_is_visited_in_two_days():
 
 def test_what_it_does_is_told_with_the_reason():
     life = Life(agent(), 2.0, 2.0)
-    assert life.move().activity.startswith('walking to never visited: (')
+    assert life.move().state.startswith('walking to never visited: (')
     life.live(3600.0)
     assert any('walking to highest remembered sap flow 0.' in a for a in life.activities)
 
@@ -115,7 +115,7 @@ def test_nothing_is_remembered_of_its_sleep():
     life = Life(agent(), 2.0, 2.0)
     life.flow = SapFlow(0.0, 0.0, 0.0)
     life.pose = Pose(0.6, 2.0, 0.0)
-    assert life.move().activity == 'resting: the sap stands'
+    assert life.move().state == 'resting: the sap stands'
     assert life.motion.wanted == STILL
     assert not life.agent.memory.visited.any()
 
@@ -149,7 +149,7 @@ def test_a_goal_to_which_no_path_leads_is_given_up_for_another():
     life = Life(agent(parted), 2.0, 2.0)
     life.agent.set_goal(10.0, 7.0, 'asked for')
     stopped = life.move()
-    assert stopped.activity.startswith('stopped: goal (10.00, 7.00) lies in another part')
+    assert stopped.state.startswith('stopped: goal (10.00, 7.00) lies in another part')
     assert (stopped.wanted, stopped.path) == (STILL, ())
     assert life.move().goal.x < 5.0
 
@@ -171,14 +171,14 @@ def test_giving_up_a_goal_does_not_call_it_back_from_its_way_home():
     tree.go_home()
     assert tree.give_up(goal)
     decision = tree.decide(NOON, Pose(8.0, 2.0, 0.0), SapFlow(0.8, 0.6, 0.5))
-    assert decision.activity == 'walking to home at (2.0, 7.0), asked to'
+    assert decision.state == 'walking to home at (2.0, 7.0), asked to'
 
 
 def test_without_any_goal_it_turns_on_the_spot_and_tries_again_after_ten_seconds():
     tree, flow, pose = agent(), SapFlow(0.8, 0.6, 0.5), Pose(2.0, 2.0, 0.0)
     around = YARD.floor.buffer(1.0).difference(shapely.box(1.9, 1.9, 2.1, 2.1))
     first = tree.decide(NOON, pose, flow, around)
-    assert first.activity == 'no goal can be reached: turning on the spot'
+    assert first.state == 'no goal can be reached: turning on the spot'
     assert (first.destination, first.rotation) == (None, pytest.approx(2.0 * 0.6 - 1.0))
     assert 'where another tree is' in tree.refusals[0]
     assert tree.decide(NOON + 9.0, pose, flow).goal is None
@@ -211,7 +211,7 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
     seen = []
     for x in (8.9, 9.1, 8.9, 8.1, 7.9, 8.1):
         life.pose = Pose(x, 2.0, 0.0)
-        seen.append(life.move().activity.split()[0])
+        seen.append(life.move().state.split()[0])
     assert seen == ['turning', 'turning', 'turning', 'turning', 'walking', 'walking']
     with pytest.raises(ConfigurationError, match='one goal'):
         life.agent.next_goal()
@@ -223,20 +223,20 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
 def test_a_fixed_goal_is_gone_to_again_after_home():
     life = Life(agent(goals=GoalParameters(), goal=(10.0, 2.0)), 2.0, 2.0)
     life.agent.go_home()
-    assert life.move().activity.startswith('walking to home')
+    assert life.move().state.startswith('walking to home')
     life.agent.next_goal()
-    assert life.move().activity.startswith('walking to (10.0, 2.0)')
+    assert life.move().state.startswith('walking to (10.0, 2.0)')
 
 
 def test_it_goes_home_when_asked_and_stays():
     life = Life(agent(), 10.0, 7.0)
     life.agent.go_home()
     life.live(3600.0)
-    assert life.motion.activity == 'at home: asked to'
+    assert life.motion.state == 'at home: asked to'
     assert hypot(life.pose.x - 2.0, life.pose.y - 7.0) < 0.3
     assert life.motion.wanted == STILL
     life.agent.next_goal()
-    assert life.move().activity.startswith('walking')
+    assert life.move().state.startswith('walking')
 
 
 def test_it_is_home_before_closing_even_if_little_sap_flows():
@@ -245,17 +245,17 @@ def test_it_is_home_before_closing_even_if_little_sap_flows():
     life = Life(agent(schedule=hours), 10.0, 8.0, NOON - 3600.0)
     life.flow = SapFlow(0.3, 0.5, 0.5)
     life.live(3 * 3600.0 - 1.0, dt=5.0)
-    assert life.motion.activity == 'at home: closing at Mon 14:00'
+    assert life.motion.state == 'at home: closing at Mon 14:00'
     life.live(10.0)
-    assert life.motion.activity == 'resting: closed until Tue 10:00'
+    assert life.motion.state == 'resting: closed until Tue 10:00'
     life.time = NOON + 22 * 3600.0
-    assert life.move().activity.startswith('walking to')
+    assert life.move().state.startswith('walking to')
 
 
 def test_it_rests_while_the_probes_calibrate():
     hours = ScheduleParameters(enabled=True, opens='00:00', closes='23:59')
     life = Life(agent(schedule=hours), 2.0, 2.0, NOON - 7 * 3600.0)
-    assert life.move().activity == 'resting: the probes calibrate until Mon 07:00'
+    assert life.move().state == 'resting: the probes calibrate until Mon 07:00'
     assert life.motion.wanted == STILL
 
 
@@ -270,25 +270,25 @@ def test_without_a_home_nobody_goes_there():
 
 def test_outside_it_refuses_and_says_where_it_is():
     life = Life(agent(), -0.5, 2.0)
-    assert 'lies outside the zone' in life.move().activity
+    assert 'lies outside the zone' in life.move().state
     assert life.motion.wanted == STILL
 
 
 def test_outside_it_returns_slowly_without_turning_where_that_is_wanted():
     life = Life(agent(home=HomeParameters(outside='return', return_speed=0.2)), -0.5, 2.0)
     motion = life.move()
-    assert motion.activity.startswith('returning slowly to the zone: the tree lies outside')
+    assert motion.state.startswith('returning slowly to the zone: the tree lies outside')
     assert (motion.wanted.omega, motion.rules.top_speed) == (0.0, 0.2)
     assert motion.path[1] == pytest.approx((0.5, 2.0))
     life.live(60.0 * 0.5 / 0.2 + 4.0)
     assert YARD.contains(*life.here)
-    assert life.move().activity.startswith('walking')
+    assert life.move().state.startswith('walking')
 
 
 def test_a_return_through_a_hole_is_refused():
     zone = Zone([[0, 0], [9, 0], [9, 9], [0, 9]], [[[0.2, 1], [0.4, 1], [0.4, 8], [0.2, 8]]])
     life = Life(agent(zone, home=HomeParameters(outside='return')), -0.5, 4.0)
-    assert 'no straight way leads back' in life.move().activity
+    assert 'no straight way leads back' in life.move().state
 
 
 def test_a_strategy_that_remembers_needs_a_zone():

@@ -70,7 +70,7 @@ class SharedNavigator:
         self._route: Path = ()
         self._after_piece: Path = ()
         self._yielding = False
-        self._reason = ''
+        self._reason = self._waits_for = ''
         self._going_at = self._planned_at = self._counted_at = 0.0
 
     def reservation(self, now: float) -> Reservation:
@@ -135,11 +135,11 @@ class SharedNavigator:
         self._count(now, walks=walks and not self._yielding)
         if holds and free.by and not walks:
             self._let_go(along)
-            self._reason = f'waits for {free.by}, which is on its floor'
+            self._reason, self._waits_for = f'waits for {free.by}, which is on its floor', free.by
         blocked = now - self._going_at if self._goal is not None else 0.0
         if not walks:
             reason = f'stands: {obstacle}' if obstacle else self._reason
-            return Guidance(None, path, reason, blocked)
+            return Guidance(None, path, reason, blocked, waits_for=self._waits_for)
         reason = 'gives way' if self._yielding else ''
         return Guidance(free.path[-1], path, reason, blocked, self._yielding)
 
@@ -215,7 +215,7 @@ class SharedNavigator:
         self._let_go(along)
         self.right.set_out(IDLE if goal is None else None)
         self._goal, self._going_at, self._planned_at = goal, now, now
-        self._reason, self._needs.courtesy = '', COURTESY
+        self._reason, self._waits_for, self._needs.courtesy = '', '', COURTESY
         self._plan()
 
     def _has_waited(self, now: float) -> bool:
@@ -284,7 +284,7 @@ class SharedNavigator:
             self._after_piece = cut(self._route, length(piece))[1]
             self.right.request(piece)
         else:
-            self._reason = f'waits for {blocker}'
+            self._reason, self._waits_for = f'waits for {blocker}', blocker
 
     def _settle(self, now: float) -> None:
         right = self.right
@@ -293,8 +293,8 @@ class SharedNavigator:
         ruling = right.settle(now)
         if ruling.answer is Answer.GRANTED:
             self._route = self._after_piece
-            self._reason = ''
+            self._reason = self._waits_for = ''
         else:
-            self._reason = str(ruling)
+            self._reason, self._waits_for = str(ruling), ruling.name
             if ruling.answer is Answer.TAKEN:
                 right.withdraw()
