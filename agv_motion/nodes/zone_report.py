@@ -60,7 +60,7 @@ class ZoneReport:
         self._others[name] = message.data[:LONGEST]
 
 
-class Standing(NamedTuple):
+class Whereabouts(NamedTuple):
     """Where a tree stands, and the paths of the zone in which it does."""
 
     pose: Pose
@@ -69,7 +69,7 @@ class Standing(NamedTuple):
 
 def require_standing(
     pose: Pose | None, planner: PathPlanner | None, before: Zone | None
-) -> Standing:
+) -> Whereabouts:
     """Return pose and planner if the tree stands in the zone that it is to go on in.
 
     Args:
@@ -94,4 +94,4 @@ def require_standing(
             'drive it in first, or draw the zone round it'
         )
         raise ConfigurationError(msg)
-    return Standing(pose, planner)
+    return Whereabouts(pose, planner)
