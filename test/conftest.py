@@ -69,6 +69,12 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: item.path.stem not in LONG)
 
 
+def pytest_collection_finish():
+    """Keep the collector from all that is imported: it is run before each graph, and often."""
+    gc.collect()
+    gc.freeze()
+
+
 class Graph:
     """Nodes on one executor, spun by the test itself: no threads, no sleeps."""
 
