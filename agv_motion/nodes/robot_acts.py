@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.srv import SetMap
+from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.dashboard.core.names import namespace_of
@@ -17,6 +18,7 @@ from agv_motion.ros.qos import COMMAND
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.nodes.robot_parameters import RobotParameters
     from agv_motion.nodes.robot_services import RobotServices
     from agv_motion.ros.live_port import LivePort
 
@@ -26,27 +28,37 @@ KINEMATICS = 'wheel_kinematics', 'differential_kinematics', 'omni_kinematics'
 """Nodes that drive wheels; their ``~/stop`` stands in where there is no arbiter."""
 PAUSES = 'motion_generator', 'sequence', 'route_follower'
 """Nodes that can be told to wait, the first that is there"""
+ACTS = frozenset({
+    'stop', 'release', 'pause', 'resume', 'home', 'next_goal', 'lock', 'unlock', 'goal', 'pose',
+    'mark',
+})  # fmt: skip
 SECOND = 1_000_000_000
 
 
 class RobotActs:
     """Does what is asked of any robot; everything in the thread of the node."""
 
-    def __init__(self, port: LivePort, services: RobotServices) -> None:
+    def __init__(
+        self, port: LivePort, services: RobotServices, parameters: RobotParameters
+    ) -> None:
         """Ask nothing yet.
 
         Args:
             port: Of the node.
             services: To call the robots' services by.
+            parameters: To set those of the robots by.
 
         """
-        self._port, self._services = port, services
+        self._port, self._services, self._parameters = port, services, parameters
         self._publishers: dict[str, Any] = {}
+        self._held_past_arbiter: set[str] = set()
+        """namespaces whose kinematics were stopped, as their arbiter did not answer"""
         self.clock: Callable[[], int] = port.nanoseconds
         """returns the time of the robots' clock [ns]"""
 
     def prepare(self, robot: str) -> None:
         """Open the topics of a robot, so that who listens has been found when they are needed."""
+        self._publisher(String, '/mark')
         for kind, topic in ((TwistStamped, 'cmd_vel/stop'), (TwistStamped, 'cmd_vel/manual'),
                             (PoseStamped, 'goal_pose')):  # fmt: skip
             self._publisher(kind, f'{namespace_of(robot)}/{topic}')
@@ -58,11 +70,14 @@ class RobotActs:
             RefusedError: The robot has nobody who does that.
 
         """
-        act = getattr(self, f'_{action}', None)
-        if act is None:
+        if action == 'set_parameters':
+            node, values = arguments['node'], arguments['values']
+            self._parameters.set(robot, node, values, answer)
+            return
+        if action not in ACTS:
             msg = f"'{action}' is nothing that a robot does"
             raise RefusedError(msg)
-        act(namespace_of(robot), arguments, answer)
+        getattr(self, f'_{action}')(namespace_of(robot), arguments, answer)
 
     def drive(self, robot: str, twist: Twist, age: float) -> None:
         """Publish a twist of a person's hand, stamped with when the hand moved."""
@@ -78,11 +93,29 @@ class RobotActs:
         self._hold(namespace, answer, hold=False)
 
     def _hold(self, namespace: str, answer: Answer, *, hold: bool) -> None:
-        """Hold the wheels, or let them go: by the arbiter, or by the kinematics themselves."""
+        """Hold the wheels, or let them go: by the arbiter, or else by the kinematics themselves."""
         if hold:
             self._publish_twist(f'{namespace}/cmd_vel/stop', REST, self.clock())
-        names = [f'{namespace}/arbiter/stop', *(f'{namespace}/{one}/stop' for one in KINEMATICS)]
-        self._set_bool(names, 'nobody there can stop its wheels', answer, data=hold)
+        arbiter = f'{namespace}/arbiter/stop'
+        kinematics = [f'{namespace}/{one}/stop' for one in KINEMATICS]
+        nobody = 'nobody there can stop its wheels'
+        if not self._services.has(arbiter):
+            self._set_bool(kinematics, nobody, answer, data=hold)
+            return
+
+        def told(words: str | Exception) -> None:
+            """Hold the wheels themselves where the arbiter does not; let them go with it."""
+            failed = isinstance(words, Exception)
+            there = any(map(self._services.has, kinematics))
+            if there and (failed if hold else namespace in self._held_past_arbiter):
+                (self._held_past_arbiter.add if hold else self._held_past_arbiter.discard)(
+                    namespace
+                )
+                self._set_bool(kinematics, nobody, answer, data=hold)
+            else:
+                answer(words)
+
+        self._call(SetBool, arbiter, SetBool.Request(data=hold), told)
 
     def _pause(self, namespace: str, _: dict[str, Any], answer: Answer) -> None:
         names = [f'{namespace}/{one}/pause' for one in PAUSES]
@@ -128,6 +161,11 @@ class RobotActs:
         covariance[0] = covariance[7] = 0.05**2
         covariance[35] = 0.05**2
         self._call(SetMap, f'{namespace}/localization/set_pose', request, answer)
+
+    def _mark(self, _: str, arguments: dict[str, Any], answer: Answer) -> None:
+        """Publish a text for all who record."""
+        self._publisher(String, '/mark').publish(String(data=arguments['text']))
+        answer('')
 
     # Plumbing
 

@@ -64,6 +64,8 @@ class Robots:
         for name in names:
             self.board.robot(name)
         self.asked = []
+        self.values = {'rest.arrival': 1.0, 'rate': 10.0}
+        """of the parameters of every robot"""
         self.driven = []
         self.answer = ''
         """in words; or an error, or None for no answer at all"""
@@ -83,6 +85,11 @@ class Robots:
         elif self.answer is not None:
             future.set_result(self.answer)
         return future
+
+    async def parameters(self, robot):
+        rows = [{'name': name, 'value': value, 'dynamic': name != 'rate'}
+                for name, value in self.values.items()]  # fmt: skip
+        return [{'node': 'motion_generator', 'rows': rows}]
 
     def drive(self, robot, twist, age):
         self.driven.append((robot, twist, age))

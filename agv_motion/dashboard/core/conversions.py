@@ -34,6 +34,8 @@ MOST_CELLS = 250_000
 MOST_LINKS = 40
 """of a chain of reasons, and of the sources of twists"""
 LEVELS = ('OK', 'WARN', 'ERROR', 'STALE')
+OF_ALL = frozenset({'driver', 'stop', 'lock', 'lost'})
+"""Values of a `driver` that are of no one source: who drives, why STOP holds, who is held"""
 STEERING, WHEEL = '_steering', '_wheel'
 
 Value = dict[str, Any]
@@ -142,24 +144,21 @@ def driver(message: Any) -> Value:
     told = status(message)
     values = told['values']
     sources = []
-    for name, verdict in list(values.items())[:MOST_LINKS]:
-        if name in {'driver', 'stop', 'lock'}:
-            continue
-        word, _, rest = verdict.partition(':')
-        sources.append({'name': name, 'verdict': word.strip(), 'text': rest.strip() or verdict})
+    for name, text in list(values.items())[:MOST_LINKS]:
+        if name not in OF_ALL:
+            verdict = text.partition(',')[0].partition(' (')[0]
+            sources.append({'name': name, 'verdict': verdict.strip(), 'text': text})
+    driving = values.get('driver', '')
     return {
-        'driver': values.get('driver', ''),
+        'driver': '' if driving == 'none' else driving,
         'sentence': told['message'],
         'level': told['level'],
-        'stop': is_true(values.get('stop', '')),
+        'stop': bool(values.get('stop', '').strip()),
+        'reason': values.get('stop', ''),
         'lock': values.get('lock', ''),
+        'lost': values.get('lost', ''),
         'sources': sources,
     }
-
-
-def is_true(text: str) -> bool:
-    """Return whether a value of a diagnosis says yes."""
-    return text.strip().lower() in {'true', 'yes', '1', 'on'}
 
 
 def why(message: Any) -> Value:

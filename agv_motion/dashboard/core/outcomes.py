@@ -46,7 +46,8 @@ def is_done(
             return None if not word else False
         return (word == 'paused') == (action == 'pause')
     if action in {'lock', 'unlock'}:
-        return _is_locked(robot, since) is (action == 'lock')
+        locked = _is_locked(robot, since)
+        return False if locked is None else locked == (action == 'lock')
     if action in {'goal', 'pose'}:
         return _is_at(robot, action, arguments, since)
     return None
@@ -79,8 +80,7 @@ def _is_locked(robot: RobotState, since: float) -> bool | None:
     driver = robot.latest.get('driver')
     if driver is None or driver.message is None or driver.at < since:
         return None
-    lock = conversions.driver(driver.message)['lock'].strip().lower()
-    return lock not in {'', 'none', 'false', 'no'}
+    return 'manual' in conversions.driver(driver.message)['lock']
 
 
 def _is_at(robot: RobotState, topic: str, asked: dict[str, Any], since: float) -> bool | None:

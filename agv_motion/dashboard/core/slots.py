@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.dashboard.core import conversions
 from agv_motion.dashboard.core.numbers import finite, text_of
 from agv_motion.dashboard.core.robot_state import PROBES
+from agv_motion.simulation.sun import sun
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -130,7 +131,16 @@ def _probes(robot: RobotState) -> Value | None:
 
 
 def _sun(robot: RobotState) -> Value | None:
-    return _made(robot, 'sunlight', lambda m: {'illuminance': finite(m.illuminance, 1)})
+    message = robot.message('sunlight')
+    if message is None:
+        return None
+    found: Value = {'illuminance': finite(message.illuminance, 1)}
+    latitude, longitude = (robot.platform.get(key) for key in ('latitude', 'longitude'))
+    stamp = message.header.stamp
+    if latitude is not None and longitude is not None and stamp.sec > 0:
+        where = sun(stamp.sec, latitude, longitude)
+        found |= {'elevation': finite(where.elevation), 'azimuth': finite(where.azimuth)}
+    return found
 
 
 def _zone(robot: RobotState) -> Value | None:

@@ -22,11 +22,11 @@ NODE_OLD = 5.0
 GREEN, YELLOW, RED = 'green', 'yellow', 'red'
 COLOURS = {
     'walking': GREEN, 'turning': GREEN, 'resting': GREEN, 'closed': GREEN, 'driven': GREEN,
-    'starting': YELLOW, 'waiting': YELLOW, 'paused': YELLOW,
-    'blocked': RED, 'stopped': RED, 'silent': RED,
+    'driving': GREEN, 'arrived': GREEN, 'starting': YELLOW, 'waiting': YELLOW, 'paused': YELLOW,
+    'blocked': RED, 'stopped': RED, 'failed': RED, 'silent': RED,
 }  # fmt: skip
 """of each activity; of one that is not known: yellow"""
-BY_HAND = ('manual', 'page')
+BY_HAND = ('manual',)
 STATES = ('state', 'sequence/status', 'route/state', 'ghost/state')
 
 
@@ -59,7 +59,7 @@ def summary(robot: RobotState, now: float) -> dict[str, Any]:
 def _driver(robot: RobotState) -> dict[str, Any]:
     message = robot.message('driver')
     if message is None:
-        return {'driver': '', 'stop': False, 'sentence': '', 'level': 'OK'}
+        return {'driver': '', 'stop': False, 'sentence': '', 'lost': '', 'level': 'OK'}
     return conversions.driver(message)
 
 
@@ -81,6 +81,8 @@ def _activity(robot: RobotState, driver: dict[str, Any], now: float) -> _Found:
     """Return what a robot does whose measurements are fresh."""
     sentence = said(robot)
     if driver['stop']:
+        return _Found('stopped', RED, driver['sentence'] or sentence)
+    if driver['lost']:
         return _Found('stopped', RED, driver['sentence'] or sentence)
     if driver['driver'] in BY_HAND:
         return _Found('driven', YELLOW, driver['sentence'] or sentence)

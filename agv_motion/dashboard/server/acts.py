@@ -12,6 +12,8 @@ from agv_motion.dashboard.core.outcomes import is_done
 from agv_motion.dashboard.server.fleet import NoAnswerError, RefusedError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from agv_motion.dashboard.server.fleet import Fleet
     from agv_motion.dashboard.server.live import Hub
 
@@ -30,6 +32,8 @@ class _Act:
     action: str
     arguments: dict[str, Any]
     words: str = ''
+    then: Callable[[], None] | None = None
+    """called when the robot has agreed"""
     begun: float = 0.0
     """[s] on the clock of the board"""
     end: float = field(default_factory=lambda: time.monotonic() + ANSWER + COMING_TRUE)
@@ -57,11 +61,22 @@ class Acts:
         """Whether so many are under way that no other can begin."""
         return len(self._pending) + len(self._tasks) >= MOST
 
-    def begin(self, robots: list[str], action: str, arguments: dict[str, Any]) -> str:
-        """Ask robots for something; return the id under which the outcomes are told."""
+    def begin(
+        self, robots: list[str], action: str, arguments: dict[str, Any],
+        then: Callable[[], None] | None = None,
+    ) -> str:  # fmt: skip
+        """Ask robots for something; return the id under which the outcomes are told.
+
+        Args:
+            robots: Their names; one that is empty is meant by what all share.
+            action: What is asked.
+            arguments: With what.
+            then: Called when a robot has agreed.
+
+        """
         number = secrets.token_hex(8)
         for robot in robots:
-            act = _Act(number, robot, action, arguments, begun=self._fleet.now())
+            act = _Act(number, robot, action, arguments, then=then, begun=self._fleet.now())
             task = asyncio.create_task(self._run(act))
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
@@ -94,6 +109,8 @@ class Acts:
         except (NoAnswerError, asyncio.TimeoutError) as error:
             self._tell(act, 'no_answer', str(error) or f'no answer in {ANSWER:g} s')
         else:
+            if act.then is not None:
+                act.then()
             self._pending.append(act)
 
     def _tell(self, act: _Act, state: str, text: str) -> None:

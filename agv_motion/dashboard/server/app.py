@@ -16,8 +16,11 @@ from agv_motion.dashboard.server.door import is_public
 from agv_motion.dashboard.server.doors import doors
 from agv_motion.dashboard.server.drive import drive
 from agv_motion.dashboard.server.gate import Gate
+from agv_motion.dashboard.server.ground import ground_doors
 from agv_motion.dashboard.server.live import Client
 from agv_motion.dashboard.server.login import login_doors
+from agv_motion.dashboard.server.marks import mark_doors
+from agv_motion.dashboard.server.parameters import parameter_doors
 from agv_motion.dashboard.server.roles import Role
 from agv_motion.dashboard.server.site import STATIC
 
@@ -57,7 +60,10 @@ def application(
         with suppress(asyncio.CancelledError):
             await running
 
-    routes = [*_pages(site), *doors(site), *login_doors(site), *_sockets(site)]
+    routes = [
+        *_pages(site), *doors(site), *parameter_doors(site), *ground_doors(site),
+        *mark_doors(site), *login_doors(site), *_sockets(site),
+    ]  # fmt: skip
     if STATIC.is_dir():
         routes.append(Mount('/static', StaticFiles(directory=STATIC)))
     return Gate(Starlette(routes=routes, lifespan=life), names, clock)

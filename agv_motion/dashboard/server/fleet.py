@@ -42,5 +42,11 @@ class Fleet(Protocol):
         An act to which nothing answers (a topic) is done when it is sent, with no words.
         """
 
+    async def parameters(self, robot: str) -> list[dict[str, Any]]:
+        """Return the nodes of a robot: ``node``, and ``rows`` of its parameters.
+
+        A row has name, value, default, unit, low, high, text, choices, dynamic.
+        """
+
     def drive(self, robot: str, twist: Twist, age: float) -> None:
         """Send a twist of a person's hand once, which is ``age`` [s] old by now."""

@@ -134,6 +134,8 @@ class Hub:
         """
         self.board, self.now = board, now
         self.clients: set[Client] = set()
+        self.wanted: set[tuple[str, str]] = set()
+        """robot and slot of what clients have asked for"""
         self.at_each_look: list[Callable[[float], None]] = []
         """called after each look at the board, with its time"""
         self.busy: Callable[[], bool] = lambda: False
@@ -155,10 +157,8 @@ class Hub:
     def look(self) -> None:
         """Make the newest cells, and wake all clients."""
         now = self.now()
-        wanted: set[tuple[str, str]] = set()
-        for client in self.clients:
-            wanted |= client.wanted
-        self.board.refresh(now, wanted)
+        self.wanted = {key for client in self.clients for key in client.wanted}
+        self.board.refresh(now, self.wanted)
         for act in self.at_each_look:
             act(now)
         for client in self.clients:

@@ -1,0 +1,52 @@
+"""Marks: a moment with a few words, for all who record and for the timeline of the page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from agv_motion.dashboard.server.door import Asked, Door, acting
+from agv_motion.dashboard.server.requests import RequestError, text
+
+if TYPE_CHECKING:
+    from starlette.routing import Route
+
+    from agv_motion.dashboard.server.site import Site
+
+SHOWN = 200
+"""newest marks that the page shows"""
+LONGEST = 300
+"""characters of a mark"""
+
+
+def mark_doors(site: Site) -> list[Route]:
+    """Return the doors to marks, and show those there are."""
+    show(site)
+    return [acting(site, Door('/mark', _mark, ('text',)))]
+
+
+def show(site: Site) -> None:
+    """Put the newest marks on the board."""
+    site.fleet.board.put('', 'marks', site.fleet.now(), marks(site))
+
+
+def marks(site: Site) -> list[dict[str, Any]]:
+    """Return the newest marks, newest first."""
+    if site.store is None:
+        return []
+    rows = site.store.rows('SELECT id, at, text, by FROM marks ORDER BY id DESC LIMIT ?', (SHOWN,))
+    return [{'id': i, 'at': at, 'text': words, 'by': by} for i, at, words, by in rows]
+
+
+def _mark(asked: Asked) -> dict[str, Any]:
+    """Keep a mark at the time of the robots, as a bag of them has it, and publish it."""
+    site = asked.site
+    if site.store is None:
+        raise RequestError(503, 'nothing is kept here: this page shows a bag')
+    words = text(asked.told, 'text', LONGEST, least=1)
+    board = site.fleet.board
+    at = site.fleet.now() if board.time is None else board.time
+    site.store.change(
+        'INSERT INTO marks (at, text, by) VALUES (?, ?, ?)', (at, words, asked.visitor.name)
+    )
+    show(site)
+    return {'id': site.acts.begin([''], 'mark', {'text': words})}
