@@ -48,8 +48,8 @@ def test_a_robot_that_says_no_numbers_is_shown_as_such(browser, robots, messages
 def test_what_a_client_says_is_taken_or_let_be():
     client = Client(public=False)
     client.number = 3
-    for text in ('', '{', '[]', '7', '"x"', '{"ack": "x"}', '{"ack": 9}', '{"want": {}}', '[' * 9999,
-                 '{"want": [1, null, {}]}', '{"ack": null, "want": null}'):  # fmt: skip
+    for text in ('', '{', '[]', '7', '"x"', '{"ack": "x"}', '{"ack": 9}', '{"want": {}}',
+                 '[' * 9999, '{"want": [1, null, {}]}', '{"ack": null, "want": null}'):  # fmt: skip
         client.hear(text)
     assert (client.acknowledged, client.wanted) == (0, set())
     client.hear('{"ack": 3, "want": ["oak/memory/sap_flow", "/zone"]}')
