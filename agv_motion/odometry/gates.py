@@ -48,9 +48,9 @@ def require_within(
         SignalError: One of them does not, or is not finite.
 
     """
-    worst = max(map(abs, values), default=0.0)
-    if not worst <= limit:
+    if not all(-limit <= value <= limit for value in values):
         require_finite(name, tuple(values))
+        worst = max(map(abs, values))
         msg = f'{name} = {worst:g} {unit}: cannot be beyond {limit:g} {unit}; {remedy}'
         raise SignalError(msg)
 

@@ -11,7 +11,6 @@ from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.omniwheel_columns import command_columns
 from agv_motion.kinematics.omniwheel_placement import mecanum_wheels, wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
-from agv_motion.odometry.chi_square import chi_square_quantile
 from agv_motion.odometry.wheel_fault import diagnose_wheels
 
 FOUR = OmniWheels(mecanum_wheels(0.3, 0.2))
@@ -82,23 +81,3 @@ def test_what_cannot_be_diagnosed_is_refused():
         diagnose_wheels(FOUR, np.zeros((4, 5)), 0.0)
     with pytest.raises(SignalError, match=r'got shape \(3, 5\)'):
         diagnose_wheels(FOUR, np.zeros((3, 5)), NOISE)
-
-
-@pytest.mark.parametrize(
-    ('probability', 'degrees', 'table'),
-    [
-        (0.95, 1, 3.8415),
-        (0.99, 2, 9.2103),
-        (0.95, 3, 7.8147),
-        (0.99, 10, 23.209),
-        (0.5, 100, 99.334),
-    ],
-)
-def test_quantiles_as_in_the_tables(probability, degrees, table):
-    assert chi_square_quantile(probability, degrees) == pytest.approx(table, rel=0.006)
-
-
-@pytest.mark.parametrize(('probability', 'degrees'), [(0.0, 1), (1.0, 1), (0.5, 0)])
-def test_an_impossible_quantile_is_refused(probability, degrees):
-    with pytest.raises(ConfigurationError, match='probability = '):
-        chi_square_quantile(probability, degrees)
