@@ -10,13 +10,18 @@ ros2 service call /sequence/start std_srvs/srv/Trigger
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    EnvironmentVariable,
+    LaunchConfiguration,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 SHARE = FindPackageShare('agv_motion')
 DEFAULT_CONFIG = PathJoinSubstitution([SHARE, 'config', 'differential.yaml'])
+STATE = [EnvironmentVariable('HOME', default_value='/var/lib'), '/.local/state/agv_motion']
 ARGUMENTS = (
     ('namespace', '', 'name of this robot: its topics are /NAME/cmd_vel and so on'),
     ('config', DEFAULT_CONFIG, 'YAML file with the parameters of all nodes'),
@@ -27,6 +32,7 @@ ARGUMENTS = (
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
     ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
+    ('state', STATE, 'folder in which STOP and locks are kept over a restart'),
     ('respawn', 'false', 'start a node again 2 s after it ended by itself'),
 )
 
@@ -49,19 +55,26 @@ def generate_launch_description() -> LaunchDescription:
             **options,
         )
 
+    state_file = [value['state'], '/', value['namespace'], '/arbiter.json']
+    state = {'state_file': ParameterValue(state_file, value_type=str)}
     time_factor = ParameterValue(value['time_factor'], value_type=float)
     drivers = {
-        'ghost_trajectory': [],
-        'route_follower': [{'route_file': value['route']}],
-        'sequence': [{'file': value['sequence']}],
+        'ghost_trajectory': ('page', []),
+        'route_follower': ('route', [{'route_file': value['route']}]),
+        'sequence': ('sequence', [{'file': value['sequence']}]),
     }  # each is silent until it is asked to drive: by a goal, a route, or ~/start
+
+    def remapped(source):
+        return [('pose', value['pose']), ('cmd_vel', f'cmd_vel/{source}')]
+
     return LaunchDescription(
         [
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('differential_kinematics', sim_time),
+            node('arbiter', sim_time, state),
             *(
-                node(driver, sim_time, *own, remappings=[('pose', value['pose'])])
-                for driver, own in drivers.items()
+                node(driver, sim_time, *own, remappings=remapped(source))
+                for driver, (source, own) in drivers.items()
             ),
             node(
                 'differential_simulator',

@@ -1,4 +1,4 @@
-"""Launch the tree: probes, motion, wheels, localization, and a simulated platform if asked for.
+"""Launch the tree: probes, motion, arbiter, wheels, localization; its platform simulated if asked.
 
 ros2 launch agv_motion tree.launch.py namespace:=oak source:=serial simulate:=false
 """
@@ -6,12 +6,17 @@ ros2 launch agv_motion tree.launch.py namespace:=oak source:=serial simulate:=fa
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    EnvironmentVariable,
+    LaunchConfiguration,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 DEFAULT_CONFIG = PathJoinSubstitution([FindPackageShare('agv_motion'), 'config', 'tree.yaml'])
+STATE = [EnvironmentVariable('HOME', default_value='/var/lib'), '/.local/state/agv_motion']
 ARGUMENTS = (
     ('namespace', '', 'name of this tree: its topics are /NAME/cmd_vel and so on'),
     ('config', DEFAULT_CONFIG, 'YAML file with the parameters of all nodes'),
@@ -20,6 +25,7 @@ ARGUMENTS = (
     ('use_sim_time', 'true', 'follow /clock: true with the simulator or a bag, else false'),
     ('time_factor', '1.0', 'simulated seconds per second'),
     ('clock', 'lead', 'follow: another simulator tells the time, as of several robots all but one'),
+    ('state', STATE, 'folder in which STOP and locks are kept over a restart'),
     ('respawn', 'false', 'start a node again 2 s after it ended by itself'),
 )
 
@@ -42,12 +48,15 @@ def generate_launch_description() -> LaunchDescription:
             **options,
         )
 
+    state_file = [value['state'], '/', value['namespace'], '/arbiter.json']
+    state = {'state_file': ParameterValue(state_file, value_type=str)}
     time_factor = ParameterValue(value['time_factor'], value_type=float)
     return LaunchDescription(
         [
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('granier_probe', sim_time, {'source': value['source']}),
-            node('motion_generator', sim_time),
+            node('motion_generator', sim_time, remappings=[('cmd_vel', 'cmd_vel/agent')]),
+            node('arbiter', sim_time, state),
             node('wheel_kinematics', sim_time),
             node('localization', sim_time),
             node(

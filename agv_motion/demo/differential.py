@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, String
 
+from agv_motion.arbitration import TwistSource
+from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
+from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import RecordedTopic
@@ -31,7 +34,7 @@ if TYPE_CHECKING:
 CONFIG = 'differential.yaml'
 
 TOPICS = [
-    RecordedTopic('cmd_vel', TwistStamped),
+    *ARBITER_TOPICS,
     RecordedTopic('wheels/command', JointState),
     RecordedTopic('wheels/state', JointState),
     RecordedTopic('odom', Odometry),
@@ -63,17 +66,18 @@ class DifferentialScenario(Scenario[RunBag]):
         self._status: Status | None = None
 
     def build(self) -> DemoGraph:
-        """Make the three nodes."""
+        """Make the four nodes."""
         patient = {'use_sim_time': True, 'report_after': 1.0, 'stop_after': 2.0}
         robot = configured_node(
             DifferentialSimulator, CONFIG, {'time_factor': self._time_factor, 'seed': self._seed}
         )
         self._actions = configured_node(
             SequenceNode, CONFIG, patient | {'file': self._sequence, 'autorun': True},
-            cli_args=['--ros-args', '-r', 'pose:=fix'],
+            cli_args=[*drives_as(TwistSource.SEQUENCE)['cli_args'], '-r', 'pose:=fix'],
         )  # fmt: skip
         wheels = configured_node(DifferentialKinematics, CONFIG, patient)
-        return DemoGraph((self._actions, wheels, robot), robot, TOPICS)
+        arbiter = arbiter_node(CONFIG, self.state, {'timeouts__sequence': 2.0})
+        return DemoGraph((self._actions, arbiter, wheels, robot), robot, TOPICS)
 
     def progress(self, _: float) -> tuple[float, str]:
         """Return how much of the sequence is done, and the action."""

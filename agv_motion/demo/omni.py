@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 
+from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
+from agv_motion.demo.arbitrated import arbiter_node
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.omni_driver import OmniDriver
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
 CONFIG = 'omni.yaml'
 
 TOPICS = [
-    RecordedTopic('cmd_vel', TwistStamped),
+    *ARBITER_TOPICS,
     RecordedTopic('wheels/command', JointState),
     RecordedTopic('wheels/state', JointState),
     RecordedTopic('wheels/free_speed', JointState),
@@ -81,7 +83,8 @@ class OmniScenario(Scenario[LocalizationRun]):
         )
         wheels = configured_node(OmniKinematics, CONFIG, patient)
         localization = configured_node(Localization, CONFIG, common)
-        nodes = wheels, localization, self._simulator
+        arbiter = arbiter_node(CONFIG, self.state, {'timeouts__agent': 2.0})
+        nodes = arbiter, wheels, localization, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
 
     def over(self, elapsed: float, say: Callable[[str], None]) -> bool:

@@ -33,7 +33,7 @@ class OmniDriver(LifecycleNode):
         self._silent = 0
         self._choose()
         self._command = self.create_publisher(
-            TwistStamped, 'cmd_vel', COMMAND,
+            TwistStamped, 'cmd_vel/agent', COMMAND,
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
         for kind, topic, act in (

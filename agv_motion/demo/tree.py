@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
+from agv_motion.arbitration import TwistSource
+from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
+from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
@@ -40,7 +43,7 @@ TOPICS = [
     *(RecordedTopic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
     RecordedTopic('granier/sap_flow', Vector3Stamped),
     RecordedTopic('granier/valid', Bool, latched=True),
-    RecordedTopic('cmd_vel', TwistStamped),
+    *ARBITER_TOPICS,
     RecordedTopic('goal', PoseStamped, latched=True),
     RecordedTopic('state', String, latched=True),
     RecordedTopic('path', Path, latched=True),
@@ -59,7 +62,7 @@ TOPICS = [
 
 
 class TreeScenario(Scenario[WalkRun]):
-    """One tree with its five nodes, on simulated probes or on a recording."""
+    """One tree with its six nodes, on simulated probes or on a recording."""
 
     figure = 'walk.png'
 
@@ -81,13 +84,15 @@ class TreeScenario(Scenario[WalkRun]):
         self._place = {'zone_file': zone} if zone else {}
 
     def build(self) -> DemoGraph:
-        """Make the five nodes; the tree starts at the home of its zone."""
+        """Make the six nodes; the tree starts at the home of its zone."""
         common = {'use_sim_time': True}
         probe = configured_node(GranierProbe, CONFIG, common | self._probes)
         motion = configured_node(
-            MotionGenerator, CONFIG, common | self._place | {'goals__seed': self._seed}
-        )
+            MotionGenerator, CONFIG, common | self._place | {'goals__seed': self._seed},
+            **drives_as(TwistSource.AGENT),
+        )  # fmt: skip
         self._zone = load_zone(find_config(motion.parameters.zone_file), motion.parameters.rim)
+        arbiter = arbiter_node(CONFIG, self.state, {})
         wheels = configured_node(WheelKinematics, CONFIG, common)
         localization = configured_node(Localization, CONFIG, common)
         x, y = self._zone.home or (0.0, 0.0)
@@ -96,7 +101,7 @@ class TreeScenario(Scenario[WalkRun]):
             {'time_factor': self._time_factor, 'seed': self._seed, 'start_x': x, 'start_y': y},
         )  # fmt: skip
         self._wheels = wheels.parameters
-        nodes = probe, motion, wheels, localization, self._simulator
+        nodes = probe, motion, arbiter, wheels, localization, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS)
 
     def view(self, recorder: DemoRecorder) -> TreeView:

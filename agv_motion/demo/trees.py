@@ -7,12 +7,15 @@ from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
+from agv_motion.arbitration import TwistSource
+from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
+from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import N, configured_node
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
@@ -29,11 +32,12 @@ from agv_motion.simulation.trials.crowd import scattered
 
 if TYPE_CHECKING:
     import pathlib
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from rich.console import RenderableType
 
     from agv_motion.bag.reader import BagReader
+    from agv_motion.nodes.arbiter import ArbiterNode
     from agv_motion.ros.live_node import LiveNode
 
 CONFIG = 'tree.yaml'
@@ -41,7 +45,7 @@ NAMES = ('oak', 'ash', 'elm', 'fir', 'yew')
 
 OF_EACH = (
     ('granier/sap_flow', Vector3Stamped, False),
-    ('cmd_vel', TwistStamped, False),
+    *ARBITER_TOPICS,
     ('goal', PoseStamped, True),
     ('state', String, True),
     ('path', Path, True),
@@ -57,7 +61,7 @@ RATE = 5.0
 
 
 class TreesScenario(Scenario[list[RecordedWalk]]):
-    """Several trees in one zone, five nodes each."""
+    """Several trees in one zone, six nodes each."""
 
     figure = 'trees.png'
     doing = 'walking'
@@ -88,7 +92,7 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
 
         """
         names, zone, seed = self._names, self._zone_file, self._seed
-        minds = [_minds(name, names, zone, seed + i) for i, name in enumerate(names)]
+        minds = [self._minds(name, seed + i) for i, name in enumerate(names)]
         given = minds[0].motion.parameters
         self._traffic = given.sharing()
         self._zone = load_zone(find_config(zone), given.rim)
@@ -107,6 +111,25 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
         ]
         nodes = [*(node for mind in minds for node in mind), *simulators]
         return DemoGraph(nodes, simulators[0], topics)
+
+    def _minds(self, name: str, seed: int) -> _Minds:
+        """Return the nodes of the tree ``name``."""
+        shared = {
+            'rate': RATE, 'share_zone': True, 'zone_file': self._zone_file, 'goals__seed': seed,
+            'traffic__expected': [other for other in self._names if other != name],
+        }  # fmt: skip
+        simulated = {'use_sim_time': True}
+
+        def node(kind: type[N], changes: dict[str, Any], **kwargs: Any) -> LiveNode[N]:
+            return configured_node(kind, CONFIG, simulated | changes, namespace=name, **kwargs)
+
+        return _Minds(
+            node(GranierProbe, {'simulated__seed': seed}),
+            node(MotionGenerator, shared, **drives_as(TwistSource.AGENT)),
+            arbiter_node(CONFIG, self.state, {'rate': RATE}, name),
+            node(WheelKinematics, {'rate': RATE}),
+            node(Localization, {}),
+        )
 
     def view(self, recorder: DemoRecorder) -> TreesView:
         """Show zone and trails, and what each tree does."""
@@ -143,25 +166,6 @@ class _Minds(NamedTuple):
 
     probe: LiveNode[GranierProbe]
     motion: LiveNode[MotionGenerator]
+    arbiter: LiveNode[ArbiterNode]
     wheels: LiveNode[WheelKinematics]
     localization: LiveNode[Localization]
-
-
-def _minds(name: str, names: Sequence[str], zone: str, seed: int) -> _Minds:
-    """Return the nodes of the tree ``name``."""
-    others = [other for other in names if other != name]
-    shared = {
-        'rate': RATE, 'share_zone': True, 'traffic__expected': others, 'zone_file': zone,
-        'goals__seed': seed,
-    }  # fmt: skip
-    simulated = {'use_sim_time': True}
-
-    def node(kind: type[N], changes: dict[str, Any]) -> LiveNode[N]:
-        return configured_node(kind, CONFIG, simulated | changes, namespace=name)
-
-    return _Minds(
-        node(GranierProbe, {'simulated__seed': seed}),
-        node(MotionGenerator, shared),
-        node(WheelKinematics, {'rate': RATE}),
-        node(Localization, {}),
-    )

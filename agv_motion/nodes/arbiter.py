@@ -117,6 +117,11 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
             found = found.worsened(WARN, PAST_THE_ARBITER.format(others))
         return found
 
+    @property
+    def hold(self) -> Hold:
+        """What holds until a person releases it."""
+        return self._arbiter.hold
+
     # What the sources say
 
     def _on_stop_message(self, _: Any) -> None:

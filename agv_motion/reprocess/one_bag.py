@@ -12,7 +12,7 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError
 from agv_motion.files.unfinished import beside
-from agv_motion.reprocess import provenance
+from agv_motion.reprocess import provenance, wiring
 from agv_motion.reprocess.bag_clock import BagClock
 from agv_motion.reprocess.recorded import node_class, parameters
 from agv_motion.reprocess.transcript import TOGETHER, Transcript
@@ -37,7 +37,7 @@ class Plan(NamedTuple):
     config: str
     """YAML file of parameters, as the nodes take it live"""
     nodes: tuple[str, ...]
-    """in the order in which they start"""
+    """in the order in which they start; an arbiter only where one was recorded"""
     remap: tuple[tuple[str, str], ...]
     """names of topics, relative ones in the namespace: as a node has it, as the bag has it"""
     compression: str
@@ -130,8 +130,9 @@ def _played(
         clock = BagClock(bag)
         graph = InProcessGraph(transcript.record, clock.start)
         graph.recorded, graph.takes_rows = bag.topics, True
-        for name in plan.nodes:
-            InProcessNode(graph, node_class(name), given[name], plan.names(), plan.namespace)
+        for name in wiring.nodes_for(plan.nodes, bag.topics, plan.namespace):
+            names = wiring.names_for(name, bag.topics, plan.namespace, plan.names())
+            InProcessNode(graph, node_class(name), given[name], names, plan.namespace)
         graph.start()
         inputs, heard = graph.inputs(), 0
         wanted = sorted((inputs | clock.topics) & set(bag.topics))

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 LIVE_ONLY = {'bag_player', 'bag_recorder'}
 """nodes that are nothing without a graph"""
 
-FILES = {'granier_probe': 'state_file', 'motion_generator': 'memory_file'}
-"""parameter that names what a robot has learnt: it stays untouched"""
+FILES = {
+    'arbiter': 'state_file', 'granier_probe': 'state_file', 'motion_generator': 'memory_file',
+}  # fmt: skip
+"""parameter that names what a robot has learnt, or what holds it: that stays untouched"""
 
 
 def node_class(name: str) -> Any:

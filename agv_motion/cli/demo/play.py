@@ -27,11 +27,15 @@ def begun() -> Console:
 
 def play(scenario: Scenario[Any], output: Path, console: Console, *, live: bool = True) -> None:
     """Run a scenario, and leave its bag and its figure in ``output``; exits with 1 if it failed."""
+    from agv_motion.demo.arbitrated import held
     from agv_motion.demo.frame import Demo
 
     figure = output / scenario.figure
+    scenario.state = output.resolve()
     with results(output, scenario.figure) as bag:
         with Demo(scenario, bag) as demo:
+            for notice in held(demo.graph.nodes):
+                console.print(notice)
             demo.run(console, live=live)
         word = scenario.last_word(demo)
         if word:

@@ -18,7 +18,7 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from agv_motion.reprocess.one_bag import Plan, ReprocessOutcome
 
-NODES = ('granier_probe', 'motion_generator', 'wheel_kinematics')
+NODES = ('granier_probe', 'motion_generator', 'arbiter', 'wheel_kinematics')
 
 
 def reprocess(
@@ -57,6 +57,11 @@ def reprocess(
     agv bag diff before after
     agv reprocess recordings/2015 results/2015 --workers 8
     agv reprocess walk again --nodes wheel_kinematics
+    agv reprocess walk again --nodes arbiter
+
+    The arbiter is left out of what was recorded without one. Where there was one, what
+    motion_generator says goes to cmd_vel/agent as it did then, that of ghost_trajectory to
+    cmd_vel/page, of route_follower to cmd_vel/route, of sequence to cmd_vel/sequence.
     """
     *sources, target = bags
     if not sources:
