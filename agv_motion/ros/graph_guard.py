@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 
+PAST_THE_ARBITER = '; where there is an arbiter, remap all others to cmd_vel/agent or the like'
+"""What to do about those who drive past it."""
+
+
 class GraphGuard:
     """Watches the topics of one node, and acts upon what it finds."""
 
@@ -79,6 +83,7 @@ class GraphGuard:
         """Log what is new."""
         crowds = {
             f'{who} all publish {topic}: let one of them at a time, or all are obeyed in turn'
+            + PAST_THE_ARBITER * (topic == 'cmd_vel')
             for topic, who in self._watch.crowds().items()
         }
         now_true = frozenset((*self.faults(), *crowds))

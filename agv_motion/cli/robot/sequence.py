@@ -46,8 +46,9 @@ def sequence(
 ) -> None:
     """Perform a sequence of actions: go_to, rotate, arc, follow_route, wait.
 
-    Waits for `odom`, plans everything from there, and drives by `cmd_vel`; Ctrl-C brakes and ends
-    it. The exit status is 0 when all was done. More arguments go to ROS.
+    Waits for `odom`, plans everything from there, and drives by `cmd_vel`, or by
+    `cmd_vel/sequence` where the robot has an arbiter; Ctrl-C brakes and ends it. The exit status
+    is 0 when all was done. More arguments go to ROS.
 
     For example:
 

@@ -32,6 +32,8 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
+    from agv_motion.arbitration import TwistSource
+    from agv_motion.cli.robot.source_topic import arguments_for
     from agv_motion.nodes.sequence import SequenceNode
     from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, spin, start
@@ -43,7 +45,11 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     )
     try:
         stop = Stop()
-        node = LiveNode(SequenceNode, parameter_overrides=overrides(file=file, autorun=True))
+        node = LiveNode(
+            SequenceNode,
+            parameter_overrides=overrides(file=file, autorun=True),
+            cli_args=arguments_for(TwistSource.SEQUENCE, '_agv_sequence'),
+        )
         start(node)
         console = terminal(stderr=True)
         columns = (TextColumn('{task.description}', markup=False), BarColumn(), TimeElapsedColumn())

@@ -8,7 +8,11 @@ import pytest
 
 pytest.importorskip('rclpy')
 
+from agv_motion.arbitration import TwistSource
 from agv_motion.cli.robot.sequence_keys import keys
+from agv_motion.nodes.arbiter import ArbiterNode
+from agv_motion.ros.live_node import LiveNode
+from agv_motion.ros.run import start
 from agv_motion.sequence.sequence_file import ACTIONS
 
 LONG = 'actions: [{go_to: {x: 50, y: 0, heading: 0}}]'
@@ -54,6 +58,23 @@ def test_it_drives_a_robot_on_the_graph(agv, real_time_robot, tmp_path):
     assert out.splitlines()[-1] == 'done'
     assert robot.pose[:2] == pytest.approx((0.3, 0.1), abs=0.03)
     assert not any(robot.commands[-1])
+
+
+def test_where_there_is_an_arbiter_it_drives_as_the_source_sequence(agv, real_time_robot, tmp_path):
+    file = tmp_path / 'm.yaml'
+    file.write_text('actions:\n  - go_to: {x: 0.2, y: 0, heading: 0, speed: 1}\n')
+    robot = real_time_robot()
+    arbiter = agv.graph.add(LiveNode(ArbiterNode, context=agv.graph.context))
+    start(arbiter)
+    process = agv.start('sequence', file)
+    robot.find()
+    drives = TwistSource.SEQUENCE
+    agv.graph.spin_until(lambda: arbiter.plain.diagnose().values['driver'] == drives.value)
+    agv.graph.spin_until(lambda: process.poll() is not None)
+    out, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert out.splitlines()[-1] == 'done'
+    assert robot.pose[:2] == pytest.approx((0.2, 0.0), abs=0.03)
 
 
 def test_interrupted_it_brakes_and_fails(agv, real_time_robot, tmp_path):
