@@ -70,6 +70,24 @@ class Cause(Enum):
     """nobody has told it what to do"""
 
 
+class HeldBy(Enum):
+    """Who or what holds the wheels of a robot, as the node that commands them tells (`held by`)."""
+
+    NOBODY = 'nobody'
+    PERSON = 'person'
+    """by ~/stop"""
+    ARBITER = 'arbiter'
+    """it tells them to stand: a STOP holds, or a dead-man was let go"""
+    FIGHT = 'fight'
+    """turrets pull against each other"""
+    ENCODERS = 'encoders'
+    """they are silent"""
+    ANGLES = 'angles'
+    """of a turret cannot be believed"""
+    BLOCKED = 'blocked'
+    """wheels do not turn though told to"""
+
+
 class Doing(NamedTuple):
     """What a robot does, in words and for programs."""
 

@@ -20,6 +20,7 @@ app = typer.Typer(
             'topic': 'topic.group:app',
             'nodes': 'nodes.group:app',
             'drive': 'robot.drive:app',
+            'why': 'robot.why:why',
             'run': 'nodes.group:run_app',
             'parameters': 'nodes.parameters:parameters',
             'route': 'robot.route:route',

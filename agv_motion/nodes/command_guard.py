@@ -11,6 +11,7 @@ from geometry_msgs.msg import Twist as TwistMessage
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
+from agv_motion.activity import HeldBy
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import require_frame, twist_of
@@ -72,6 +73,7 @@ class CommandGuard:
         """Why nobody knows what the wheels do; empty if somebody does, or never did"""
         self.stopped_by = ''
         """Why the wheels stand until a person releases them; empty if they need not"""
+        self._stopper = HeldBy.NOBODY
         self.standstill = False
         """Whether the arbiter lets them stand; false for ever where there is none"""
         self._port, self._wheels, self._frame = port, wheels, given.base_frame
@@ -89,9 +91,23 @@ class CommandGuard:
         """Why the wheels are held; empty if they are not."""
         return self.stopped_by or (STANDSTILL if self.standstill else self.blind)
 
-    def stop_for(self, reason: str) -> None:
+    @property
+    def held_by(self) -> HeldBy:
+        """What the `reason` goes back to, for programs."""
+        if self.stopped_by:
+            return self._stopper
+        if self.standstill:
+            return HeldBy.ARBITER
+        return HeldBy.ENCODERS if self.blind else HeldBy.NOBODY
+
+    def values(self) -> dict[str, str]:
+        """Return for the diagnostics what holds the wheels, and how their encoders speak."""
+        encoders = self.state.silence().value if self.state.spoken else 'never heard'
+        return {'held by': self.held_by.value, 'encoders': encoders}
+
+    def stop_for(self, reason: str, stopper: HeldBy) -> None:
         """Hold the wheels until a person releases them by `~/stop`."""
-        self.stopped_by = reason
+        self.stopped_by, self._stopper = reason, stopper
         self._wheels.stand()
 
     def judge(self) -> None:
@@ -130,7 +146,7 @@ class CommandGuard:
 
     def _on_stop(self, request: Any) -> str:
         if request.data:
-            self.stop_for('by request')
+            self.stop_for('by request', HeldBy.PERSON)
             return 'stopped; call again with data: false to drive on'
         self.stopped_by = ''
         self._wheels.start_anew()

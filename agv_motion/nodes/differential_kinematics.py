@@ -52,6 +52,7 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         """Tell of a stop and of silence."""
         silence, stopped = self.guard.command.silence(), self.why_stopped()
         values = {'cmd_vel': silence.value, 'odometry': self.states.last_step.value}
+        values |= self.held_values()
         if stopped:
             return Diagnosis(ERROR, stopped, values)
         if self.standing:

@@ -13,6 +13,7 @@ from std_srvs.srv import Trigger
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
+from agv_motion.probe.condition import ProbeConditions
 from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
@@ -86,7 +87,8 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         self._probes = [Probe(given.probe) for _ in range(given.probes())]
         self._chosen = [int(name.removeprefix('probe_')) - 1 for name in given.assign]
         self._readings: list[ProbeReading | None] = [None] * len(self._probes)
-        self._read_at = 0.0
+        self._conditions = ProbeConditions(given.assign, len(self._probes))
+        self._read_at = port.seconds()
         self._max_age = given.max_age or max(3.0 * self._source.period, 5.0 / given.rate)
         self._doubt = _doubt(self._chosen[0], None)
         self._why_invalid: str | None = None
@@ -127,6 +129,9 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             f'sap flow {_shown(reading.sap_flow, "{:.2f}")}'
             for i, reading in enumerate(self._readings)
         }
+        values |= self._conditions.values(self._readings)
+        values['source silent [s]'] = f'{self._silence(self.port.seconds()):.1f}'
+        values['source silent limit [s]'] = f'{self._max_age:.1f}'
         if self._why_invalid:
             return Diagnosis(WARN, f'resting: {self._why_invalid}', values)
         return Diagnosis(OK, 'all probes believable', values)
@@ -142,13 +147,18 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         if complaint:
             self.port.refuse(complaint)
         why = self._doubt
-        if abs(seconds - self._read_at) > self._max_age and not why:
-            why = f'no reading for {seconds - self._read_at:.0f} s (limit {self._max_age:.0f} s)'
+        silence = self._silence(seconds)
+        if silence > self._max_age and not why:
+            why = f'no reading for {silence:.0f} s (limit {self._max_age:.0f} s)'
         if why != self._why_invalid:
             self._tell_validity(why)
         if not why:
             self.port.stamp(self._message)  # believed now, whenever it was read
             self._sap_flow.publish(self._message)
+
+    def _silence(self, now: float) -> float:
+        """Return how long the source has said nothing [s]."""
+        return abs(now - self._read_at)
 
     def _learn(self, now: float) -> None:
         """Learn from the history of the source; at the first tick, when the clock is known."""
@@ -168,6 +178,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
                 message.header.stamp = self._message.header.stamp
                 message.header.frame_id = f'probe_{i + 1}'
                 self._raw[i].publish(message)
+        self._conditions.update(now, self._readings)
         self._doubt = ''
         for i, axis in zip(self._chosen, ('x', 'y', 'z'), strict=True):
             reading = self._readings[i]

@@ -97,6 +97,7 @@ class Localization(PlainNode[LocalizationParameters]):
         health = self._fusion.health()
         values = {
             'state': health.state.name.lower(),
+            'odom': self._odom_watch.silence().value,
             'position deviation [m]': f'{health.position_deviation:.3f}',
             'heading deviation [rad]': f'{health.heading_deviation:.4f}',
             'since the last good fix [s]': f'{health.since_fix:.1f}',

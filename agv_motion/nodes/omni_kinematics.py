@@ -77,7 +77,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
             'odometry': self.states.last_step.value,
             'residual [m/s]': f'{self._odometry.reckoning.residual:.5f}',
             'wheels left out': ', '.join(self._names(self._odometry.left_out)) or 'none',
-        }
+        } | self.held_values()
         if stopped:
             return Diagnosis(ERROR, stopped, values)
         if self._odometry.left_out:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import Trigger
 
+from agv_motion.activity import HeldBy
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering import Limiter, SteeringController
 from agv_motion.nodes.command_guard import CommandGuard
@@ -92,7 +93,9 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
             'limited by': self._limiter.value,
-        }
+        } | self._guard.values()
+        if not self._guard.reason and self._driving.unbelievable:
+            values['held by'] = HeldBy.ANGLES.value
         if (setpoints := self._driving.setpoints) is not None:
             turns = max(setpoints.angles, key=abs) / (2.0 * pi)
             values['furthest turn of a turret'] = f'{turns:.2f}'
@@ -225,7 +228,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
                 f'{fight}, limit {self.parameters.residual_stop} m/s: stopped; '
                 'look at the turrets, then call ~/stop with data: false'
             )
-            self._guard.stop_for(fight)
+            self._guard.stop_for(fight, HeldBy.FIGHT)
 
 
 def main() -> None:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from agv_motion.activity import HeldBy
 from agv_motion.kinematics.twist_ramp import TwistRamp
 from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.command_guard import CommandGuard
@@ -119,6 +120,13 @@ class WheelsNode(PlainNode[P]):
     def why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""
         return f'stopped: {self.guard.reason}' if self.guard.reason else self._blocked.reason
+
+    def held_values(self) -> dict[str, str]:
+        """Return for the diagnostics what holds the wheels, and how their encoders speak."""
+        values = self.guard.values()
+        if not self.guard.reason and self._blocked.reason:
+            values['held by'] = HeldBy.BLOCKED.value
+        return values
 
     # cmd_vel -> wheels/command
 

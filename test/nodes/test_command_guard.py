@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
+from agv_motion.activity import HeldBy
 from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.input_parameters import DrivenParameters
 from agv_motion.planar import REST, Twist
@@ -223,7 +224,7 @@ def test_a_request_and_a_standstill_are_released_each_by_itself():
 
 def test_a_reason_of_the_node_holds_as_a_request_does():
     trial = Trial()
-    trial.cart.guard.stop_for('turrets fight')
+    trial.cart.guard.stop_for('turrets fight', HeldBy.FIGHT)
     trial.twist(0.05)
     assert trial.clear() == [(0.0, 'stand'), (0.05, 'hold')]
     assert trial.cart.guard.reason == 'turrets fight'
