@@ -49,6 +49,9 @@ class DashboardParameters:
     state_folder: Annotated[
         str, Spec('where users, marks and saved parameters are kept; empty: of the user, by XDG')
     ] = ''
+    bag: Annotated[
+        str, Spec('folder of the bag that is being recorded, to look back into; empty: none')
+    ] = ''
     robots: Annotated[tuple[str, ...], Spec('names of those that are shown; empty: all')] = ()
 
     def __post_init__(self) -> None:
@@ -92,7 +95,7 @@ class Dashboard(PlainNode[DashboardParameters]):
             raise ConfigurationError(msg) from error
         given = self.parameters
         self.fleet.look()
-        self.site = opened(self.fleet, given.host, given.state_folder)
+        self.site = opened(self.fleet, given.host, given.state_folder, given.bag)
         listener = listening(given.host, given.port, next_free=given.next_free_port)
         page = application(self.site, given.names)
         self.server = WebServer(page, listener, given.certificate, given.key)

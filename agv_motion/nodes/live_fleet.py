@@ -54,6 +54,8 @@ class LiveFleet:
         self._shapes: dict[str, float] = {}
         """when each robot is to be asked for its shape again [s, steady]"""
         self._listener = RobotListener(port, board, only)
+        self._acts.clock = lambda: self._listener.simulated_time() or port.nanoseconds()
+        self._acts.factor = lambda: 1.0 if board.factor is None else max(board.factor, 0.0)
         self._asked: deque[Callable[[], None]] = deque()
         self._drives: dict[str, tuple[Twist, float]] = {}
         """newest of each robot, and when it was [s, steady]"""

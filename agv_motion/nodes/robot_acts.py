@@ -55,6 +55,8 @@ class RobotActs:
         """namespaces whose kinematics were stopped, as their arbiter did not answer"""
         self.clock: Callable[[], int] = port.nanoseconds
         """returns the time of the robots' clock [ns]"""
+        self.factor: Callable[[], float] = lambda: 1.0
+        """returns how many seconds pass there in one"""
 
     def prepare(self, robot: str) -> None:
         """Open the topics of a robot, so that who listens has been found when they are needed."""
@@ -81,7 +83,7 @@ class RobotActs:
 
     def drive(self, robot: str, twist: Twist, age: float) -> None:
         """Publish a twist of a person's hand, stamped with when the hand moved."""
-        moment = max(self.clock() - round(age * SECOND), 0)
+        moment = max(self.clock() - round(age * self.factor() * SECOND), 0)
         self._publish_twist(f'{namespace_of(robot)}/cmd_vel/manual', twist, moment)
 
     # Acts: each takes namespace, arguments and where the answer goes

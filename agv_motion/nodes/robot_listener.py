@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from struct import Struct
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.dashboard.core.names import (
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from agv_motion.dashboard.core.board import Board
     from agv_motion.ros.live_port import LivePort
 
+_TIME = Struct('<iI'), Struct('>iI')
 DEPTHS = {'diagnostics': 60, 'reservations': 30}
 """messages that are kept of topics on which many speak"""
 
@@ -56,6 +58,7 @@ class RobotListener:
         port.close_later(self._listeners.close)
         self._topics: dict[str, _Topic] = {}
         self._passed_over: set[str] = set()
+        self._clock: int | None = None
 
     @property
     def robots(self) -> list[str]:
@@ -76,11 +79,22 @@ class RobotListener:
             if not robot or robot in self._board.robots:
                 self._meet(topic, robot, relative, types)
 
+    def simulated_time(self) -> int | None:
+        """Return what a simulation tells on `/clock` now [ns]; None where time is real."""
+        clock = self._topics.get('/clock')
+        if clock is None or not clock.publishers:
+            return None
+        for data in clock.subscription.take():
+            self._clock = _nanoseconds(data)
+        return self._clock
+
     def take(self, now: float) -> None:
         """Hand on what has come, as of ``now`` [s] on the clock of the board."""
         receive = self._board.receive
         for topic in self._topics.values():
             for data in topic.subscription.take():
+                if topic.relative == 'clock':
+                    self._clock = _nanoseconds(data)
                 receive(topic.robot, topic.relative, now, data, topic.decode)
 
     def close(self) -> None:
@@ -141,3 +155,9 @@ class RobotListener:
     def _pass_over(self, topic: str, why: str) -> None:
         self._passed_over.add(topic)
         self._port.warning(f'{topic} is not shown: it {why}')
+
+
+def _nanoseconds(clock: bytes) -> int:
+    """Return the time in a rosgraph_msgs/Clock [ns]."""
+    seconds, rest = _TIME[not clock[1] & 1].unpack_from(clock, 4)
+    return int(seconds) * 1_000_000_000 + int(rest)

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.ros.stop import end_at_once
 
-app = typer.Typer(cls=lazy_group({'user': 'dashboard.user:app'}))
+_Commands = lazy_group({'user': 'dashboard.user:app', 'bag': 'dashboard.bag:bag'})
+
+
+class _Group(_Commands):  # type: ignore[misc, valid-type] # made by a function
+    """Takes what is no command for the bag that is to be shown."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        if args and args[0] not in self.list_commands(ctx):
+            args = ['bag', *args]
+        return super().resolve_command(ctx, args)
+
+
+app = typer.Typer(cls=_Group)
 
 
 @app.callback(invoke_without_command=True)
@@ -25,6 +37,7 @@ def dashboard(
     certificate: Annotated[str, typer.Option(help='File of a certificate (PEM), for TLS.')] = '',
     key: Annotated[str, typer.Option(help='File of its key.')] = '',
     state_folder: Annotated[str, typer.Option(help='Where users and marks are kept.')] = '',
+    bag: Annotated[str, typer.Option(help='Being recorded, to look back into.')] = '',
     next_free_port: Annotated[
         bool, typer.Option('--next-free-port', help='Take the next port where this is taken.')
     ] = False,
@@ -36,6 +49,8 @@ def dashboard(
     agv dashboard
 
     agv dashboard --port 8081 --robots oak,ash
+
+    agv dashboard walk_of_monday        # a bag, without ROS
 
     agv dashboard user add anna --role operator
 
@@ -49,6 +64,7 @@ def dashboard(
     given: dict[str, object] = {'port': port, 'next_free_port': str(next_free_port).lower()}
     texts = {
         'host': host, 'certificate': certificate, 'key': key, 'state_folder': state_folder,
+        'bag': bag,
     }  # fmt: skip
     given |= {option: json.dumps(value) for option, value in texts.items() if value}
     for option, value in (('robots', robots), ('names', name)):

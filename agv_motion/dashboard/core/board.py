@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.dashboard.core import conversions
 from agv_motion.dashboard.core.entry import Entry
 from agv_motion.dashboard.core.health import health
-from agv_motion.dashboard.core.names import MOST_ROBOTS, robot_of
+from agv_motion.dashboard.core.names import FIELDS, MOST_ROBOTS, robot_of, type_of
 from agv_motion.dashboard.core.numbers import finite
-from agv_motion.dashboard.core.robot_state import RobotState
+from agv_motion.dashboard.core.robot_state import NodeWord, RobotState
 from agv_motion.dashboard.core.slots import SLOTS, Slot
 from agv_motion.dashboard.core.summary import summary
 
@@ -87,7 +87,7 @@ class Board:
             decode: Makes a message of the bytes; may raise whatever it likes.
 
         """
-        entry = Entry(at, data, decode)
+        entry = Entry(at, data, decode, FIELDS.get(type_of(topic), ()))
         if robot:
             found = self.robot(robot)
             if found is not None:
@@ -209,7 +209,9 @@ class Board:
             namespace, _, name = told['name'].rpartition('/')
             robot = self.robots.get(robot_of(namespace))
             if robot is not None and (name in robot.nodes or len(robot.nodes) < MOST_NAMES):
-                robot.nodes[name] = entry.at, told
+                before = robot.nodes.get(name)
+                period = 0.0 if before is None else max(entry.at - before.at, 0.0)
+                robot.nodes[name] = NodeWord(entry.at, told, period)
 
     def _note_reservation(self, entry: Entry) -> None:
         markers = getattr(entry.message, 'markers', ())

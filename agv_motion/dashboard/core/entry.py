@@ -15,27 +15,33 @@ _NOTHING: Any = object()
 class Entry:
     """A message, as it came: bytes with what decodes them, or an object."""
 
-    __slots__ = ('_data', '_decode', '_message', 'at', 'number')
+    __slots__ = ('_data', '_decode', '_message', '_needs', 'at', 'number')
 
-    def __init__(self, at: float, data: Any, decode: Callable[[Any], Any] | None = None) -> None:
+    def __init__(
+        self, at: float, data: Any, decode: Callable[[Any], Any] | None = None,
+        needs: tuple[str, ...] = (),
+    ) -> None:  # fmt: skip
         """Keep a message.
 
         Args:
             at: When it came [s], on the clock of the board.
             data: The message, or its bytes.
             decode: Makes a message of ``data``; None where it is one.
+            needs: Fields without which it is no message.
 
         """
-        self.at, self._data, self._decode = at, data, decode
+        self.at, self._data, self._decode, self._needs = at, data, decode, needs
         self.number = next(_numbers)
         """greater than that of every message that came before"""
         self._message: Any = _NOTHING
 
     @property
     def message(self) -> Any:
-        """The message; None if it cannot be decoded."""
+        """The message; None if it cannot be decoded, or is none."""
         if self._message is _NOTHING:
-            self._message = self._decoded()
+            found = self._decoded()
+            whole = all(hasattr(found, field) for field in self._needs)
+            self._message = found if whole else None
             self._data = self._decode = None
         return self._message
 

@@ -47,6 +47,26 @@ SHARED = {
 }
 """Topics that all robots share, in the root namespace."""
 
+FIELDS = {
+    POSE: ('header', 'pose'),
+    JOINTS: ('name', 'position', 'velocity'),
+    TEXT: ('data',),
+    'nav_msgs/msg/Odometry': ('twist',),
+    'geometry_msgs/msg/TwistStamped': ('twist',),
+    'geometry_msgs/msg/PoseStamped': ('pose',),
+    'nav_msgs/msg/Path': ('poses',),
+    'diagnostic_msgs/msg/DiagnosticStatus': ('level', 'name', 'message', 'values'),
+    'std_msgs/msg/Bool': ('data',),
+    'diagnostic_msgs/msg/DiagnosticArray': ('status',),
+    'geometry_msgs/msg/Vector3Stamped': ('header', 'vector'),
+    'sensor_msgs/msg/Temperature': ('temperature',),
+    'nav_msgs/msg/OccupancyGrid': ('info', 'data'),
+    'sensor_msgs/msg/Illuminance': ('header', 'illuminance'),
+    'rosgraph_msgs/msg/Clock': ('clock',),
+    'visualization_msgs/msg/MarkerArray': ('markers',),
+}
+"""What a message of each type has at least; one that has not is none."""
+
 SIGNS = ('driver', 'turrets/state', 'turrets/command', 'wheels/state', 'wheels/command', 'odom')
 """Who speaks on one of these is a robot."""
 

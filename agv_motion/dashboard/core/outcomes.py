@@ -73,7 +73,9 @@ def _is_measured(robot: RobotState, since: float) -> bool:
 
 
 def _has_told(robot: RobotState, since: float) -> bool:
-    return any(at > since and told['values'].get('activity') for at, told in robot.nodes.values())
+    return any(
+        node.at > since and node.told['values'].get('activity') for node in robot.nodes.values()
+    )
 
 
 def _is_locked(robot: RobotState, since: float) -> bool | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.dashboard.core import conversions
 from agv_motion.dashboard.core.trail import DayChart, Trail
@@ -12,9 +12,27 @@ if TYPE_CHECKING:
 
 MEASURED = ('turrets/state', 'wheels/state', 'odom', 'pose')
 """What a robot measures all the time, moving or not"""
+NODE_OLD = 5.0
+"""[s] after which the word of a node counts no more: each speaks once a second"""
+LONGEST_PERIOD = 60.0
+"""[s] A node that speaks less often is old between two words."""
 STILL = 1e-3
 """[m/s] A wheel that is slower stands: encoders have noise."""
 PROBES = 9
+
+
+class NodeWord(NamedTuple):
+    """What a node said last of itself."""
+
+    at: float
+    """when that was [s]"""
+    told: dict[str, Any]
+    period: float = 0.0
+    """after how long it had spoken again [s]: in a bag of simulated time that may be a minute"""
+
+    def is_old(self, now: float) -> bool:
+        """Return whether it counts no more at a time [s]."""
+        return now - self.at > max(NODE_OLD, 3.0 * min(self.period, LONGEST_PERIOD))
 
 
 class RobotState:
@@ -25,8 +43,8 @@ class RobotState:
         self.name = name
         self.latest: dict[str, Entry] = {}
         """newest message by relative topic"""
-        self.nodes: dict[str, tuple[float, dict[str, Any]]] = {}
-        """what each of its nodes said last of itself, and when [s]"""
+        self.nodes: dict[str, NodeWord] = {}
+        """what each of its nodes said last of itself"""
         self.platform: dict[str, Any] = {}
         """its shape in its own frame, where somebody has told it"""
         self.platform_number = 0

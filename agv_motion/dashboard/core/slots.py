@@ -72,7 +72,7 @@ def _goal(robot: RobotState) -> Value | None:
     found = _made(robot, 'goal', conversions.goal)
     if found is None:
         return None
-    reasons = (told['values'].get('goal', '') for _, told in robot.nodes.values())
+    reasons = (node.told['values'].get('goal', '') for node in robot.nodes.values())
     return found | {'reason': next((text_of(reason) for reason in reasons if reason), '')}
 
 
@@ -113,8 +113,9 @@ PROBE_TOPICS = tuple(f'granier/probe_{i}/temperature_difference' for i in range(
 def _probes(robot: RobotState) -> Value | None:
     flows = (_sap_flow(robot) or {}).get('s', [])
     texts: dict[str, str] = {}
-    for _, told in robot.nodes.values():
-        texts |= {key: text for key, text in told['values'].items() if key.startswith('probe_')}
+    for node in robot.nodes.values():
+        values = node.told['values']
+        texts |= {key: text for key, text in values.items() if key.startswith('probe_')}
     rows = []
     for i, topic in enumerate(PROBE_TOPICS):
         message, name = robot.message(topic), f'probe_{i + 1}'

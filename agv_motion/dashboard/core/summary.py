@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 OLD = 2.0
 """[s] after which what was measured is old"""
-NODE_OLD = 5.0
-"""[s] after which the word of a node counts no more"""
 GREEN, YELLOW, RED = 'green', 'yellow', 'red'
 COLOURS = {
     'walking': GREEN, 'turning': GREEN, 'resting': GREEN, 'closed': GREEN, 'driven': GREEN,
@@ -42,7 +40,6 @@ def summary(robot: RobotState, now: float) -> dict[str, Any]:
     found = _found(robot, driver, now)
     if found.word != robot.word:
         robot.word, robot.word_since = found.word, now
-    still = robot.message('standstill')
     return {
         'kind': robot.kind,
         'colour': found.colour,
@@ -50,7 +47,7 @@ def summary(robot: RobotState, now: float) -> dict[str, Any]:
         'sentence': found.sentence,
         'moving': robot.moves(),
         'stopped': bool(driver['stop']),
-        'standstill': None if still is None else bool(still.data),
+        'standstill': robot.stands(),
         'driver': driver['driver'],
         'since': round(robot.word_since, 2),
     }
@@ -100,9 +97,9 @@ def _activity(robot: RobotState, driver: dict[str, Any], now: float) -> _Found:
 
 def activity(robot: RobotState, now: float) -> str:
     """Return the word of the motion generator for what it does; empty if none is known."""
-    for at, told in robot.nodes.values():
-        word = told['values'].get('activity', '')
-        if word and now - at < NODE_OLD:
+    for node in robot.nodes.values():
+        word = node.told['values'].get('activity', '')
+        if word and not node.is_old(now):
             return text_of(word, 40)
     return ''
 
@@ -127,10 +124,10 @@ def worst_node(robot: RobotState, now: float) -> tuple[str, str]:
     """Return the worst level among the nodes of a robot, and what that node says."""
     order = ['OK', 'WARN', 'STALE', 'ERROR']
     worst, sentence = 'OK', ''
-    for at, told in robot.nodes.values():
-        level = told['level'] if now - at < NODE_OLD else 'STALE'
+    for node in robot.nodes.values():
+        level = 'STALE' if node.is_old(now) else node.told['level']
         if order.index(level) > order.index(worst) or not sentence:
-            worst, sentence = level, told['message']
+            worst, sentence = level, node.told['message']
     return worst, sentence
 
 

@@ -17,6 +17,7 @@ from agv_motion.dashboard.server.doors import doors
 from agv_motion.dashboard.server.drive import drive
 from agv_motion.dashboard.server.gate import Gate
 from agv_motion.dashboard.server.ground import ground_doors
+from agv_motion.dashboard.server.history import history_doors, keep_told, look_back
 from agv_motion.dashboard.server.live import Client
 from agv_motion.dashboard.server.login import login_doors
 from agv_motion.dashboard.server.marks import mark_doors
@@ -54,15 +55,16 @@ def application(
 
     @asynccontextmanager
     async def life(_: Starlette) -> AsyncIterator[None]:
-        running = asyncio.create_task(site.hub.run())
+        running = [asyncio.create_task(one) for one in (site.hub.run(), keep_told(site))]
         yield
-        running.cancel()
-        with suppress(asyncio.CancelledError):
-            await running
+        for task in running:
+            task.cancel()
+            with suppress(asyncio.CancelledError):
+                await task
 
     routes = [
         *_pages(site), *doors(site), *parameter_doors(site), *ground_doors(site),
-        *mark_doors(site), *login_doors(site), *_sockets(site),
+        *mark_doors(site), *history_doors(site), *login_doors(site), *_sockets(site),
     ]  # fmt: skip
     if STATIC.is_dir():
         routes.append(Mount('/static', StaticFiles(directory=STATIC)))
@@ -119,7 +121,10 @@ def _sockets(site: Site) -> list[WebSocketRoute]:
             public=public, address=address,
             welcome=lambda: public or site.access.visitor(socket) == visitor,
         )  # fmt: skip
-        await site.hub.serve(socket, client, hello)
+        if 'at' in socket.query_params or site.recorded:
+            await look_back(site, socket, client, hello)
+        else:
+            await site.hub.serve(socket, client, hello)
 
     async def hand(socket: WebSocket) -> None:
         await drive(site, socket)

@@ -44,6 +44,8 @@ def begun(
         RequestError: There is no robot, or too much is under way.
 
     """
+    if asked.site.recorded:
+        raise RequestError(409, 'this is a recording: nothing can be done in it')
     acts = asked.site.acts
     if not robots:
         raise RequestError(409, 'there is no robot')

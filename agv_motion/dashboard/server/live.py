@@ -67,6 +67,29 @@ class Client:
         self.news = asyncio.Event()
         self.said = 0
         """messages since it was last looked whether it is welcome"""
+        self._sent_at = -PATIENCE
+        self._renewed_at = time.monotonic()
+
+    async def listen(self, socket: WebSocket) -> None:
+        """Take what the client says until it leaves; one that floods is sent away."""
+        try:
+            while self.said < MOST_SAID:
+                self.hear(await socket.receive_text())
+            await socket.close(1008, 'too many messages')
+        except (WebSocketDisconnect, RuntimeError, KeyError):
+            return  # it left, or sent what is no text
+
+    def is_due(self) -> bool:
+        """Return whether a frame may go out: the last was acknowledged, or is old."""
+        return self.acknowledged >= self.number or time.monotonic() - self._sent_at >= PATIENCE
+
+    def renew(self) -> bool:
+        """Look now and then whether the client is still welcome."""
+        now = time.monotonic()
+        if now - self._renewed_at < RENEWAL:
+            return True
+        self._renewed_at, self.said = now, 0
+        return self.welcome()
 
     def hear(self, text: str) -> None:
         """Take what the client says: an acknowledgement, or what it wants; all else is let be."""
@@ -111,6 +134,7 @@ class Client:
         if not updates:
             return ''
         self.number += 1
+        self._sent_at = time.monotonic()
         return (
             f'{{"kind":"frame","n":{self.number},"now":{now:.3f},"updates":[{",".join(updates)}]}}'
         )
@@ -178,18 +202,13 @@ class Hub:
         client.news.set()
         sending = asyncio.create_task(self._send(socket, client))
         try:
-            while client.said < MOST_SAID:
-                client.hear(await socket.receive_text())
-            await socket.close(1008, 'too many messages')
-        except (WebSocketDisconnect, RuntimeError, KeyError):
-            return  # it left, or sent what is no text
+            await client.listen(socket)
         finally:
             self.clients.discard(client)
             sending.cancel()
 
     async def _send(self, socket: WebSocket, client: Client) -> None:
         """Send frame after frame, each only when the last one has been acknowledged, or is old."""
-        sent_at, welcomed_at = -PATIENCE, time.monotonic()
         try:
             while True:
                 await client.news.wait()
@@ -197,17 +216,11 @@ class Hub:
                 outcomes, client.outcomes = client.outcomes, []
                 for outcome in outcomes:
                     await socket.send_text(outcome)
-                now = time.monotonic()
-                if now - welcomed_at > RENEWAL:
-                    welcomed_at, client.said = now, 0
-                    if not client.welcome():
-                        await socket.close(4401, 'the session has ended: log in again')
-                        return
-                if client.acknowledged < client.number and now - sent_at < PATIENCE:
-                    continue
-                frame = client.frame(self.board, self.now())
+                if not client.renew():
+                    await socket.close(4401, 'the session has ended: log in again')
+                    return
+                frame = client.frame(self.board, self.now()) if client.is_due() else ''
                 if frame:
-                    sent_at = now
                     await socket.send_text(frame)
         except (WebSocketDisconnect, RuntimeError, OSError):
             return  # it has left meanwhile

@@ -40,8 +40,8 @@ def marks(site: Site) -> list[dict[str, Any]]:
 def _mark(asked: Asked) -> dict[str, Any]:
     """Keep a mark at the time of the robots, as a bag of them has it, and publish it."""
     site = asked.site
-    if site.store is None:
-        raise RequestError(503, 'nothing is kept here: this page shows a bag')
+    if site.store is None or site.recorded:
+        raise RequestError(409, 'this is a recording: nothing can be done in it')
     words = text(asked.told, 'text', LONGEST, least=1)
     board = site.fleet.board
     at = site.fleet.now() if board.time is None else board.time

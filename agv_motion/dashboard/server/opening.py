@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from agv_motion.dashboard.server.access import Access
+from agv_motion.dashboard.server.history_bag import History
 from agv_motion.dashboard.server.site import Site
 from agv_motion.dashboard.server.store import Store, state_folder
 from agv_motion.dashboard.server.users import Users
@@ -13,13 +15,17 @@ if TYPE_CHECKING:
     from agv_motion.dashboard.server.fleet import Fleet
 
 
-def opened(fleet: Fleet, host: str, folder: str = '') -> Site:
+def opened(
+    fleet: Fleet, host: str, folder: str = '', bag: str = '', *, recorded: bool = False
+) -> Site:
     """Return the page of some robots.
 
     Args:
         fleet: The robots.
         host: Address on which it is served.
         folder: Where the database is; empty: in the state folder of the user.
+        bag: Into which one can look back; empty: none.
+        recorded: Whether there is nothing but that bag.
 
     Raises:
         ConfigurationError: The database cannot be used; or other machines reach the page, and
@@ -28,7 +34,9 @@ def opened(fleet: Fleet, host: str, folder: str = '') -> Site:
     """
     store = Store(state_folder(folder))
     try:
-        return Site(fleet, Access(host, Users(store)), store)
+        history = History(Path(bag), state_folder(folder) / 'bags') if bag else None
+        access = Access(host, Users(store))
+        return Site(fleet, access, store, history, recorded=recorded)
     except BaseException:
         store.close()
         raise

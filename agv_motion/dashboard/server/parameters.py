@@ -73,6 +73,8 @@ class _ParameterDoors:
         return await self._desk.differences(asked.robot, int(number))
 
     def _begin(self, robot: str, node: str, values: dict[str, Any]) -> str:
+        if self._site.recorded:
+            raise RequestError(409, 'this is a recording: nothing can be done in it')
         arguments = {'node': node, 'values': values}
         show = self._desk.show
         return self._site.acts.begin([robot], 'set_parameters', arguments, lambda: show(robot))
