@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -26,12 +27,19 @@ LAYERS = {
 """A module imports from its own folder or from a lower number."""
 
 
+@cache
+def parsed(path):
+    """Return the syntax of a file: its top, and all its imports."""
+    tree = ast.parse(path.read_text())
+    return tree.body, [n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom)]
+
+
 def imports(path):
     """Return the modules that a file imports, those for type checking included."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in parsed(path)[1]:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
+        else:
             assert node.level == 0, f'{path}: relative import'
             yield node.module
 
@@ -74,7 +82,7 @@ def test_no_circle_of_files():
 def test_one_public_class_name_is_one_class():
     where = {}
     for path in files('.'):
-        for node in ast.parse(path.read_text()).body:
+        for node in parsed(path)[0]:
             if isinstance(node, ast.ClassDef) and not node.name.startswith('_'):
                 where.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
     assert {name: paths for name, paths in where.items() if len(paths) > 1} == {}
@@ -88,7 +96,7 @@ def test_there_is_no_circle_of_files():
     graph = {}
     for module, path in known.items():
         graph[module] = set()
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in parsed(path)[1]:
             if isinstance(node, ast.ImportFrom):
                 names = {f'{node.module}.{alias.name}' for alias in node.names}
                 graph[module] |= names & known.keys() or {node.module} & known.keys()

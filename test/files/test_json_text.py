@@ -7,7 +7,7 @@ import time
 from contextlib import suppress
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
@@ -21,6 +21,7 @@ VALUES = st.recursive(
 )  # fmt: skip
 
 
+@settings(max_examples=50)
 @given(VALUES, st.sampled_from([None, 0, 3, '\t']))
 def test_the_same_as_pythons_own(value, indent):
     assert json_text.parse(json.dumps(value, indent=indent), 'f').value == value

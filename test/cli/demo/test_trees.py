@@ -16,7 +16,7 @@ from agv_motion.report.walks import gaps, read_walks
 
 def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     status, out, errors = alone(
-        'demo', 'trees', '--count', 2, '--minutes', 3, '--time-factor', 15, '--output', tmp_path,
+        'demo', 'trees', '--count', 2, '--minutes', 2, '--time-factor', 15, '--output', tmp_path,
         timeout=180.0,
     )  # fmt: skip
     assert status == 0, errors
