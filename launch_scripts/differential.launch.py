@@ -72,6 +72,7 @@ def generate_launch_description() -> LaunchDescription:
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('differential_kinematics', sim_time),
             node('arbiter', sim_time, state),
+            node('why', sim_time),
             *(
                 node(driver, sim_time, *own, remappings=remapped(source))
                 for driver, (source, own) in drivers.items()

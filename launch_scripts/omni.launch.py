@@ -55,6 +55,7 @@ def generate_launch_description() -> LaunchDescription:
         [
             *(DeclareLaunchArgument(n, default_value=d, description=t) for n, d, t in ARGUMENTS),
             node('arbiter', sim_time, state),
+            node('why', sim_time),
             node('omni_kinematics', sim_time),
             node('localization', sim_time),
             node(

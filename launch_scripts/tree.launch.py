@@ -57,6 +57,7 @@ def generate_launch_description() -> LaunchDescription:
             node('granier_probe', sim_time, {'source': value['source']}),
             node('motion_generator', sim_time, remappings=[('cmd_vel', 'cmd_vel/agent')]),
             node('arbiter', sim_time, state),
+            node('why', sim_time),
             node('wheel_kinematics', sim_time),
             node('localization', sim_time),
             node(

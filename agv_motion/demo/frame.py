@@ -17,6 +17,7 @@ from rich.console import Group
 from rich.live import Live
 from rich.progress import Progress
 
+from agv_motion.demo.explained import robots, why_nodes, why_topics
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
@@ -47,6 +48,15 @@ class DemoGraph(NamedTuple):
     topics: Sequence[RecordedTopic]
     others: Sequence[LifecycleNode] = ()
     """nodes that are none of this package's, such as one that drives"""
+
+
+def explained(graph: DemoGraph) -> DemoGraph:
+    """Return a graph with a node `why` beside each robot, told and recorded too."""
+    namespaces = robots(graph.nodes)
+    return graph._replace(
+        nodes=[*graph.nodes, *why_nodes(namespaces)],
+        topics=[*graph.topics, *why_topics(namespaces)],
+    )
 
 
 class LiveView(Protocol):
@@ -122,7 +132,7 @@ class Demo(Generic[R]):
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         self._stop = Stop()
         try:
-            self.graph = self.scenario.build()
+            self.graph = explained(self.scenario.build())
             for node in self.graph.nodes:
                 start(node)
             leader = self.graph.leader.plain

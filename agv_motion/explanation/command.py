@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from agv_motion.explanation.evidence import report_of
 from agv_motion.explanation.link import Level, Link
-from agv_motion.explanation.wheels import SILENT
+from agv_motion.explanation.wheels import DRIVERS, SILENT
 from agv_motion.explanation.words import ago
 
 if TYPE_CHECKING:
@@ -24,17 +22,23 @@ RELEASE = 'release it: on the page, or call arbiter/stop with data: false'
 
 def command_link(evidence: Evidence, now: float) -> Link:
     """Return how `cmd_vel` is, and whether that goes back to a decision of the robot."""
-    message, age = evidence.message('driver'), evidence.age('driver', now)
-    twist, silent = _twist(evidence.message('cmd_vel')), evidence.age('cmd_vel', now)
-    if message is not None and age is not None:
-        return _arbitrated(report_of(message, now - age), age, twist, silent)
+    found = evidence.first(DRIVERS)
+    twist, silent = (None, None) if found is None else _heard(found[1])
+    if (driver := evidence.driver) is not None:
+        return _arbitrated(driver, now - driver.at, twist, silent)
     if silent is None:
         return _nobody('cmd_vel was never heard', 'nobody commands', None)
     if silent > SILENT:
         return _nobody(f'cmd_vel is silent for {ago(silent)}', 'cmd_vel is silent', silent)
-    by = ', '.join(evidence.commanders or ())
-    who = f', from {by}' if by else ''
-    return _told(twist, who, silent)
+    by = ', '.join(evidence.commanders)
+    return _told(twist, f', from {by}' if by else '', silent)
+
+
+def _heard(report: Report) -> tuple[tuple[float, ...] | None, float | None]:
+    """Return the twist that the wheels were told last, and for how long they heard none [s]."""
+    numbers = [report.number(name) for name in ('vx [m/s]', 'vy [m/s]', 'wz [rad/s]')]
+    known = tuple(number for number in numbers if number is not None)
+    return known if len(known) == 3 else None, report.number('cmd_vel age [s]')
 
 
 def _arbitrated(
@@ -92,12 +96,3 @@ def _told(twist: tuple[float, ...] | None, who: str, age: float | None) -> Link:
 
 def _nobody(sentence: str, clause: str, age: float | None) -> Link:
     return Link('cmd_vel', Level.WARN, sentence, clause, 'decision', age=age)
-
-
-def _twist(message: Any) -> tuple[float, ...] | None:
-    """Return vx, vy and wz of a Twist or TwistStamped; None if they are no numbers."""
-    if message is None:
-        return None
-    twist = getattr(message, 'twist', message)
-    numbers = float(twist.linear.x), float(twist.linear.y), float(twist.angular.z)
-    return numbers if all(map(isfinite, numbers)) else None

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 from agv_motion.explanation.command import command_link
 from agv_motion.explanation.decision import decision_link
-from agv_motion.explanation.evidence import report_of
 from agv_motion.explanation.link import Chain, Level, Link, way, worst
 from agv_motion.explanation.pose import pose_link
 from agv_motion.explanation.sap import sap_links
-from agv_motion.explanation.wheels import look, wheels_link
+from agv_motion.explanation.wheels import DRIVERS, STILL, look, wheels_link
 
 if TYPE_CHECKING:
     from agv_motion.explanation.evidence import Evidence
@@ -36,8 +35,8 @@ class Explainer:
         time_zone = 'UTC'
         if (report := evidence.nodes.get('motion_generator')) is not None:
             time_zone = report.values.get('time zone', time_zone)
-        driver = evidence.message('driver')
-        source = '' if driver is None else report_of(driver, now).values.get('driver', '')
+        driver = evidence.driver
+        source = '' if driver is None else driver.values.get('driver', '')
         links = tuple(
             self._dated(link, time)
             for link in (
@@ -52,8 +51,9 @@ class Explainer:
 
     def _ignored(self, evidence: Evidence, now: float) -> float:
         """Return for how long the wheels have stood though told to turn [s]."""
-        seen = look(evidence, now)
-        if not seen.commanded or seen.turning is not False:
+        found = evidence.first(DRIVERS)
+        seen = None if found is None else look(found[1])
+        if seen is None or seen.turning or seen.commanded < STILL:
             self._told_to_turn = None
             return 0.0
         if self._told_to_turn is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from agv_motion.explanation.link import Level, Link
-from agv_motion.explanation.wheels import REPORT_OLD, SILENT
+from agv_motion.explanation.wheels import DRIVERS, REPORT_OLD, SILENT, look
 from agv_motion.explanation.words import ago
 from agv_motion.odometry.fusion_report import FusionState
 from agv_motion.watchdog import Silence
@@ -25,11 +25,9 @@ REMEDIES = {
 
 def pose_link(evidence: Evidence, now: float) -> Link:
     """Return how well the robot knows where it is; by odometry alone where there is no more."""
-    report, age = evidence.nodes.get('localization'), evidence.age('pose', now)
-    if report is None and age is None:
-        return _by_odometry(evidence, now)
+    report = evidence.nodes.get('localization')
     if report is None:
-        return _without_report(age)
+        return _by_odometry(evidence)
     silent = now - report.at
     if silent > REPORT_OLD:
         return Link(
@@ -37,10 +35,10 @@ def pose_link(evidence: Evidence, now: float) -> Link:
             'localization is silent', remedy='see whether localization still runs, and start it',
             age=silent,
         )  # fmt: skip
-    return _told(report, age)
+    return _told(report, silent)
 
 
-def _told(report: Report, age: float | None) -> Link:
+def _told(report: Report, age: float) -> Link:
     remedy = REMEDIES.get(state, '') if (state := _state(report)) is not None else ''
     if report.values.get('odom') == Silence.LOST.value:
         remedy = ENCODERS
@@ -50,11 +48,10 @@ def _told(report: Report, age: float | None) -> Link:
     )
     known = '' if position is None else f', known to {position:.2f} m'
     known += '' if heading is None else f' and {heading:.3f} rad'
-    if age is None or age > SILENT:
-        heard = 'was never told' if age is None else f'is silent for {ago(age)}'
+    if report.values.get('pose told') == 'no':
         why = report.message
         return Link(
-            'pose', Level.ERROR, f'the pose {heard}: {why}', f'no pose: {why}',
+            'pose', Level.ERROR, f'no pose is told: {why}', f'no pose: {why}',
             remedy=remedy or 'look at localization: agv nodes', age=age,
         )  # fmt: skip
     return Link(
@@ -63,20 +60,11 @@ def _told(report: Report, age: float | None) -> Link:
     )  # fmt: skip
 
 
-def _without_report(age: float | None) -> Link:
-    if age is not None and age <= SILENT:
-        return Link('pose', Level.OK, 'the pose is told', 'the pose is told', age=age)
-    silent = '' if age is None else f' for {ago(age)}'
-    return Link(
-        'pose', Level.ERROR, f'the pose is silent{silent}, and nobody tells why',
-        'the pose is silent', remedy='start localization, or whatever tells the pose', age=age,
-    )  # fmt: skip
-
-
-def _by_odometry(evidence: Evidence, now: float) -> Link:
-    age = evidence.age('odom', now)
+def _by_odometry(evidence: Evidence) -> Link:
+    found = evidence.first(DRIVERS)
+    age = None if found is None else look(found[1]).age
     if age is None:
-        return Link('pose', Level.STALE, 'neither pose nor odometry is heard', 'no pose',
+        return Link('pose', Level.STALE, 'neither localization nor odometry is heard', 'no pose',
                     remedy='start the node of the wheels, and localization')  # fmt: skip
     if age > SILENT:
         return Link('pose', Level.ERROR, f'odometry is silent for {ago(age)}',

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import TYPE_CHECKING
 
 from agv_motion.explanation.link import Level, Link
-from agv_motion.explanation.wheels import REPORT_OLD, SILENT
+from agv_motion.explanation.wheels import REPORT_OLD
 from agv_motion.explanation.words import ago, clock
 from agv_motion.probe.condition import LEARNING, NO_READING
 from agv_motion.probe.quality import Quality
@@ -46,31 +45,18 @@ def sap_links(evidence: Evidence, now: float, time: float, time_zone: str) -> li
     """
     report = evidence.nodes.get('granier_probe')
     if report is None:
-        return [_unreported(evidence, now)] if _has_sap(evidence) else []
+        return [_unreported()] if 'motion_generator' in evidence.nodes else []
     probes = list(_probes(report, now, time, time_zone))
-    return [_flow(evidence, report, now, probes), *probes]
+    return [_flow(report, now, probes), *probes]
 
 
-def _has_sap(evidence: Evidence) -> bool:
-    return (
-        any(evidence.message(topic) is not None for topic in ('granier/sap_flow', 'granier/valid'))
-        or 'motion_generator' in evidence.nodes
-    )
+def _unreported() -> Link:
+    return Link('sap flow', Level.STALE, 'no probes are heard', 'no probes are heard',
+                remedy='start granier_probe')  # fmt: skip
 
 
-def _unreported(evidence: Evidence, now: float) -> Link:
-    age = evidence.age('granier/sap_flow', now)
-    if age is not None and age <= SILENT:
-        return Link('sap flow', Level.OK, _values(evidence), 'the sap flow is told', age=age)
-    heard = 'is not heard' if age is None else f'is silent for {ago(age)}'
-    return Link(
-        'sap flow', Level.ERROR, f'the sap flow {heard}', f'the sap flow {heard}',
-        remedy='start granier_probe', age=age,
-    )  # fmt: skip
-
-
-def _flow(evidence: Evidence, report: Report, now: float, probes: list[Link]) -> Link:
-    age, silent = evidence.age('granier/sap_flow', now), now - report.at
+def _flow(report: Report, now: float, probes: list[Link]) -> Link:
+    age = silent = now - report.at
     if silent > REPORT_OLD:
         return Link(
             'sap flow', Level.ERROR, f'granier_probe is silent for {ago(silent)}',
@@ -87,18 +73,17 @@ def _flow(evidence: Evidence, report: Report, now: float, probes: list[Link]) ->
     if report.level is not Level.OK:
         return Link('sap flow', report.level, report.message, report.message,
                     remedy='look at granier_probe: agv nodes', age=age)  # fmt: skip
-    if age is None or age > REPORT_OLD:
-        heard = 'was never heard' if age is None else f'is silent for {ago(age)}'
-        return Link('sap flow', Level.WARN, f'the sap flow {heard}; {report.message}',
-                    f'the sap flow {heard}', remedy='look at the network', age=age)  # fmt: skip
-    return Link('sap flow', Level.OK, _values(evidence), 'the sap flow is told', age=age)
+    return Link('sap flow', Level.OK, _values(report), 'the sap flow is told', age=age)
 
 
-def _values(evidence: Evidence) -> str:
-    message = evidence.message('granier/sap_flow')
-    numbers = [float(getattr(message.vector, axis)) for axis in 'xyz']
-    told = (f'{n:.2f}' if isfinite(n) else 'no number' for n in numbers)
-    return 'sap flow: ' + ', '.join(f's{i} {text}' for i, text in enumerate(told, 1))
+def _values(report: Report) -> str:
+    signals = {
+        text: report.number(key.replace('signal', 'sap flow'))
+        for key, text in report.values.items()
+        if key.endswith(' signal') and text
+    }
+    told = (f'{s} {"unknown" if n is None else f"{n:.2f}"}' for s, n in sorted(signals.items()))
+    return 'sap flow: ' + ', '.join(told)
 
 
 def _probes(report: Report, now: float, time: float, time_zone: str) -> Iterator[Link]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.activity import HeldBy
 from agv_motion.explanation.link import Level, Link, worst
@@ -15,8 +14,8 @@ if TYPE_CHECKING:
 DRIVERS = ('wheel_kinematics', 'differential_kinematics', 'omni_kinematics')
 """Nodes that command wheels"""
 
-STILL = 0.005
-"""[rad/s] A wheel that turns more slowly stands: 0.5 mm/s at a radius of 0.1 m."""
+STILL = 0.0005
+"""[m/s] A wheel that rolls more slowly stands: encoders have noise."""
 
 SILENT = 2.0
 """[s] after which what is told again and again is silent"""
@@ -37,43 +36,27 @@ REMEDIES = {
 
 
 class SeenWheels(NamedTuple):
-    """What the joints of a robot tell."""
+    """What the node of the wheels tells of them."""
 
-    turning: bool | None
-    """None: nothing is measured"""
-    fastest: float
-    """[rad/s]"""
-    commanded: bool | None
     age: float | None
-    """[s] of the measurement"""
+    """[s] of the measurement; None: nothing was ever measured"""
+    speed: float
+    """[m/s] of the fastest, as measured"""
+    commanded: float
+    """[m/s] of the fastest"""
+
+    @property
+    def turning(self) -> bool:
+        """Whether a wheel turns."""
+        return self.speed >= STILL
 
 
-def fastest_wheel(joints: Any) -> float | None:
-    """Return how fast the fastest wheel of a sensor_msgs/JointState turns [rad/s].
-
-    Joints that steer do not count. None where a number is missing or is none.
-    """
-    rates = [
-        abs(float(rate))
-        for name, rate in zip(joints.name, joints.velocity, strict=False)
-        if not str(name).endswith('_steering')
-    ]
-    return max(rates) if rates and all(map(isfinite, rates)) else None
-
-
-def look(evidence: Evidence, now: float) -> SeenWheels:
-    """Return what the wheels do, as their encoders and their commands tell."""
-    topic = 'turrets' if evidence.message('turrets/state') is not None else 'wheels'
-    if evidence.message('turrets/command') is not None:
-        topic = 'turrets'
-    state, command = evidence.message(f'{topic}/state'), evidence.message(f'{topic}/command')
-    rate = None if state is None else fastest_wheel(state)
-    wanted = None if command is None else fastest_wheel(command)
+def look(report: Report) -> SeenWheels:
+    """Return what the wheels do, as their node has told; ages as they were then."""
     return SeenWheels(
-        None if rate is None else rate >= STILL,
-        rate or 0.0,
-        None if wanted is None else wanted >= STILL,
-        evidence.age(f'{topic}/state', now),
+        report.number('encoders age [s]'),
+        report.number('wheel speed [m/s]') or 0.0,
+        report.number('commanded wheel speed [m/s]') or 0.0,
     )
 
 
@@ -86,14 +69,13 @@ def wheels_link(evidence: Evidence, now: float, ignored: float) -> Link:
         ignored: For how long they have stood though told to turn [s].
 
     """
-    seen, found = look(evidence, now), evidence.first(DRIVERS)
+    found = evidence.first(DRIVERS)
     if found is None:
-        if seen.age is None:
-            return Link(
-                'wheels', Level.STALE, 'nothing is heard of the wheels', 'nothing is heard of them',
-                remedy=f'start their node: one of {", ".join(DRIVERS)}',
-            )  # fmt: skip
-        return _moving(seen, None, ignored)
+        unheard = 'nothing is heard of the wheels'
+        return Link(
+            'wheels', Level.STALE, unheard, unheard,
+            remedy=f'start their node: one of {", ".join(DRIVERS)}',
+        )  # fmt: skip
     name, report = found
     if now - report.at > REPORT_OLD:
         silent = f'{name} is silent for {ago(now - report.at)}'
@@ -101,7 +83,7 @@ def wheels_link(evidence: Evidence, now: float, ignored: float) -> Link:
             'wheels', Level.ERROR, f'{silent}; nobody commands the wheels', f'{name} is silent',
             remedy=f'see whether {name} still runs, and start it', age=now - report.at,
         )  # fmt: skip
-    held = _held_by(report)
+    seen, held = look(report), _held_by(report)
     if held is HeldBy.ARBITER:
         return Link(
             'wheels', Level.WARN, f'wheels are told to stand at once; {report.message}',
@@ -116,16 +98,13 @@ def wheels_link(evidence: Evidence, now: float, ignored: float) -> Link:
     return _moving(seen, report, ignored)
 
 
-def _moving(seen: SeenWheels, report: Report | None, ignored: float) -> Link:
+def _moving(seen: SeenWheels, report: Report, ignored: float) -> Link:
     """Return how wheels are that nobody holds."""
-    level = report.level if report is not None else Level.OK
-    limit = report.values.get('limited by', '') if report is not None else ''
-    message = report.message if report is not None else ''
-    if seen.age is None or seen.turning is None:
+    level, limit = report.level, report.values.get('limited by', '')
+    if seen.age is None:
         return Link(
             'wheels', worst(level, Level.WARN), 'no encoders are heard: nobody sees what they do',
-            'no encoders are heard', 'cmd_vel', 'look at the encoders and their topic',
-            limit=limit, age=seen.age,
+            'no encoders are heard', 'cmd_vel', 'look at the encoders and their topic', limit,
         )  # fmt: skip
     if seen.age > SILENT:
         return Link(
@@ -133,22 +112,20 @@ def _moving(seen: SeenWheels, report: Report | None, ignored: float) -> Link:
             'the encoders are silent', remedy=REMEDIES[HeldBy.ENCODERS], age=seen.age,
         )  # fmt: skip
     if seen.turning:
-        doing = f'wheels turn, the fastest at {seen.fastest:.3f} rad/s'
-        residual = report.number('residual [m/s]') if report is not None else None
+        doing = f'wheels turn, the fastest at {seen.speed:.4f} m/s'
+        residual = report.number('residual [m/s]')
         if residual is not None:
             doing += f'; they pull against each other by {residual:.4f} m/s'
-        told = f'; {message}' if level is not Level.OK else ''
-        return Link(
-            'wheels', level, doing + told, 'wheels turn', 'cmd_vel', limit=limit, age=seen.age
-        )
-    if seen.commanded and ignored > IGNORED and not limit:
+        told = f'; {report.message}' if level is not Level.OK else ''
+        return Link('wheels', level, doing + told, 'wheels turn', 'cmd_vel', '', limit, seen.age)
+    if seen.commanded >= STILL and ignored > IGNORED:
         return Link(
             'wheels', Level.ERROR, f'wheels stand though told to turn for {ago(ignored)}',
             'wheels stand though told to turn',
             remedy='look at the motors, their fuses and the emergency stop', age=seen.age,
         )  # fmt: skip
-    stands = 'wheels do not turn yet' if seen.commanded or limit else 'wheels stand'
-    return Link('wheels', Level.OK, stands, stands, 'cmd_vel', limit=limit, age=seen.age)
+    stands = 'wheels do not turn yet' if seen.commanded >= STILL or limit else 'wheels stand'
+    return Link('wheels', Level.OK, stands, stands, 'cmd_vel', '', limit, seen.age)
 
 
 def _held_by(report: Report) -> HeldBy:

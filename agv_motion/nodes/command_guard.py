@@ -74,6 +74,8 @@ class CommandGuard:
         self.stopped_by = ''
         """Why the wheels stand until a person releases them; empty if they need not"""
         self._stopper = HeldBy.NOBODY
+        self.twist: Twist | None = None
+        """The last that was taken; None: none was"""
         self.standstill = False
         """Whether the arbiter lets them stand; false for ever where there is none"""
         self._port, self._wheels, self._frame = port, wheels, given.base_frame
@@ -101,9 +103,14 @@ class CommandGuard:
         return HeldBy.ENCODERS if self.blind else HeldBy.NOBODY
 
     def values(self) -> dict[str, str]:
-        """Return for the diagnostics what holds the wheels, and how their encoders speak."""
-        encoders = self.state.silence().value if self.state.spoken else 'never heard'
-        return {'held by': self.held_by.value, 'encoders': encoders}
+        """Return for the diagnostics what holds the wheels, what they hear, and how old that is."""
+        now, names = self._port.steady_seconds(), ('vx [m/s]', 'vy [m/s]', 'wz [rad/s]')
+        ages = {'cmd_vel': self.command.age(now), 'encoders': self.state.age(now)}
+        return (
+            {'held by': self.held_by.value}
+            | {f'{name} age [s]': f'{age:.2f}' for name, age in ages.items() if age is not None}
+            | {name: f'{n:.5f}' for name, n in zip(names, self.twist or (), strict=False)}
+        )
 
     def stop_for(self, reason: str, stopper: HeldBy) -> None:
         """Hold the wheels until a person releases them by `~/stop`."""
@@ -122,6 +129,7 @@ class CommandGuard:
 
     def _on_stamped_twist(self, twist: Twist, frame: str, stamp: int) -> None:
         if twist == REST:
+            self.twist = twist
             self._wheels.aim_at_rest()
         require_frame(frame, self._frame)
         if self.command.is_new(stamp):
@@ -133,6 +141,7 @@ class CommandGuard:
     def _take(self, twist: Twist) -> None:
         """Drive, while the clock can be believed; only what was of use feeds the watchdog."""
         if not self._port.clock.fault:
+            self.twist = twist
             self._wheels.drive(twist)
             self.command.note()
 

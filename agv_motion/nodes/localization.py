@@ -98,6 +98,7 @@ class Localization(PlainNode[LocalizationParameters]):
         values = {
             'state': health.state.name.lower(),
             'odom': self._odom_watch.silence().value,
+            'pose told': 'yes' if self._trusted(health) else 'no',
             'position deviation [m]': f'{health.position_deviation:.3f}',
             'heading deviation [rad]': f'{health.heading_deviation:.4f}',
             'since the last good fix [s]': f'{health.since_fix:.1f}',

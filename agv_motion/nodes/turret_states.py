@@ -86,6 +86,8 @@ class TurretStates:
         self._reckoning = TurretOdometry(
             given.turrets(), given.wheel_noise, given.max_measured_speed, given.max_gap
         )
+        self.fastest = 0.0
+        """How fast the fastest wheel was seen to roll [m/s]"""
         self._message = Odometry(child_frame_id=given.base_frame)
         self._message.header.frame_id = given.odom_frame
         self._fight = port.publisher(Float64, 'turrets/residual', SENSOR)
@@ -106,6 +108,7 @@ class TurretStates:
             self._port.refuse(f'turrets/state: {state.wrong}; going by the angles of the wheels')
         if not reckoned.step.used:
             return
+        self.fastest = max(map(abs, speeds))
         if news:
             self._judge.note_angles(angles)
         odometry = self._message

@@ -73,7 +73,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         self._wheels = port.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
         self._limits = port.publisher(String, 'turrets/limiter', LATCHED)
         self._guard = CommandGuard(port, given, 'turrets/state', self)
-        TurretStates(port, given, self._joints, self, self._guard.state)
+        self._states = TurretStates(port, given, self._joints, self, self._guard.state)
         port.serve(Trigger, '~/unwind', self._on_unwind)
         port.every(self._period, self._go_on)
         port.watch_inputs(given.stop_after, self._watch)
@@ -93,6 +93,8 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
             'limited by': self._limiter.value,
+            'wheel speed [m/s]': f'{self._states.fastest:.5f}',
+            'commanded wheel speed [m/s]': f'{self._fastest_command():.5f}',
         } | self._guard.values()
         if not self._guard.reason and self._driving.unbelievable:
             values['held by'] = HeldBy.ANGLES.value
@@ -108,6 +110,12 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         if self._residual > self.parameters.residual_warning:
             return Diagnosis(WARN, 'the turrets pull against each other', values)
         return Diagnosis(OK, 'driving', values)
+
+    def _fastest_command(self) -> float:
+        setpoints = self._driving.setpoints
+        if setpoints is None:
+            return 0.0
+        return float(max(map(abs, setpoints.speeds)) * self._driving.share())
 
     def _why_stopped(self) -> str:
         """Return why the wheels are held; empty if they are not."""

@@ -90,6 +90,7 @@ class WheelsNode(PlainNode[P]):
 
         """
         given, port = self.parameters, self.port
+        self._rows = rows
         self._ramp = TwistRamp(rows, given)
         self._ramped_at, self._settled = -inf, True
         self.joints, self.reckoning = WheelJoints(joint_names), reckoning
@@ -122,11 +123,19 @@ class WheelsNode(PlainNode[P]):
         return f'stopped: {self.guard.reason}' if self.guard.reason else self._blocked.reason
 
     def held_values(self) -> dict[str, str]:
-        """Return for the diagnostics what holds the wheels, and how their encoders speak."""
-        values = self.guard.values()
+        """Return for the diagnostics what holds the wheels, and how fast they are."""
+        values = self.guard.values() | {
+            'wheel speed [m/s]': f'{self._fastest(self.reckoning.twist):.5f}',
+            'commanded wheel speed [m/s]': f'{self._fastest(self._sent):.5f}',
+        }
         if not self.guard.reason and self._blocked.reason:
             values['held by'] = HeldBy.BLOCKED.value
         return values
+
+    def _fastest(self, twist: Twist) -> float:
+        """Return the speed of the fastest rim with ``twist`` [m/s]."""
+        speeds = (sum(a * b for a, b in zip(row, twist, strict=True)) for row in self._rows)
+        return max(map(abs, speeds))
 
     # cmd_vel -> wheels/command
 

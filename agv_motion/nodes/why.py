@@ -3,44 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from geometry_msgs.msg import (
-    PoseWithCovarianceStamped,
-    Twist,
-    TwistStamped,
-    Vector3Stamped,
-)
-from nav_msgs.msg import Odometry
 from rclpy.qos import QoSProfile
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, String
 
 from agv_motion.explanation import Evidence, Explainer
-from agv_motion.parameters import Spec, check
 from agv_motion.ros.diagnosis import OK, Diagnosis
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import LATCHED, SENSOR
+from agv_motion.ros.qos import LATCHED
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
     from agv_motion.explanation import Chain, Link
     from agv_motion.ros.port import Port
-
-SENSED: dict[str, type[Any]] = {
-    'cmd_vel': TwistStamped,
-    'turrets/state': JointState,
-    'turrets/command': JointState,
-    'wheels/state': JointState,
-    'wheels/command': JointState,
-    'pose': PoseWithCovarianceStamped,
-    'odom': Odometry,
-    'granier/sap_flow': Vector3Stamped,
-}
-TOLD: dict[str, type[Any]] = {'driver': DiagnosticStatus, 'state': String, 'granier/valid': Bool}
-"""What is latched"""
 
 REPORTS = QoSProfile(depth=50)
 """All nodes of all robots speak on one topic."""
@@ -54,17 +30,11 @@ EVERY = 1.0
 
 @dataclass(frozen=True)
 class WhyParameters:
-    """How to listen."""
-
-    stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
-
-    def __post_init__(self) -> None:
-        """Check every row."""
-        check(self)
+    """None: it listens and tells."""
 
 
 class Why(PlainNode[WhyParameters]):
-    """Topics of a robot and `/diagnostics` -> `why`: once a second, and when the headline changes.
+    """`/diagnostics` and `driver` -> `why`: once a second, and when the headline changes.
 
     It commands nothing, and nothing that commands listens to it.
     """
@@ -77,11 +47,7 @@ class Why(PlainNode[WhyParameters]):
         super().__init__(port, parameters)
         self._begin_anew()
         self._publisher = port.publisher(DiagnosticArray, 'why', LATCHED, sole=True)
-        twist = {} if parameters.stamped else {'cmd_vel': Twist}
-        for topic, kind in (SENSED | twist).items():
-            port.listen(kind, topic, partial(self._receive, topic), SENSOR)
-        for topic, kind in TOLD.items():
-            port.listen(kind, topic, partial(self._receive, topic), LATCHED)
+        port.listen(DiagnosticStatus, 'driver', self._on_driver, LATCHED)
         port.listen(DiagnosticArray, '/diagnostics', self._on_diagnostics, REPORTS)
         port.every(LOOK, self._look, steady=True)
 
@@ -97,15 +63,16 @@ class Why(PlainNode[WhyParameters]):
         """Tell the headline: how the robot is, its own nodes say."""
         return Diagnosis(OK, self._headline or 'nothing is heard of the robot yet', {})
 
-    def _receive(self, topic: str, message: Any) -> None:
-        self._evidence.receive(topic, message, self.port.steady_seconds())
+    def _on_driver(self, message: DiagnosticStatus) -> None:
+        self._evidence.receive_driver(message, self.port.steady_seconds())
+        self._look()
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
-        self._evidence.receive('/diagnostics', message, self.port.steady_seconds())
+        self._evidence.receive(message, self.port.steady_seconds())
 
     def _look(self) -> None:
         now = self.port.steady_seconds()
-        if not self._evidence.known:
+        if not (self._evidence.nodes or self._evidence.driver):
             return
         chain = self._explainer.explain(self._evidence, now, self.port.seconds())
         if chain.headline == self._headline and 0.0 <= now - self._told_at < EVERY:

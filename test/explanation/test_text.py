@@ -26,20 +26,21 @@ def test_a_chain_fits_into_80_columns_and_says_all(robot):
         'oak: wheels stand: cmd_vel is zero: resting: probe 2 is off since 14:02: look at\n'
         '  its heater\n'
     )
-    assert '> probe_2   WARN  probe 2 is off since 14:02, dT 0.81 K; is s2' in text
+    assert '> probe_2   WARN  probe 2 is off since 14:02, dT 0.81 K, sap flow 0.42; is s2' in text
     assert '                  -> look at its heater' in text
-    assert '  probe_1   ok    probe 1 is good; is s1' in text
+    assert '  probe_1   ok    probe 1 is good, sap flow 0.79; is s1' in text
     assert '> decision  WARN  resting: a probe cannot be believed; since 13:59' in text
     assert {level for level, line in told if 'probe_2' in line} == {1}
 
 
 def test_old_news_is_told_with_its_age(robot):
     robot.tell()
-    robot.silent = {'granier/sap_flow'}
+    robot.silent = {'granier_probe'}
     for _ in range(10):
         chain = robot.tell()
     text = ' '.join(' '.join(line for _, line in lines('oak', chain, NOON)).split())
-    assert 'the sap flow is silent for 5.0 s' in text
+    assert 'sap flow ERROR granier_probe is silent for 5.0 s' in text
+    assert 'probe 1 is good, sap flow 0.79; is s1; since 12:00; 5.0 s old' in text
 
 
 def test_as_objects_it_is_json_with_the_same_words(robot):

@@ -7,7 +7,6 @@ import pytest
 pytest.importorskip('rclpy')
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from geometry_msgs.msg import TwistStamped
 
 from agv_motion.nodes.why import Why
 from agv_motion.ros.cdr import codec
@@ -19,8 +18,17 @@ NOON = 1434369600
 
 
 def report(name, level, message, **values):
-    pairs = [KeyValue(key=k.replace('_', ' '), value=v) for k, v in values.items()]
+    pairs = [KeyValue(key=k, value=v) for k, v in values.items()]
     return DiagnosticStatus(level=bytes([level]), name=name, message=message, values=pairs)
+
+
+ZERO = {
+    'held by': 'nobody',
+    'vx [m/s]': '0',
+    'vy [m/s]': '0',
+    'wz [rad/s]': '0',
+    'cmd_vel age [s]': '0.1',
+}
 
 
 class Listener:
@@ -42,11 +50,10 @@ class Listener:
 
     def rests(self, seconds, name='oak'):
         reports = [
-            report(f'/{name}/wheel_kinematics', 0, 'driving', held_by='nobody'),
+            report(f'/{name}/wheel_kinematics', 0, 'driving', **ZERO),
             report(f'/{name}/motion_generator', 1, 'paused', activity='paused', because='person'),
         ]
         self.feed(seconds, '/diagnostics', DiagnosticArray(status=reports))
-        self.feed(seconds, f'/{name}/cmd_vel', TwistStamped())
 
     def heads(self):
         return [message.status[0].message for _, message in self.told]
@@ -99,3 +106,14 @@ def test_silence_is_told_though_nothing_comes_any_more(why):
     why.graph.run((NOON + 10) * SECOND)
     assert 'wheel_kinematics is silent' in why.heads()[-1]
     assert why.told[-1][1].status[0].level == DiagnosticStatus.ERROR
+
+
+def test_a_stop_of_the_arbiter_is_told_at_once(why):
+    why.rests(0.1)
+    why.graph.run((NOON + 1) * SECOND)
+    values = {'driver': 'stop', 'stop': 'by maria, since 12:00:01'}
+    stop = report('/oak/arbiter', 2, 'STOP: by maria, since 12:00:01', **values)
+    why.feed(1.05, '/oak/driver', stop)
+    seconds, message = why.told[-1]
+    assert seconds == pytest.approx(1.05)
+    assert 'STOP holds: by maria' in message.status[0].message

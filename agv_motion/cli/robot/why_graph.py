@@ -6,9 +6,9 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from agv_motion.cli.graph.session import interface_class, spin, topics
+from agv_motion.cli.graph.session import interface_class, spin
 from agv_motion.errors import SourceError
-from agv_motion.explanation import TOPICS, Evidence, Explainer
+from agv_motion.explanation import Evidence, Explainer
 from agv_motion.explanation.decision import DECIDERS
 from agv_motion.explanation.wheels import DRIVERS
 from agv_motion.ros.parameter_arguments import meant
@@ -90,29 +90,25 @@ class RobotEars:
     def _listen(self) -> None:
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-        from agv_motion.explanation.evidence import LATCHED as TOLD_ONCE
         from agv_motion.ros.qos import LATCHED, SENSOR
 
-        types = topics(self._node)
+        driver = interface_class('diagnostic_msgs/msg/DiagnosticStatus')
         for evidence in self.robots.values():
-            for topic, usual in TOPICS.items():
-                full = f'{evidence.namespace.rstrip("/")}/{topic}'
-                kind = interface_class(types.get(full, [usual])[0])
-                qos = LATCHED if topic in TOLD_ONCE else SENSOR
-                take = partial(self._take, evidence, topic)
-                self._node.create_subscription(kind, full, take, qos)
+            topic = f'{evidence.namespace.rstrip("/")}/driver'
+            take = partial(self._on_driver, evidence)
+            self._node.create_subscription(driver, topic, take, LATCHED)
         reports = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
         kind = interface_class('diagnostic_msgs/msg/DiagnosticArray')
         self._node.create_subscription(kind, '/diagnostics', self._on_diagnostics, reports)
         kind = interface_class('rosgraph_msgs/msg/Clock')
         self._node.create_subscription(kind, '/clock', self._on_clock, SENSOR)
 
-    def _take(self, evidence: Evidence, topic: str, message: Any) -> None:
-        evidence.receive(topic, message, time.monotonic())
+    def _on_driver(self, evidence: Evidence, message: Any) -> None:
+        evidence.receive_driver(message, time.monotonic())
 
     def _on_diagnostics(self, message: Any) -> None:
         for evidence in self.robots.values():
-            evidence.receive('/diagnostics', message, time.monotonic())
+            evidence.receive(message, time.monotonic())
 
     def _on_clock(self, message: Any) -> None:
         self._time = message.clock.sec + 1e-9 * message.clock.nanosec

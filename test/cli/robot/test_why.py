@@ -44,7 +44,7 @@ def test_a_tree_whose_probes_learn(beside_oak):
     """No node `why` runs, and no wheels: it says what it hears, and the cause of the rest."""
     status, out, errors = beside_oak('why', '--once')
     assert status == 0, errors
-    assert out.startswith('oak: nothing is heard of them: start their node')
+    assert out.startswith('oak: nothing is heard of the wheels: start their')
     words = ' '.join(out.split())
     assert '> wheels STALE nothing is heard of the wheels' in words
     assert 'probe_2 WARN probe 2 is learning' in words
