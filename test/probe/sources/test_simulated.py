@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from agv_motion.probe.probe import Probe, ProbeParameters
-from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters, gauss
+from agv_motion.probe.sources.simulated import (
+    SimulatedSource,
+    SimulatedSourceParameters,
+    gauss,
+    smooth_noise,
+    uniform,
+)
 
 DAY = 86400.0
 JUNE = 16600 * DAY
@@ -59,3 +65,14 @@ def test_the_noise_is_normal_enough():
     numbers = np.array([gauss(1, k) for k in range(20_000)])
     assert numbers.mean() == pytest.approx(0.0, abs=0.03)
     assert numbers.std() == pytest.approx(1.0, abs=0.03)
+
+
+def test_smooth_noise_goes_from_one_number_to_the_next_without_a_corner():
+    """Half way the mean of both; level at each, where a cosine begins and ends."""
+    for whole in range(5):
+        a, b = uniform(7, whole), uniform(7, whole + 1)
+        assert smooth_noise(7, whole) == a
+        assert smooth_noise(7, whole + 0.5) == pytest.approx((a + b) / 2)
+        assert smooth_noise(7, whole + 1 / 3) == pytest.approx(a + (b - a) / 4)
+        assert smooth_noise(7, whole + 1e-4) == pytest.approx(a, abs=1e-7)
+        assert smooth_noise(7, whole + 1 - 1e-4) == pytest.approx(b, abs=1e-7)

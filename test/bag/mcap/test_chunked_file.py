@@ -1,0 +1,124 @@
+"""One file through its chunks: spans, counts and entries by the indexes, or without them."""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap.chunked_file import ChunkedFile
+from agv_motion.bag.mcap.writer import McapWriter
+from agv_motion.bag.metadata import Topic
+from agv_motion.errors import SourceError
+
+TOPICS = [Topic(name, 'a/msg/A', 'int8 x', '', ()) for name in ('/a', '/b')]
+
+
+@pytest.fixture
+def path(tmp_path):
+    """Chunks of times 5 to 7 (two of /a, one of /b) and 10 (one of /b)."""
+    writer = McapWriter(tmp_path / 'x.mcap', 'zstd')
+    for topic in TOPICS:
+        writer.add_channel(topic)
+    for channel, stamp in ((1, 5), (2, 6), (1, 7)):
+        writer.write(channel, stamp, b'\0\1\0\0%d' % stamp, stamp + 1, stamp)
+    writer.flush()
+    writer.write(2, 10, b'\0\1\0\0x', 10, 0)
+    writer.flush()
+    writer.close({})
+    return writer.path
+
+
+def opened(path, *, scan=False):
+    return ChunkedFile(path, validate=True, scan=scan)
+
+
+@pytest.mark.parametrize('scan', [False, True])
+def test_spans_counts_and_expectations(path, scan):
+    file = opened(path, scan=scan)
+    assert file.span == (5, 10)
+    assert file.counts() == {1: 2, 2: 2}
+    assert file.counted is not scan
+    assert file.expected(0, 100) == {1: 2, 2: 2}
+    assert file.expected(8, 100) == {2: 1}
+    assert file.expected(0, 5) == {}
+    assert file.expected(7, 8) == {1: 2, 2: 1}
+    assert [c.topic for c in file.channels.values()] == ['/a', '/b']
+    assert file.unpacked_size == 4 * (records.MESSAGE_HEAD.size + 5)
+    file.close()
+
+
+def test_entries_with_an_index_and_without_are_the_same(path):
+    file = opened(path)
+    chunk = file.chunks[0]
+    for found in (file.entries(chunk), file.entries(chunk._replace(indexes=None))):
+        assert found[1].stamps.tolist() == [5, 7]
+        assert found[2].stamps.tolist() == [6]
+    bare = chunk._replace(indexes=None)
+    unpacked = file.content(chunk)
+    for channel in (1, 2, 3):
+        with_index, without = (
+            file.index_of(each, channel, unpacked).tolist() for each in (chunk, bare)
+        )
+        assert with_index == without
+    assert set(file.entries(chunk, wanted={2})) == {2} == set(file.entries(bare, wanted={2}))
+    file.close()
+
+
+def test_messages_at_their_places(path):
+    file = opened(path)
+    chunk = file.chunks[0]
+    offsets = file.entries(chunk)[1].offsets.tolist()
+    found = list(file.messages_at(file.content(chunk), offsets))
+    assert [(m.connection.topic, m.stamp, m.publish, m.sequence) for m in found] == [
+        ('/a', 5, 6, 5), ('/a', 7, 8, 7),
+    ]  # fmt: skip
+    assert [m.data for m in found] == [b'\0\1\0\0' + b'5', b'\0\1\0\0' + b'7']
+    file.close()
+
+
+def test_an_index_of_times_outside_its_chunk_is_damage(path):
+    file = opened(path)
+    narrow = file.chunks[0]._replace(end=6)
+    with pytest.raises(DamagedBagError, match='times outside of its chunk at byte'):
+        file.entries(narrow)
+    file.close()
+
+
+def test_a_channel_that_nothing_describes_is_damage(path):
+    file = opened(path)
+    chunk = file.chunks[0]
+    unpacked = file.content(chunk)
+    heads = file.heads(chunk, unpacked, file.entries(chunk)[1].offsets)
+    file.require_described(chunk, heads)
+    file.channels = {2: file.channels[2]}
+    with pytest.raises(DamagedBagError, match='a message of channel 1, which is not described'):
+        file.require_described(chunk, heads)
+    file.close()
+
+
+def test_the_content_is_kept_but_not_for_ever(path, monkeypatch):
+    file = opened(path)
+    first, second = file.chunks
+    assert file.content(first) is file.content(first)
+    monkeypatch.setattr('agv_motion.bag.mcap.chunked_file.CACHE', 1)
+    kept = file.content(first)
+    file.content(second)
+    assert file.content(first) is not kept
+    assert bytes(file.content(first)) == bytes(kept)
+    file.close()
+
+
+def test_a_closed_file_says_so(path):
+    file = opened(path)
+    file.close()
+    with pytest.raises(SourceError, match='was closed'):
+        file.require_open()
+
+
+def test_without_messages_there_is_no_span(tmp_path):
+    writer = McapWriter(tmp_path / 'x.mcap', '')
+    writer.close({})
+    file = opened(writer.path)
+    assert (file.span, file.counts(), file.problems) == (None, {}, [])
+    file.close()

@@ -1,0 +1,59 @@
+"""Parameters of a drive along a route: tables that would stall or swing are refused."""
+
+from __future__ import annotations
+
+from math import pi
+
+import pytest
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.route.parameters import FollowParameters
+
+
+def test_the_tables_by_name():
+    tables = FollowParameters(v_d=(0.0, 0.0, 1.0, 0.7), v_alpha=(1.5, 0.2, 3.0, 0.6)).profiles()
+    assert tables.v_d(0.5) == pytest.approx(0.35)
+    assert tables.v_alpha(2.25) == pytest.approx(0.4)
+    assert tables.omega_dphi(0.25) == pytest.approx(0.4)
+    assert tables.v_dphi(0.0) == 0.5
+
+
+def test_the_top_speed_is_what_all_tables_together_allow():
+    """At a corner the higher of two counts: far from it, or straight on."""
+    given = {'v_dphi': (0.1, 0.9, 1.6, 0.1), 'v_d': (0.0, 0.0, 1.0, 0.8)}
+    low = FollowParameters(v_dn=(0.0, 0.1, 1.0, 0.3), v_alpha=(1.5, 0.1, 3.0, 0.4), **given)
+    assert low.profiles().top_speed() == pytest.approx(0.4)
+    high = FollowParameters(v_dn=(0.0, 0.1, 1.0, 2.0), v_alpha=(1.5, 0.1, 3.0, 0.4), **given)
+    assert high.profiles().top_speed() == pytest.approx(0.8)
+    narrow = FollowParameters(v_dphi=(0.1, 0.2, 1.6, 0.1))
+    assert narrow.profiles().top_speed() == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ('given', 'words'),
+    [
+        ({'omega_dphi': (0.0, 0.1, 1.0, 0.5)}, 'swing to and fro'),
+        ({'v_dphi': (0.0, 0.5, 1.0, 0.0)}, 'v_dphi'),
+        ({'v_dn': (0.0, 0.0, 1.0, 0.5)}, 'v_dn'),
+        ({'v_alpha': (0.0, -0.1, 3.0, 0.5)}, 'v_alpha'),
+        ({'v_d': (0.0, 0.1, 1.0, 0.5)}, 'never arrive'),
+        ({'v_d': (0.0, 0.0, 1.0, 0.5, 2.0, 0.0)}, 'v_d'),
+        ({'omega_dphi': (0.0, 0.0, 4.0, 0.5)}, 'omega_dphi'),
+        ({'coupling_form': 'other'}, 'coupling_form'),
+        ({'virtual_point_distance': 0.0}, 'virtual_point_distance'),
+    ],
+)
+def test_what_would_stall_or_swing_is_refused_by_name(given, words):
+    with pytest.raises(ConfigurationError, match=words):
+        FollowParameters(**given)
+
+
+def test_a_robot_that_could_circle_for_ever_is_warned_of():
+    """At a quarter turn 0.5 m/s on a radius of 0.4 m need 1.25 rad/s; the tables give 1.2."""
+    fast = (0.1, 0.5, pi, 0.5)
+    warning = FollowParameters(v_dphi=fast).orbit()
+    assert warning.startswith('at dphi = 90 deg the tables give 0.5 m/s and ')
+    assert 'waits 0.4 m away' in warning
+    assert FollowParameters(v_dphi=fast, virtual_point_distance=0.43).orbit() == ''
+    assert FollowParameters(v_dphi=fast, holonomic=True).orbit() == ''
+    assert FollowParameters().orbit() == ''
