@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from functools import cache
-from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -86,18 +85,3 @@ def test_one_public_class_name_is_one_class():
             if isinstance(node, ast.ClassDef) and not node.name.startswith('_'):
                 where.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
     assert {name: paths for name, paths in where.items() if len(paths) > 1} == {}
-
-
-def test_there_is_no_circle_of_files():
-    known = {
-        '.'.join(('agv_motion', *path.relative_to(ROOT).with_suffix('').parts)): path
-        for path in files('.')
-    }
-    graph = {}
-    for module, path in known.items():
-        graph[module] = set()
-        for node in parsed(path)[1]:
-            if isinstance(node, ast.ImportFrom):
-                names = {f'{node.module}.{alias.name}' for alias in node.names}
-                graph[module] |= names & known.keys() or {node.module} & known.keys()
-    TopologicalSorter(graph).prepare()  # raises CycleError, which names the circle

@@ -22,7 +22,7 @@ from agv_motion.nodes.reservation_exchange import ReservationExchange
 from agv_motion.nodes.zone_report import ZoneReport, require_standing
 from agv_motion.planar import REST, Pose
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
-from agv_motion.ros.input_watch import InputWatch
+from agv_motion.ros.input_watches import InputWatches
 from agv_motion.ros.messages import pose_of, require_frame
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 
 DECIDE_PERIOD = 1.0
 """[s] after which the tree decides again though nothing is new: of the hour, and of other paths."""
+
+FLOW, POSE = 'sap flow', 'pose'
+"""The inputs without which the tree does not move."""
 
 RELEASE = 'clear its way, then call ~/pause with data: false'
 """What a person does to let a blocked tree go on."""
@@ -71,10 +74,8 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._commanded_at = self._looked_at = port.seconds()
         self._twist = REST
         self._guard = BlockedReport(port, given.blocked, self._rim, RELEASE)
-        self._lost = 'sap flow'
         self._obstacle: Doing | None = None
-        limits = given.freshness()
-        self._watches = {name: InputWatch(port, name, limits) for name in ('sap flow', 'pose')}
+        self._inputs = InputWatches(port, given.freshness(), (FLOW, POSE))
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._report = MotionReport(port, given.map_frame)
         self._store = (
@@ -99,7 +100,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._sap_flow = self._pose = self._motion = None
         self._commanded_at = self._looked_at = self.port.seconds()
         self._guard.release()
-        self._lost = 'sap flow'
+        self._inputs.wait_for(FLOW)
         self._judge()
         self._report.publish_goal(self._agent.goal, self._agent.refusals)
         self._zone.publish(self._agent.zone)
@@ -130,7 +131,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
             AgvMotionError: It is none, or this tree or another stands outside of it.
 
         """
-        lost = self._watches['pose'].silence() is Silence.LOST
+        lost = self._inputs[POSE].silence() is Silence.LOST
         pose, planner = None if lost else self._pose, parameters.planner(self._agent.home)
         here = require_standing(pose, planner, self._agent.zone)
         if self._exchange is not None:
@@ -151,24 +152,22 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         values['limits in force'] = ', '.join(self._limited_by) or 'none'
         if self._agent.goal is not None:
             values['goal'] = self._agent.goal.reason
-        if self._store is not None:
-            values |= self._store.report()
-        if self._exchange is not None:
-            values |= self._exchange.report()
+        values |= self._store.report() if self._store is not None else {}
+        values |= self._exchange.report() if self._exchange is not None else {}
         if different := self._zone.different():
             values['zone differs from'] = ', '.join(different)
         alarmed = self._exchange is not None and self._exchange.alarm
         if self._guard.reason:
             return Diagnosis(ERROR, self._report.state, values)
-        return Diagnosis(WARN if self._lost or alarmed else OK, self._report.state, values)
+        return Diagnosis(WARN if self._inputs.lost or alarmed else OK, self._report.state, values)
 
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
-        vector, watch = message.vector, self._watches['sap flow']
+        vector = message.vector
         flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
         require_frame(message.header.frame_id, self.parameters.base_frame)
-        if not watch.is_news(message.header.stamp):
+        if not self._inputs[FLOW].is_news(message.header.stamp):
             return
-        self._heard(watch)
+        self._inputs.note(FLOW)
         self._sap_flow = flow
         self._motion = None
         if self._obstacle:
@@ -183,10 +182,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
 
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         require_frame(message.header.frame_id, self.parameters.map_frame)
-        pose, watch = pose_of(message.pose.pose), self._watches['pose']
-        if not watch.is_news(message.header.stamp):
+        pose = pose_of(message.pose.pose)
+        if not self._inputs[POSE].is_news(message.header.stamp):
             return
-        self._heard(watch)
+        self._inputs.note(POSE)
         self._pose = pose
         self._motion = None
         self._judge()
@@ -236,21 +235,12 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         given, now = self.parameters, self.port.seconds()
         dt = min(max(now - self._looked_at, 0.0), 2.0 / given.rate)
         self._looked_at = now
-        self._guard.look(given.blocked, None if self._lost else self._pose, self._twist, dt)
+        self._guard.look(given.blocked, None if self._inputs.lost else self._pose, self._twist, dt)
 
     def _watch(self) -> None:
         """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
-        silent = [n for n, watch in self._watches.items() if watch.tell() is Silence.LOST]
-        before, self._lost = self._lost, silent[0] if silent else ''
-        if self._lost and (self.port.clock.fault or not before):
+        if self._inputs.look():
             self._tick()
-
-    def _heard(self, watch: InputWatch) -> None:
-        """Note news of an input; the tree waits for no look at the clock where it was the last."""
-        watch.note()
-        if self._lost:
-            silent = (n for n, one in self._watches.items() if one.silence() is Silence.LOST)
-            self._lost = next(silent, '')
 
     def _judge(self) -> None:
         """Find out whether the tree may move; again whenever what it knows has changed."""
@@ -261,10 +251,9 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         if self._paused:
             return Doing('paused', Activity.PAUSED, Cause.PERSON)
         if not self._valid:
-            why = 'resting: a probe cannot be believed'
-            return Doing(why, Activity.RESTING, Cause.PROBES)
-        if self._lost or self._sap_flow is None or self._pose is None:
-            return missing(self._pose, self._sap_flow, self._lost, self.port.clock.fault)
+            return Doing('resting: a probe cannot be believed', Activity.RESTING, Cause.PROBES)
+        if self._inputs.lost or self._sap_flow is None or self._pose is None:
+            return missing(self._pose, self._sap_flow, self._inputs.lost, self.port.clock.fault)
         if self._guard.reason:
             return Doing(self._guard.reason, Activity.BLOCKED, Cause.MOTION)
         return None
@@ -272,11 +261,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
     def _move(self) -> None:
         """Command what the sap flow asks for, or an explicit zero."""
         if self._obstacle or self._sap_flow is None or self._pose is None:
-            self._publish(
-                self._limits.stop(), self._obstacle or missing(self._pose, self._sap_flow)
-            )
+            doing = self._obstacle or missing(self._pose, self._sap_flow)
+            self._publish(self._limits.stop(), doing)
             if self._exchange is not None and self._pose is not None:
-                self._exchange.stay(self._pose, fresh=not self._lost)
+                self._exchange.stay(self._pose, fresh=not self._inputs.lost)
             return
         now = self.port.seconds()
         motion = self._update(now, self._pose, self._sap_flow)

@@ -14,11 +14,10 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from agv_motion.bag.cdr.interface_parts import SECTIONS, base, following, sections
+from agv_motion.bag.cdr.interface_parts import SECTIONS, SEPARATOR, base, following, sections
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import json_text
 
-SEPARATOR = '=' * 80
 PRIMITIVES = {
     *('bool', 'byte', 'char', 'float32', 'float64', 'string', 'wstring'),
     *('int8', 'uint8', 'int16', 'uint16', 'int32', 'uint32', 'int64', 'uint64'),

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+SEPARATOR = '=' * 80
+"""Stands before each type that a definition adds."""
 SECTIONS = {'srv': ('_Request', '_Response'), 'action': ('_Goal', '_Result', '_Feedback')}
 """Ends of the names of the messages that the sections of a file define."""
 _UUID = 'unique_identifier_msgs/UUID goal_id'

@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.cdr.definitions import SEPARATOR
 from agv_motion.bag.cdr.idl_text import fields_from_idl
-from agv_motion.bag.cdr.interface_parts import following, sections
+from agv_motion.bag.cdr.interface_parts import SEPARATOR, following, sections
 from agv_motion.bag.cdr.primitives import PRIMITIVES
 from agv_motion.errors import ConfigurationError
 
