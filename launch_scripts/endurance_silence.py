@@ -24,6 +24,7 @@ from rich.progress import track
 from sensor_msgs.msg import JointState
 
 from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.nodes.arbiter import ArbiterNode
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.omni_kinematics import OmniKinematics
@@ -55,6 +56,8 @@ class Case:
     lost: str
     braking: float = 0.0
     """in which wheels that are told to stand come to rest, where they are braked [s]"""
+    limits: tuple[str, ...] = ('report_after', 'stop_after')
+    """parameters of the first node that are the limit of the input"""
 
 
 TREE = SteeringLimits()
@@ -62,6 +65,8 @@ BRAKING = TREE.max_wheel_speed / TREE.wheel_acceleration
 WHEELS = WheelsParameters()
 ROUTE_SPEED = 0.5
 """[m/s] of the route follower as it is by default"""
+DRIVEN_SPEED = 0.3
+"""[m/s] that is asked for on `cmd_vel`"""
 ROUTE_BRAKING = ROUTE_SPEED / WHEELS.max_wheel_deceleration + 1.0 / WHEELS.rate
 CASES = {
     'differential, cmd_vel': Case((DifferentialKinematics,), ('cmd_vel',), 'cmd_vel'),
@@ -75,6 +80,25 @@ CASES = {
     ),
     'route, odom': Case(
         (RouteFollowerNode, DifferentialKinematics), ('odom',), 'odom', ROUTE_BRAKING
+    ),
+    'dead-man, differential': Case(
+        (ArbiterNode, DifferentialKinematics),
+        ('cmd_vel/manual',),
+        'cmd_vel/manual',
+        limits=('timeouts.manual',),
+    ),
+    'dead-man, turrets': Case(
+        (ArbiterNode, WheelKinematics),
+        ('cmd_vel/manual',),
+        'cmd_vel/manual',
+        limits=('timeouts.manual',),
+    ),
+    'arbiter, agent': Case(
+        (ArbiterNode, DifferentialKinematics),
+        ('cmd_vel/agent',),
+        'cmd_vel/agent',
+        DRIVEN_SPEED / WHEELS.max_wheel_deceleration + 1.0 / WHEELS.rate,
+        ('timeouts.agent',),
     ),
     'tree, sap flow': Case(
         (MotionGenerator, WheelKinematics),
@@ -101,7 +125,7 @@ class Trial:
         """when the wheels were commanded [ns], and whether to turn"""
         self._pose, self._twist, self._at = Pose(0.0, 0.0, 0.0), REST, START
         self._graph = InProcessGraph(self._record, START)
-        limits = {'report_after': self.limit, 'stop_after': self.limit, 'max_age': self.max_age}
+        limits = dict.fromkeys(case.limits, self.limit) | {'max_age': self.max_age}
         for i, kind in enumerate(case.nodes):
             InProcessNode(self._graph, kind, limits if i == 0 else {})
         self._graph.start()
@@ -155,9 +179,9 @@ class Trial:
         self._graph.feed(f'/{name}', now, codec(type(message)).encode(message))
 
     def _message(self, name: str) -> Any:
-        if name == 'cmd_vel':
+        if name.startswith('cmd_vel'):
             message = TwistStamped()
-            message.twist.linear.x = 0.3
+            message.twist.linear.x = DRIVEN_SPEED
             return message
         if name == 'wheels/state':
             return JointState(name=['left_wheel', 'right_wheel'], position=[0.0, 0.0])
