@@ -94,11 +94,14 @@ def cases(sources: Path, cluster: str) -> list[Case]:
         Case('record a ring', ('record', '-a', '-o', 'bag', '-d', '0.2', '--keep-files', '2',
                                '--duration', '2'),
              bag='bag', forked=False, beside='talker', again=False),
-        Case('demo', ('demo', '--minutes', '0.3', '--output', '.'), (('notes.txt', OLD),),
+        Case('demo', ('demo', '--minutes', '0.3', '--no-page', '--output', '.'),
+             (('notes.txt', OLD),),
              bag='bag', forked=False),
-        Case('demo omni', ('demo', 'omni', '--output', '.'), (('notes.txt', OLD),), bag='bag',
+        Case('demo omni', ('demo', 'omni', '--no-page', '--output', '.'),
+             (('notes.txt', OLD),), bag='bag',
              forked=False),
-        Case('demo differential', ('demo', 'differential', '--time-factor', '20', '--output', '.'),
+        Case('demo differential',
+             ('demo', 'differential', '--time-factor', '20', '--no-page', '--output', '.'),
              (('notes.txt', OLD),), bag='bag', forked=False),
     ]  # fmt: skip
     if cluster:

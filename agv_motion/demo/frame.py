@@ -16,6 +16,7 @@ from rclpy.signals import SignalHandlerOptions
 from rich.console import Group
 from rich.live import Live
 from rich.progress import Progress
+from std_msgs.msg import String
 
 from agv_motion.demo.explained import robots, why_nodes, why_topics
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
@@ -136,7 +137,7 @@ class Demo(Generic[R]):
             for node in self.graph.nodes:
                 start(node)
             leader = self.graph.leader.plain
-            topics = list(self.graph.topics)
+            topics = [*self.graph.topics, RecordedTopic('/mark', String)]
             self.recorder = DemoRecorder(self._bag, topics, lambda: leader.time)
         except BaseException:
             rclpy.try_shutdown()

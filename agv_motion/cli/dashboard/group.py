@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import sys
+import threading
 from typing import Annotated, Any
 
 import typer
@@ -38,6 +41,7 @@ def dashboard(
     key: Annotated[str, typer.Option(help='File of its key.')] = '',
     state_folder: Annotated[str, typer.Option(help='Where users and marks are kept.')] = '',
     bag: Annotated[str, typer.Option(help='Being recorded, to look back into.')] = '',
+    end_with_stdin: Annotated[bool, typer.Option(hidden=True)] = False,
     next_free_port: Annotated[
         bool, typer.Option('--next-free-port', help='Take the next port where this is taken.')
     ] = False,
@@ -58,6 +62,8 @@ def dashboard(
     """
     if context.invoked_subcommand:
         return
+    if end_with_stdin:
+        threading.Thread(target=_end_with_stdin, daemon=True).start()
     end_at_once()  # until the node's `run` takes over
     from agv_motion.nodes.dashboard import main
 
@@ -74,3 +80,10 @@ def dashboard(
     words = (word for option, value in given.items() for word in ('-p', f'{option}:={value}'))
     sys.argv = ['dashboard', '--ros-args', *words]
     main()
+
+
+def _end_with_stdin() -> None:
+    """End this process when whoever started it closes the pipe, or is gone."""
+    while os.read(0, 4096):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.demo.play import begun, play
+from agv_motion.cli.demo.play import PAGE, begun, play
 
 
 def differential(
@@ -22,6 +22,7 @@ def differential(
     output: Annotated[Path, typer.Option(help='Folder of the results.')] = Path(
         'demo_output/differential'
     ),
+    page: PAGE = True,
 ) -> None:
     """Let a differential drive perform a sequence: poses, turns, an arc, a route, and home again.
 
@@ -35,4 +36,4 @@ def differential(
     console = begun()
     from agv_motion.demo.differential import DifferentialScenario
 
-    play(DifferentialScenario(sequence, seed, time_factor), output, console)
+    play(DifferentialScenario(sequence, seed, time_factor), output, console, with_page=page)

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.demo.play import begun, play
+from agv_motion.cli.demo.play import PAGE, begun, play
 from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.errors import ConfigurationError
 
@@ -39,6 +39,7 @@ def demo(
     seed: Annotated[int, typer.Option(min=0, help='Of weather and noise.')] = 1,
     output: Annotated[Path, typer.Option(help='Folder of the results.')] = Path('demo_output'),
     live: Annotated[bool, typer.Option(help='Show the walk while it runs.')] = True,
+    page: PAGE = True,
 ) -> None:
     """Let the tree walk for one simulated hour: real nodes, one process, a minute.
 
@@ -65,4 +66,4 @@ def demo(
             f'{", ".join(given["csv__columns"])} [{given["csv__unit"]}]'
         )
     scenario = TreeScenario(minutes * 60.0, given, zone, seed, time_factor)
-    play(scenario, output, console, live=live)
+    play(scenario, output, console, live=live, with_page=page)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.demo.play import begun, play
+from agv_motion.cli.demo.play import PAGE, begun, play
 
 
 def omni(
@@ -19,6 +19,7 @@ def omni(
     carry: Annotated[bool, typer.Option(help='Carry the robot away on its way.')] = True,
     seed: Annotated[int, typer.Option(min=0, help='Of the way and of all noise.')] = 1,
     output: Annotated[Path, typer.Option(help='Folder of the results.')] = Path('demo_output/omni'),
+    page: PAGE = True,
 ) -> None:
     """Let an omni robot find out where it is, in half a minute: UWB, wheels, and their fusion.
 
@@ -36,4 +37,4 @@ def omni(
     from agv_motion.demo.omni import OmniScenario
 
     scenario = OmniScenario(60.0 * minutes, carry=carry, seed=seed, time_factor=time_factor)
-    play(scenario, output, console)
+    play(scenario, output, console, with_page=page)

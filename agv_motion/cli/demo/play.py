@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -11,6 +11,7 @@ from agv_motion.cli.bag.options import opened
 from agv_motion.cli.terminal import terminal
 from agv_motion.demo.domain import begin
 from agv_motion.demo.folder import results
+from agv_motion.demo.page import page
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,15 +26,31 @@ def begun() -> Console:
     return console
 
 
-def play(scenario: Scenario[Any], output: Path, console: Console, *, live: bool = True) -> None:
-    """Run a scenario, and leave its bag and its figure in ``output``; exits with 1 if it failed."""
+PAGE = Annotated[bool, typer.Option(help="Serve the operator's page while it runs.")]
+"""option of every demo"""
+
+
+def play(
+    scenario: Scenario[Any], output: Path, console: Console, *, live: bool = True,
+    with_page: bool = True,
+) -> None:  # fmt: skip
+    """Run a scenario, and leave its bag and its figure in ``output``; exits with 1 if it failed.
+
+    Args:
+        scenario: What sets the demo apart.
+        output: Folder of the results.
+        console: For what is printed.
+        live: Show how it goes.
+        with_page: Serve the operator's page meanwhile.
+
+    """
     from agv_motion.demo.arbitrated import held
     from agv_motion.demo.frame import Demo
 
     figure = output / scenario.figure
     scenario.state = output.resolve()
     with results(output, scenario.figure) as bag:
-        with Demo(scenario, bag) as demo:
+        with Demo(scenario, bag) as demo, page(bag, console, wanted=with_page):
             for notice in held(demo.graph.nodes):
                 console.print(notice)
             demo.run(console, live=live)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.demo.play import begun, play
+from agv_motion.cli.demo.play import PAGE, begun, play
 
 
 def trees(
@@ -22,6 +22,7 @@ def trees(
     output: Annotated[Path, typer.Option(help='Folder of the results.')] = Path(
         'demo_output/trees'
     ),
+    page: PAGE = True,
 ) -> None:
     """Let several trees share a zone for forty minutes, in two: five real nodes each.
 
@@ -37,4 +38,9 @@ def trees(
     console = begun()
     from agv_motion.demo.trees import TreesScenario
 
-    play(TreesScenario(60.0 * minutes, count, zone, seed, time_factor), output, console)
+    play(
+        TreesScenario(60.0 * minutes, count, zone, seed, time_factor),
+        output,
+        console,
+        with_page=page,
+    )

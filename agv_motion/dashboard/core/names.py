@@ -25,6 +25,7 @@ TOPICS = {
     'state': TEXT,
     'ghost/state': TEXT,
     'route/state': TEXT,
+    'sequence/state': TEXT,
     'sequence/status': 'diagnostic_msgs/msg/DiagnosticStatus',
     'driver': 'diagnostic_msgs/msg/DiagnosticStatus',
     'standstill': 'std_msgs/msg/Bool',

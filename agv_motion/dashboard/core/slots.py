@@ -87,7 +87,7 @@ def _path(robot: RobotState) -> Value | None:
     return conversions.path(newest.message)
 
 
-TEXTS = ('state', 'sequence/status', 'route/state', 'ghost/state')
+TEXTS = ('state', 'sequence/state', 'sequence/status', 'route/state', 'ghost/state')
 
 
 def _state(robot: RobotState) -> Value | None:

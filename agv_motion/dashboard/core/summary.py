@@ -25,7 +25,7 @@ COLOURS = {
 }  # fmt: skip
 """of each activity; of one that is not known: yellow"""
 BY_HAND = ('manual',)
-STATES = ('state', 'sequence/status', 'route/state', 'ghost/state')
+STATES = ('state', 'sequence/state', 'sequence/status', 'route/state', 'ghost/state')
 
 
 class _Found(NamedTuple):

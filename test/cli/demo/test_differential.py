@@ -19,8 +19,8 @@ def test_a_short_sequence_leaves_a_bag_and_a_figure(alone, tmp_path):
     file = tmp_path / 'short.yaml'
     file.write_text(SEQUENCE, encoding='utf-8')
     status, out, errors = alone(
-        'demo', 'differential', '--sequence', file, '--time-factor', 4, '--output', tmp_path,
-        timeout=180.0,
+        'demo', 'differential', '--sequence', file, '--time-factor', 4,
+        '--no-page', '--output', tmp_path, timeout=180.0,
     )  # fmt: skip
     assert status == 0, out + errors
     x, y = map(float, re.search(r'ends at (-?[\d.]+) m, (-?[\d.]+) m', out).groups())
@@ -32,7 +32,9 @@ def test_a_short_sequence_leaves_a_bag_and_a_figure(alone, tmp_path):
 def test_a_sequence_that_is_none_ends_with_what_is_wrong(alone, tmp_path):
     file = tmp_path / 'bad.yaml'
     file.write_text('actions:\n  - fly: {}\n', encoding='utf-8')
-    status, out, errors = alone('demo', 'differential', '--sequence', file, '--output', tmp_path)
+    status, out, errors = alone(
+        'demo', 'differential', '--sequence', file, '--no-page', '--output', tmp_path
+    )
     assert status == 1
     assert 'fly' in out + errors
     assert 'Traceback' not in out + errors

@@ -17,8 +17,8 @@ from agv_motion.report.stamped_columns import pose_columns
 
 def test_a_short_drive_leaves_a_bag_and_a_figure(alone, tmp_path):
     status, out, errors = alone(
-        'demo', 'omni', '--minutes', 0.5, '--time-factor', 15, '--no-carry', '--output', tmp_path,
-        timeout=180.0,
+        'demo', 'omni', '--minutes', 0.5, '--time-factor', 15, '--no-carry',
+        '--no-page', '--output', tmp_path, timeout=180.0,
     )  # fmt: skip
     assert status == 0, errors
     assert (tmp_path / 'path.png').stat().st_size > 10_000

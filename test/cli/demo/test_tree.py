@@ -13,7 +13,9 @@ from rosbags.highlevel import AnyReader
 
 
 def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
-    status, out, errors = alone('demo', '--minutes', 2, '--output', tmp_path, cold=True)
+    status, out, errors = alone(
+        'demo', '--minutes', 2, '--no-page', '--output', tmp_path, cold=True
+    )
     assert status == 0, errors
     for word in ('distance', 'inside the zone', '100.0 %', 'probe to turrets', 'p99'):
         assert word in out
@@ -30,7 +32,7 @@ def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
 
 def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
     status, out, errors = alone(
-        'demo', '--minutes', 1, '--output', tmp_path, '--probes', spruce, '--days', 2
+        'demo', '--minutes', 1, '--no-page', '--output', tmp_path, '--probes', spruce, '--days', 2
     )
     assert status == 0, errors
     assert 'delta_v_mv' in out
@@ -40,7 +42,7 @@ def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
 def test_a_start_outside_the_recording_is_refused(alone, tmp_path):
     path = tmp_path / 'probes.csv'
     path.write_text('time,probe\n2013-06-10,0.5\n2013-06-11,0.5\n')
-    asked = '--output', tmp_path / 'walk', '--start', '2014-06-10'
+    asked = '--no-page', '--output', tmp_path / 'walk', '--start', '2014-06-10'
     status, _, errors = alone('demo', '--probes', path, *asked)
     assert status == 1
     assert 'ends at 2013-06-11T00:00:00+00:00 (line 3), before the start' in errors.replace(
@@ -55,13 +57,13 @@ def test_a_start_outside_the_recording_is_refused(alone, tmp_path):
 def test_a_recording_without_probes_is_refused(alone, tmp_path):
     path = tmp_path / 'weather.csv'
     path.write_text('time,rain\n0,1\n')
-    status, _, errors = alone('demo', '--probes', path, '--output', tmp_path)
+    status, _, errors = alone('demo', '--probes', path, '--no-page', '--output', tmp_path)
     assert status == 1
     assert 'has the columns time, rain: name those of the probes by --columns' in errors
 
 
 def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path, wait_until):
-    process = alone.start('demo', '--output', tmp_path)
+    process = alone.start('demo', '--no-page', '--output', tmp_path)
     files = (tmp_path / 'bag').glob  # the walk has begun when its bag holds a chunk
     wait_until(lambda: any(file.stat().st_size > 1000 for file in files('*.mcap')))
     process.send_signal(signal.SIGINT)

@@ -16,8 +16,8 @@ from agv_motion.report.walks import gaps, read_walks
 
 def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
     status, out, errors = alone(
-        'demo', 'trees', '--count', 2, '--minutes', 2, '--time-factor', 15, '--output', tmp_path,
-        timeout=180.0,
+        'demo', 'trees', '--count', 2, '--minutes', 2, '--time-factor', 15,
+        '--no-page', '--output', tmp_path, timeout=180.0,
     )  # fmt: skip
     assert status == 0, errors
     assert (tmp_path / 'trees.png').stat().st_size > 10_000
@@ -32,7 +32,7 @@ def test_a_short_walk_of_two_leaves_a_bag_and_a_figure(alone, tmp_path):
 
 
 def test_ctrl_c_at_the_very_beginning_is_no_error(alone, tmp_path, wait_until):
-    process = alone.start('demo', 'trees', '--output', tmp_path)
+    process = alone.start('demo', 'trees', '--no-page', '--output', tmp_path)
     wait_until(lambda: list(tmp_path.glob('bag/*.mcap')))
     process.send_signal(signal.SIGINT)
     out, errors = process.communicate(timeout=180.0)
@@ -49,7 +49,15 @@ def test_a_tree_alone_and_too_many_are_refused(alone):
 
 def test_trees_that_do_not_fit_are_refused(alone, tmp_path):
     status, _, errors = alone(
-        'demo', 'trees', '--count', 5, '--zone', 'zone_indoor.yaml', '--output', tmp_path
+        'demo',
+        'trees',
+        '--count',
+        5,
+        '--zone',
+        'zone_indoor.yaml',
+        '--no-page',
+        '--output',
+        tmp_path,
     )
     assert status == 1
     assert '5 trees do not fit into this zone' in errors
