@@ -301,7 +301,9 @@ class DrivenRobot:
 
 
 class RealTimeRobot(DrivenRobot):
-    """The same, but it moves as time passes."""
+    """The same, but it moves as time passes; more slowly where the machine is too busy for it."""
+
+    LONGEST_STEP = 0.1
 
     def __init__(self, graph):
         super().__init__(graph)
@@ -322,7 +324,7 @@ class RealTimeRobot(DrivenRobot):
 
     def _pass(self):
         now = time.monotonic()
-        self._carry(now - self._last)
+        self._carry(min(now - self._last, self.LONGEST_STEP))
         self._last = now
 
 

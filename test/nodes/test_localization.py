@@ -18,6 +18,7 @@ from std_srvs.srv import Trigger
 
 from agv_motion.nodes.localization import Localization
 from agv_motion.odometry.covariance import Covariance
+from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.planar import Pose, compose, wrap
 from agv_motion.ros.covariances import fill_covariance
 from agv_motion.ros.messages import fill_pose, pose_of, stamp_of
@@ -265,15 +266,19 @@ def test_restart_forgets(tester):
     assert robot.values()['state'] == 'waiting'
 
 
-def test_a_gyroscope_mends_the_turns_of_the_wheels(tester):
+def test_a_gyroscope_mends_the_turns_of_the_wheels(tester, monkeypatch):
     """Wheels that see 10 % of each turn too little: over one round 36 degrees, with it a few."""
+    add, taken = YawRate.add, []
+    monkeypatch.setattr(
+        YawRate, 'add', lambda gyro, *rate, **how: (add(gyro, *rate, **how), taken.append(rate))
+    )
     robot = Robot(tester, odom_noise__turning=0.2, gyro__bias=0.001)
     for i in range(126):
         imu = Imu()
         imu.header.stamp, imu.header.frame_id = stamp_of(round((100.0 + 0.1 * i) * 1e9)), 'imu_link'
         imu.angular_velocity.z = 0.5
         robot.imu.publish(imu)
-        tester.graph.spin_for(0.001)
+        tester.graph.spin_until(lambda: len(taken) > i)  # noqa: B023 - at once
         wrong = Pose(sin(0.045 * i), 1.0 - cos(0.045 * i), wrap(0.045 * i))
         robot.publish(robot.odom, robot.odometry(100.0 + 0.1 * i, wrong), robot.filtered)
     heading = pose_of(robot.filtered[-1].pose.pose).theta

@@ -11,6 +11,7 @@ import pytest
 
 rclpy = pytest.importorskip('rclpy')
 
+from rcl_interfaces.srv import ListParameters
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Int32
@@ -46,9 +47,21 @@ def inbox(graph):
     return numbers
 
 
-def _found(node):
-    """Return whether what listens to the bag has met who plays it."""
-    return all(s.get_publisher_count() for s in node.subscriptions if s.topic_name == '/other')
+def meet_player(graph):
+    """Wait until listener and player know each other.
+
+    Its answer proves that it has found who asks, and the listener was announced before that.
+    """
+    (node,) = graph.nodes
+    client = node.create_client(ListParameters, '/bag_player/list_parameters')
+    graph.spin_until(client.service_is_ready)
+    answers = []
+    graph.repeat(
+        lambda: answers.append(client.call_async(ListParameters.Request())),
+        lambda: any(answer.done() for answer in answers),
+        every=0.5,
+    )
+    graph.spin_until(lambda: all(s.get_publisher_count() for s in node.subscriptions))
 
 
 def test_to_the_end_remapped_with_a_report(agv, graph, inbox, bag):
@@ -58,8 +71,8 @@ def test_to_the_end_remapped_with_a_report(agv, graph, inbox, bag):
     )  # fmt: skip
     (node,) = graph.nodes
     resume = node.create_client(Trigger, '/bag_player/resume')
-    graph.spin_until(lambda: _found(node) and resume.service_is_ready())
-    graph.spin_for(0.5)  # so that the player has found the listener too
+    meet_player(graph)
+    graph.spin_until(resume.service_is_ready)
     resume.call_async(Trigger.Request())
     graph.spin_until(lambda: process.poll() is not None)
     out, errors = process.communicate()
@@ -82,9 +95,7 @@ def test_keys_in_a_terminal(graph, inbox, bag):
         [sys.executable, '-m', 'agv_motion.cli.main', *map(str, command)],
         stdin=other, stdout=other, stderr=other,
     )  # fmt: skip
-    (node,) = graph.nodes
-    graph.spin_until(lambda: _found(node))
-    graph.spin_for(0.5)
+    meet_player(graph)
     os.write(main, b'\x1b[C\x1b[C\x1b[C')
     graph.spin_until(lambda: inbox == [0, 1, 2])
     os.write(main, b'\x1b[A' * 10 + b' ')
