@@ -9,6 +9,7 @@ led so far that even a coarse or late pose would show it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from math import exp, hypot
 from typing import Annotated
 
@@ -16,7 +17,15 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, integrate, require_finite, wrap
 
-STOP, RETRY = 'stop', 'retry'
+
+class AfterBlock(Enum):
+    """What a blocked robot does next."""
+
+    STOP = 'stop'
+    """It stands until a person lets it go on"""
+    RETRY = 'retry'
+    """It tries again by itself"""
+
 
 AVERAGED = 0.2
 """[-] Time constant of the averages, as a share of the time after which a robot is blocked."""
@@ -46,8 +55,8 @@ Distance = Annotated[
 ]  # fmt: skip
 Then = Annotated[
     str,
-    Spec('stop: until a person lets it go on; or try again by itself', choices=(STOP, RETRY),
-         dynamic=True),
+    Spec('stop: until a person lets it go on; or try again by itself',
+         choices=tuple(each.value for each in AfterBlock), dynamic=True),
 ]  # fmt: skip
 RetryAfter = Annotated[
     float, Spec('time to stand before it tries again', 's', (0.1, 1e5), dynamic=True)
@@ -60,7 +69,7 @@ class BlockedParameters:
 
     after: After = 5.0
     distance: Distance = 0.05
-    then: Then = STOP
+    then: Then = AfterBlock.STOP.value
     retry_after: RetryAfter = 10.0
 
     def __post_init__(self) -> None:
@@ -70,6 +79,11 @@ class BlockedParameters:
             msg = f'after = {self.after} s: give 0.5 s or more, or 0 to look for no block at all'
             raise ConfigurationError(msg)
 
+    @property
+    def tries_again(self) -> bool:
+        """Whether a blocked robot goes on by itself."""
+        return AfterBlock(self.then) is AfterBlock.RETRY
+
 
 @dataclass(frozen=True)
 class SlowlyBlockedParameters(BlockedParameters):
@@ -77,7 +91,7 @@ class SlowlyBlockedParameters(BlockedParameters):
 
     after: After = 30.0
     distance: Distance = 0.3
-    then: Then = RETRY
+    then: Then = AfterBlock.RETRY.value
     retry_after: RetryAfter = 60.0
 
 
@@ -206,12 +220,12 @@ class BlockedGuard:
         given = self.watch.parameters
         if self.reason:
             self._stood += dt
-            if given.then == RETRY and self._stood >= given.retry_after:
+            if given.tries_again and self._stood >= given.retry_after:
                 self.release()
         elif pose is None:
             self.watch.restart()
         elif self.watch.update(pose, twist, dt):
-            next_ = f'trying again in {given.retry_after:g} s' if given.then == RETRY else ''
+            next_ = f'trying again in {given.retry_after:g} s' if given.tries_again else ''
             self.reason = f'blocked: {self.watch.describe()}; {next_ or self._remedy}'
             return True
         return False

@@ -33,14 +33,17 @@ def tree(path):
     return ast.parse(path.read_text(encoding='utf-8'))
 
 
+@cache
+def nodes(path):
+    return list(ast.walk(tree(path)))
+
+
+@cache
 def functions(path):
-    return [
-        node
-        for node in ast.walk(tree(path))
-        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
-    ]
+    return [n for n in nodes(path) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
 
 
+@cache
 def statements(path):
     """Return how many statements stand in functions, their docstrings not counted."""
     return sum(
@@ -72,7 +75,7 @@ def test_classes_with_many_attributes_are_few():
     """Attributes are what its methods assign to `self`."""
     classes, large = 0, []
     for path in files(PACKAGE):
-        for node in ast.walk(tree(path)):
+        for node in nodes(path):
             if isinstance(node, ast.ClassDef):
                 own = {
                     part.attr
@@ -118,6 +121,36 @@ def test_tests_are_more_than_half_as_long_as_the_code():
         for folder in (PACKAGE, TESTS)
     )
     assert tests >= 0.6 * code, f'{tests} lines of tests for {code} of code'
+
+
+HOLDERS = ('given', 'parameters', '_home', 'blocked')
+"""Names under which parameters are at hand."""
+
+
+def choices(path):
+    """Yield the names of parameters that are one of several words."""
+    for node in nodes(path):
+        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            words = [w.arg for part in ast.walk(node.annotation) if isinstance(part, ast.Call)
+                     for w in part.keywords]  # fmt: skip
+            if 'choices' in words:
+                yield node.target.id
+
+
+def test_no_decision_is_taken_on_a_text():
+    """A parameter is one of several words to users; within, it is the member of an Enum."""
+    names = {name for path in files(PACKAGE) for name in choices(path)}
+    assert {'odom_covariance', 'clock', 'outside', 'when_full'} <= names
+    found = []
+    for path in files(PACKAGE):
+        for node in nodes(path):
+            match node:
+                case ast.Compare(
+                    left=ast.Attribute(value=holder, attr=name),
+                    comparators=[ast.Constant(value=str())],
+                ) if name in names and ast.unparse(holder).endswith(HOLDERS):
+                    found.append(f'{path.relative_to(ROOT)}:{node.lineno}')
+    assert found == []
 
 
 def faced(path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
@@ -43,14 +44,27 @@ OLDEST_POSE = 0.3
 """[s] An older pose, or one from another clock, is taken as of now."""
 
 
+class PoseTopic(Enum):
+    """The topic that tells where the robot is."""
+
+    ODOM = 'odom'
+    """nav_msgs/Odometry of its wheels, which drifts"""
+    POSE = 'pose'
+    """PoseWithCovarianceStamped of its localisation"""
+
+
 @dataclass(frozen=True)
 class DrivingParameters(CommandParameters, TrackParameters):
     """How often to command, and whom to believe where the robot is."""
 
     rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 20.0
     position: Annotated[
-        str, Spec('where the pose comes from: topic odom, or topic pose', choices=('odom', 'pose'))
-    ] = 'odom'
+        str,
+        Spec(
+            'where the pose comes from: topic odom, or topic pose',
+            choices=tuple(each.value for each in PoseTopic),
+        ),
+    ] = PoseTopic.ODOM.value
     frame: Annotated[str, Spec('frame of the pose, and of all that is to be driven')] = 'odom'
     blocked: BlockedParameters = field(default_factory=BlockedParameters)
 
@@ -95,7 +109,7 @@ class DrivingNode(PlainNode[P]):
         """Watches that the robot moves when told to"""
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._state = port.publisher(String, self.state_topic, LATCHED, sole=True)
-        if given.position == 'odom':
+        if PoseTopic(given.position) is PoseTopic.ODOM:
             port.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
         else:
             port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)

@@ -12,7 +12,11 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import SignalError
-from agv_motion.nodes.localization_parameters import LocalizationParameters
+from agv_motion.nodes.localization_parameters import (
+    LocalizationParameters,
+    NoiseSource,
+    ToldTransforms,
+)
 from agv_motion.odometry.assumed_noise import AssumedNoise
 from agv_motion.odometry.continuity import Succession
 from agv_motion.odometry.covariance import CERTAIN, Covariance, shift
@@ -70,8 +74,9 @@ class Localization(PlainNode[LocalizationParameters]):
         super().__init__(port, parameters)
         given = parameters
         self._fusion = PoseFusion(given.fusion)
-        assumed = given.odom_covariance == 'assumed'
-        noise = AssumedNoise(given.odom_noise) if assumed else None
+        self._assumes = NoiseSource(given.odom_covariance) is NoiseSource.ASSUMED
+        noise = AssumedNoise(given.odom_noise) if self._assumes else None
+        self._tells = ToldTransforms(given.tf)
         self._intake = OdometryIntake(given.fusion, noise)
         self._gyro: YawRate | None = None
         self._at_rest = False
@@ -83,7 +88,7 @@ class Localization(PlainNode[LocalizationParameters]):
         self._imu_watch = InputWatch(port, 'imu', limits)
         self._pose = port.publisher(PoseWithCovarianceStamped, 'pose', SENSOR, sole=True)
         self._filtered = port.publisher(Odometry, 'odom/filtered', SENSOR)
-        self._transforms = None if given.tf == 'none' else Transforms(port)
+        self._transforms = None if self._tells is ToldTransforms.NONE else Transforms(port)
         port.listen(Odometry, 'odom', self._on_odometry, SENSOR, sole=True)
         port.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
         port.listen(Imu, 'imu', self._on_imu, SENSOR)
@@ -155,7 +160,7 @@ class Localization(PlainNode[LocalizationParameters]):
 
     def _noise_of(self, pose: Pose, numbers: Any) -> Covariance:
         """Return the covariance of the error about the origin of `odom` as it is told."""
-        if self.parameters.odom_covariance == 'assumed':
+        if self._assumes:
             return CERTAIN
         covariance = covariance_of(numbers)
         before, self._last_pose = self._last_pose, pose
@@ -251,7 +256,7 @@ class Localization(PlainNode[LocalizationParameters]):
             self.port.info(health.state.value)
             self._state = health.state
         transforms = []
-        if given.tf == 'both':
+        if self._tells is ToldTransforms.BOTH:
             transforms.append((given.odom_frame, given.base_frame, in_odom))
         if estimate is not None and self._trusted(health):
             self._publish_pose(stamp, estimate)

@@ -3,12 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
 from typing import Annotated
 
 from agv_motion.odometry.assumed_noise import AssumedNoiseParameters
 from agv_motion.odometry.fusion_parameters import FusionParameters
 from agv_motion.odometry.yaw_rate import YawRateParameters
 from agv_motion.parameters import Spec, check
+
+
+class NoiseSource(Enum):
+    """Whence the noise of odometry."""
+
+    ASSUMED = 'assumed'
+    """From the way, by `odom_noise`"""
+    MESSAGE = 'message'
+    """The covariance in each message"""
+
+
+class ToldTransforms(Enum):
+    """Which transforms are published."""
+
+    BOTH = 'both'
+    """From map to odom, and from odom to the robot"""
+    MAP = 'map'
+    """From map to odom"""
+    NONE = 'none'
 
 
 @dataclass(frozen=True)
@@ -20,9 +40,9 @@ class LocalizationParameters:
         Spec(
             'whence the noise of odometry: assumed from the way (odom_noise), or the one in the '
             'message, which must grow with the way as that of omni_kinematics does',
-            choices=('assumed', 'message'),
+            choices=tuple(each.value for each in NoiseSource),
         ),
-    ] = 'assumed'
+    ] = NoiseSource.ASSUMED.value
     max_position_deviation: Annotated[
         float, Spec('standard deviation beyond which the pose is not told', 'm', (0.01, 100.0))
     ] = 1.0
@@ -42,8 +62,8 @@ class LocalizationParameters:
     tf: Annotated[
         str,
         Spec('transforms to publish where tf2_msgs is installed: map to odom, odom to base_link',
-             choices=('both', 'map', 'none')),
-    ] = 'both'  # fmt: skip
+             choices=tuple(each.value for each in ToldTransforms)),
+    ] = ToldTransforms.BOTH.value  # fmt: skip
     map_frame: Annotated[str, Spec('frame of fixes and pose')] = 'map'
     odom_frame: Annotated[str, Spec('frame of the odometry')] = 'odom'
     base_frame: Annotated[str, Spec('frame of the robot')] = 'base_link'

@@ -11,7 +11,6 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.activity import Activity, Cause
-from agv_motion.blocked import STOP
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.nodes.driving import DrivingNode, DrivingParameters
 from agv_motion.parameters import Spec
@@ -147,7 +146,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
             return
         number = runner.status.number
         reason = runner.status.reason
-        if self.guard.reason and self.parameters.blocked.then == STOP:
+        if self.guard.reason and not self.parameters.blocked.tries_again:
             runner.fail(self.guard.reason)
             self.guard.release()
         self.drive(runner.step(None if self.obstacle else self.pose_now(), dt))

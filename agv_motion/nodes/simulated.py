@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime, timezone
+from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Protocol, TypeVar
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
@@ -36,6 +37,15 @@ LEAP = 60 * 10**9
 """[ns] A clock that goes on by more at once, or back, is not caught up with but taken over."""
 
 
+class ClockRole(Enum):
+    """Who makes simulated time pass."""
+
+    LEAD = 'lead'
+    """This simulator, which tells it on /clock"""
+    FOLLOW = 'follow'
+    """Another one, whose /clock this one heeds"""
+
+
 @dataclass(frozen=True)
 class SimulatedParameters:
     """Where the robot starts, and how fast time passes."""
@@ -51,9 +61,9 @@ class SimulatedParameters:
         str,
         Spec(
             'lead: make time pass and tell it on /clock; follow: another simulator does',
-            choices=('lead', 'follow'),
+            choices=tuple(each.value for each in ClockRole),
         ),
-    ] = 'lead'
+    ] = ClockRole.LEAD.value
     start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00:00'
     command_timeout: Annotated[
         float,
@@ -150,7 +160,7 @@ class SimulatedNode(PlainNode[P]):
         port.serve(Trigger, '~/reset', self._on_reset)
         port.listen(PoseWithCovarianceStamped, 'carry', self._on_pose, COMMAND)
         port.serve(SetMap, '~/carry', lambda request: self._carry(request.initial_pose))
-        if given.clock == 'follow':
+        if ClockRole(given.clock) is ClockRole.FOLLOW:
             port.listen(ClockMessage, '/clock', self._follow, CLOCK)
             return
         self._clock_publisher = port.publisher(ClockMessage, '/clock', CLOCK)

@@ -8,13 +8,13 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from agv_motion.blocked import RETRY, BlockedParameters
+from agv_motion.blocked import AfterBlock, BlockedParameters
 from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.planar import Pose, Twist
 
 HERE, FAST = Pose(0.0, 0.0, 0.0), Twist(1.0, 0.0, 0.0)
 NEVER = BlockedParameters(after=0.0)
-SOON = BlockedParameters(after=1.0, then=RETRY, retry_after=2.0)
+SOON = BlockedParameters(after=1.0, then=AfterBlock.RETRY.value, retry_after=2.0)
 
 
 def test_it_is_told_when_it_begins_and_when_it_tries_again():

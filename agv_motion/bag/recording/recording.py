@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.quality_of_service import kept
 from agv_motion.bag.recording.sequence_gaps import SequenceGaps
-from agv_motion.bag.recording.storage_parameters import MEGABYTE
+from agv_motion.bag.recording.storage_parameters import MEGABYTE, FullDisk
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError, SourceError
 
@@ -248,7 +248,8 @@ class Recording:
                 self._writer.write(handle, self._newest, data, sent, number)
 
     def _drop_oldest(self) -> bool:
-        return self._given.when_full == 'drop_oldest' and self._writer.drop_oldest()
+        drops = FullDisk(self._given.when_full) is FullDisk.DROP_OLDEST
+        return drops and self._writer.drop_oldest()
 
 
 def _report(topic: _Topic, kept: int, deleted: int) -> TopicReport:

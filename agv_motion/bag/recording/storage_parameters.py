@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import Annotated
 
 from agv_motion.parameters import Spec, check
 
 MEGABYTE = 1e6
+
+
+class FullDisk(Enum):
+    """What a recording does when the disk is full."""
+
+    STOP = 'stop'
+    """It ends"""
+    DROP_OLDEST = 'drop_oldest'
+    """It deletes its oldest file and goes on"""
 
 
 @dataclass(frozen=True)
@@ -34,8 +44,11 @@ class StorageParameters:
     keep_free: Annotated[float, Spec('leave so much of the disk free', 'MB', (0.0, 1e9))] = 100.0
     when_full: Annotated[
         str,
-        Spec('at that floor stop, or delete the oldest file', choices=('stop', 'drop_oldest')),
-    ] = 'stop'
+        Spec(
+            'at that floor stop, or delete the oldest file',
+            choices=tuple(each.value for each in FullDisk),
+        ),
+    ] = FullDisk.STOP.value
     cache: Annotated[
         float, Spec('messages that wait for a slow disk; beyond, they are lost', 'MB', (1.0, 1e6))
     ] = 256.0

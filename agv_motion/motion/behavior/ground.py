@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from agv_motion.activity import Activity, Cause
 from agv_motion.errors import GeometryError
 from agv_motion.motion.behavior.decision import Decision, resting, stopped
+from agv_motion.motion.behavior.homing import OutsideZone
 from agv_motion.motion.command.limits import FloorRules
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ class Ground:
         """Return what a tree does that is not `inside`: refuse to move, or return to its zone."""
         assert self._zone is not None
         why = f'the tree {self._zone.why_not(*here)}'
-        if self._home.outside == 'refuse':
+        if OutsideZone(self._home.outside) is OutsideZone.REFUSE:
             return stopped(f'{why}; drive it back, or set home.outside to return', goal)
         if asleep:
             return resting(f'the sap stands, and {why}', goal, Cause.SAP)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from math import inf
 from typing import TYPE_CHECKING, Annotated
 
@@ -22,6 +23,15 @@ LOOK_PERIOD = 60.0
 """[s] between two looks at the length of the path home."""
 
 
+class OutsideZone(Enum):
+    """What a tree does that stands outside its zone."""
+
+    REFUSE = 'refuse'
+    """It does not move"""
+    RETURN = 'return'
+    """It goes slowly to the nearest walkable point"""
+
+
 @dataclass(frozen=True)
 class HomeParameters:
     """How the tree goes home, and back into its zone."""
@@ -37,9 +47,9 @@ class HomeParameters:
         str,
         Spec(
             'outside the zone: refuse to move, or return slowly to the nearest walkable point',
-            choices=('refuse', 'return'),
+            choices=tuple(each.value for each in OutsideZone),
         ),
-    ] = 'refuse'
+    ] = OutsideZone.REFUSE.value
     return_speed: Annotated[float, Spec('v on that return at most', '1', (0.01, 1.0))] = 0.25
 
     def __post_init__(self) -> None:
