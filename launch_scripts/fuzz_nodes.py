@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from rosidl_parser.definition import AbstractSequence, Array, BasicType, NamespacedType
 
 from agv_motion.errors import AgvMotionError
+from agv_motion.nodes.arbiter import ArbiterNode
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
@@ -49,6 +50,7 @@ CLAIM = '{"journey": 3, "heard": {"oak": 7}, "parked": false}'
 ZONE = 'boundary: [[0, 0], [12, 0], [12, 9], [0, 9]]\nmargin: 0.3\n'
 SEQUENCE = 'actions:\n  - go_to: {x: 2.0, y: 1.0, heading: 90}\n  - rotate: {by: 90}\n  - wait: 1\n'
 KINDS: dict[str, tuple[Any, dict[str, Any]]] = {
+    'arbiter': (ArbiterNode, {'limits.linear_acceleration': 1.0, 'limits.turn_rate': 2.0}),
     'differential_kinematics': (DifferentialKinematics, {}),
     'differential_simulator': (DifferentialSimulator, {}),
     'ghost_trajectory': (GhostTrajectory, {}),

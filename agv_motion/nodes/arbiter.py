@@ -158,6 +158,7 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
             self._stop('asked for by ~/stop')
             return 'STOP holds; call again with data: false to release it'
         self._arbiter.release()
+        self._report.forget()  # wheels may have heard a STOP that never came here
         self._command(self._choose())
         self._keep()
         return 'released: whoever speaks from now on drives'

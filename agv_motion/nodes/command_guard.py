@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import TwistStamped
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
@@ -77,7 +78,7 @@ class CommandGuard:
         self.twist: Twist | None = None
         """The last that was taken; None: none was"""
         self.standstill = False
-        """Whether the arbiter lets them stand; false for ever where there is none"""
+        """Whether the wheels stand for STOP, or because the arbiter lets them"""
         self._port, self._wheels, self._frame = port, wheels, given.base_frame
         self._lost = f'{encoders} is lost'
         if given.stamped:
@@ -85,6 +86,8 @@ class CommandGuard:
             port.listen_to_rows(rows, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
             port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        kind = TwistStamped if given.stamped else TwistMessage
+        port.listen(kind, 'cmd_vel/stop', lambda _: self._hold(held=True), COMMAND)
         port.listen(Bool, 'standstill', self._on_standstill, LATCHED, sole=True)
         port.serve(SetBool, '~/stop', self._on_stop)
 
@@ -146,11 +149,17 @@ class CommandGuard:
             self.command.note()
 
     def _on_standstill(self, message: Bool) -> None:
-        """Stand at once, by no ramp; once released, wait for the next twist."""
-        held, self.standstill = self.standstill, message.data
-        if self.standstill:
+        self._hold(held=message.data)
+
+    def _hold(self, *, held: bool) -> None:
+        """Stand at once, by no ramp; once released, wait for the next twist.
+
+        STOP need not wait for the arbiter, which may be gone; it is the arbiter that releases it.
+        """
+        before, self.standstill = self.standstill, held
+        if held:
             self._wheels.stand()
-        elif held:
+        elif before:
             self._wheels.start_anew()
 
     def _on_stop(self, request: Any) -> str:
@@ -158,5 +167,7 @@ class CommandGuard:
             self.stop_for('by request', HeldBy.PERSON)
             return 'stopped; call again with data: false to drive on'
         self.stopped_by = ''
+        if not self._port.count_publishers('standstill'):
+            self.standstill = False  # no arbiter is there to release it
         self._wheels.start_anew()
-        return 'free to drive'
+        return f'still held: {STANDSTILL}' if self.standstill else 'free to drive'

@@ -22,6 +22,7 @@ from agv_motion.ros.diagnosis import ERROR, OK, WARN
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import stamp_of, twist_of
+from agv_motion.ros.qos import COMMAND
 
 SECOND = 1_000_000_000
 START = 1000 * SECOND
@@ -163,6 +164,9 @@ def test_stop_is_released_by_the_service_alone_and_by_who_speaks_anew():
     assert (trial.twist, trial.stands) == (REST, True)
     assert trial.ask('stop', data=False) == 'released: whoever speaks from now on drives'
     assert (trial.twist, trial.stands, trial.value('stop')) == (REST, False, '')
+    told = len(trial.said['/standstill'])
+    trial.ask('stop', data=False)
+    assert len(trial.said['/standstill']) == told + 1  # wheels may have heard what it did not
     trial.until(2.2)
     assert trial.twist == REST
     trial.say('agent', 2.3)
@@ -398,6 +402,15 @@ def test_without_stamps_a_twist_means_now():
     assert trial.twist == A
     trial.say('stop', 0.2)
     assert (trial.twist, trial.stands) == (REST, True)
+
+
+def test_another_who_publishes_cmd_vel_is_told():
+    trial = Trial()
+    assert trial.node.plain.diagnose().level == OK
+    trial.node.port.publisher(TwistStamped, 'cmd_vel', COMMAND)
+    found = trial.node.plain.diagnose()
+    assert found.level == WARN
+    assert 'cmd_vel has 1 more publishers, past the arbiter' in found.message
 
 
 def test_driver_is_told_once_a_second_and_on_every_change_only():

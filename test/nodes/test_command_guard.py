@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import nan
 
 import pytest
 
@@ -23,7 +24,7 @@ from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import SENSOR
+from agv_motion.ros.qos import LATCHED, SENSOR
 
 SECOND = 1_000_000_000
 START = 1000 * SECOND
@@ -92,6 +93,15 @@ class Trial:
         message = JointState()
         message.header.stamp = stamp_of(self._at(seconds))
         self._feed('/wheels/state', seconds, message)
+
+    def arbitrate(self):
+        """Let there be somebody who publishes `standstill`."""
+        self.node.port.publisher(Bool, 'standstill', LATCHED)
+
+    def stop_message(self, seconds, speed=0.0):
+        message = TwistStamped()
+        message.twist.linear.x = speed
+        self._feed('/cmd_vel/stop', seconds, message)
 
     def standstill(self, seconds, *, holds):
         self._feed('/standstill', seconds, Bool(data=holds))
@@ -210,9 +220,10 @@ def test_a_standstill_that_never_held_changes_nothing():
 
 def test_a_request_and_a_standstill_are_released_each_by_itself():
     trial = Trial()
+    trial.arbitrate()
     trial.stop(data=True)
     trial.standstill(0.01, holds=True)
-    trial.stop(data=False)
+    assert trial.stop(data=False).startswith('still held: standstill')
     trial.twist(0.02)
     assert trial.clear()[-1] == (0.02, 'hold')
     trial.stop(data=True)
@@ -220,6 +231,32 @@ def test_a_request_and_a_standstill_are_released_each_by_itself():
     trial.twist(0.04)
     assert trial.clear()[-1] == (0.04, 'hold')
     assert trial.cart.guard.reason == 'by request'
+
+
+@pytest.mark.parametrize('speed', [0.0, nan])
+def test_stop_need_not_wait_for_the_arbiter_which_releases_it(speed):
+    trial = Trial()
+    trial.arbitrate()
+    trial.twist(0.05)
+    trial.stop_message(0.06, speed)
+    trial.twist(0.07)
+    assert trial.clear() == [(0.05, FAST), (0.06, 'stand'), (0.07, 'hold')]
+    trial.stop(data=False)
+    trial.twist(0.08)
+    assert trial.clear()[-1] == (0.08, 'hold')
+    trial.standstill(0.09, holds=False)
+    trial.twist(0.10)
+    assert trial.clear()[-1] == (0.10, FAST)
+
+
+def test_without_an_arbiter_the_request_releases_a_stop():
+    trial = Trial()
+    trial.stop_message(0.01)
+    trial.twist(0.02)
+    assert trial.clear()[-1] == (0.02, 'hold')
+    assert trial.stop(data=False) == 'free to drive'
+    trial.twist(0.03)
+    assert trial.clear()[-1] == (0.03, FAST)
 
 
 def test_a_reason_of_the_node_holds_as_a_request_does():
