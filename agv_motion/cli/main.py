@@ -18,6 +18,11 @@ app = typer.Typer(
     cls=lazy_group(
         {
             'topic': 'topic.group:app',
+            'node': 'node.group:app',
+            'param': 'param.group:app',
+            'service': 'service.group:app',
+            'lifecycle': 'lifecycle.group:app',
+            'interface': 'interface.group:app',
             'nodes': 'nodes.group:app',
             'drive': 'robot.drive:app',
             'why': 'robot.why:why',

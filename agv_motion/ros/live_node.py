@@ -21,6 +21,7 @@ from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.diagnostics import Diagnostics
 from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.live_port import LivePort
+from agv_motion.ros.parameter_changes import differing, refusal
 from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.quotation import told
@@ -91,12 +92,16 @@ class LiveNode(LifecycleNode, Generic[N]):
         return told(error, self.declared.given)
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """Set parameters; names and types that are wrong are refused with what to write."""
+        """Set parameters; what is wrong is refused with what to write, what is so already taken."""
         for parameter in parameter_list:
             wrong = self.declared.wrong(parameter.name, parameter.value)
             if wrong:
                 return SetParametersResult(successful=False, reason=shortened(wrong))
-        return super().set_parameters_atomically(parameter_list)
+        changes = differing(self, parameter_list)
+        fixed = refusal(self, changes)
+        if fixed or not changes:
+            return SetParametersResult(successful=not fixed, reason=shortened(fixed))
+        return super().set_parameters_atomically(changes)
 
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Any, *args: Any, **kwargs: Any

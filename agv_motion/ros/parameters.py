@@ -18,6 +18,7 @@ from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.parameter_changes import empty_array
 from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
 
@@ -68,6 +69,8 @@ class DeclaredParameters(Generic[T]):
         self._types = dict(_types(kind, ''))
         given = getattr(node, '_parameter_overrides', {})  # rclpy has no other way to ask
         for name, parameter in given.items():
+            if parameter.value is None and name in self._types:
+                parameter = given[name] = empty_array(name, self._types[name])  # noqa: PLW2901
             wrong = self.wrong(name, parameter.value) if name in self._types else ''
             if wrong:
                 raise ConfigurationError(wrong)

@@ -117,3 +117,16 @@ def agv(graph, warm_python):
     agv = Agv(warm_python, graph)
     yield agv
     agv.end()
+
+
+@pytest.fixture(scope='session')
+def oak(warm_python):
+    """Return the name of a node that runs, in a process of its own."""
+    agv = Agv(warm_python)
+    name = '/oak/wheel_kinematics'
+    agv.start('run', 'wheel_kinematics', '--ros-args', '-r', '__ns:=/oak',
+              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+    while agv('lifecycle', 'get', name)[1] != 'active [3]\n':
+        assert agv.processes[0].poll() is None
+    yield name
+    agv.end()

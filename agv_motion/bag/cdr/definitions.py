@@ -94,7 +94,7 @@ def _text(package: str, name: str, *, for_type: str) -> str:
     """Return the .msg file of a type, or what stands for one of a service or an action."""
     full, owner = f'{package}/{name}', base(name)
     for folder, file in (('msg', name), *((folder, owner) for folder in SECTIONS)):
-        path = _found(package, folder, f'{file}.{folder}')
+        path = interface_file(package, folder, f'{file}.{folder}')
         if path is None:
             continue
         text = path.read_text(encoding='utf-8')
@@ -111,7 +111,8 @@ def _text(package: str, name: str, *, for_type: str) -> str:
     raise ConfigurationError(msg)
 
 
-def _found(package: str, folder: str, file: str) -> Path | None:
+def interface_file(package: str, folder: str, file: str) -> Path | None:
+    """Return the file of an interface, such as ``std_msgs``, ``msg``, ``String.msg``."""
     paths = (prefix / 'share' / package / folder / file for prefix in search_path())
     return next((path for path in paths if path.is_file()), None)
 
@@ -119,7 +120,7 @@ def _found(package: str, folder: str, file: str) -> Path | None:
 def _hash(message_type: str) -> str:
     package, name = split(message_type)
     folders = (('msg', name), *((folder, base(name)) for folder in SECTIONS))
-    found = (_found(package, folder, f'{file}.json') for folder, file in folders)
+    found = (interface_file(package, folder, f'{file}.json') for folder, file in folders)
     path = next(filter(None, found), None)
     if path is None:
         return ''  # older distributions install no hash; rosbag2 writes '' as well

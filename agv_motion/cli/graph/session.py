@@ -4,31 +4,22 @@ from __future__ import annotations
 
 import importlib
 import os
-import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from agv_motion.cli.graph.participants import missing, on_this_machine
+from agv_motion.cli.graph.discovery import DISCOVERY, settle
+from agv_motion.cli.graph.participants import missing
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.parameter_arguments import meant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-DISCOVERY = 0.5
-"""[s] How long to listen to the graph before telling what is there, as `ros2` does."""
-
-SETTLED, LONGEST = 0.4, 10.0
-"""[s] ... and on until nothing new has come for so long, but no longer than this in all."""
-
-ALONE = 4.0
-"""[s] Another machine may be there of which nothing was heard: a lost announcement comes again
-after three seconds."""
-
-PATIENCE = 5.0
-"""[s] That a topic which was named is waited for, where another machine may have it."""
+UDP_ALONE = 'FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4'
+"""Shared memory that a killed process left behind holds up discovery by a second for each: who
+only looks does without"""
 
 
 def forever() -> bool:
@@ -59,6 +50,8 @@ def joined(
     from rclpy.parameter import Parameter
     from rclpy.signals import SignalHandlerOptions
 
+    if not endless:
+        os.environ.setdefault(*UDP_ALONE)
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node(
         name or f'_agv_{os.getpid()}',
@@ -67,7 +60,7 @@ def joined(
     )
     try:
         if spin_time > 0.0:
-            _listen(node, spin_time)
+            settle(node, spin_time)
         yield node
         if whole and missing(node):
             typer.echo(
@@ -85,46 +78,6 @@ def joined(
         rclpy.try_shutdown()
 
 
-def _listen(node: Any, spin_time: float) -> None:
-    """Spin for ``spin_time`` [s], then until all have been heard and nothing new comes."""
-    start = changed = time.monotonic()
-    known: tuple[int, int] = (0, 0)
-
-    def settled() -> bool:
-        nonlocal known, changed
-        now = time.monotonic()
-        found = len(node.get_node_names()), len(node.get_topic_names_and_types())
-        if found != known:
-            known, changed = found, now
-        if now - start < spin_time or now - changed < SETTLED:
-            return now - start >= max(LONGEST, spin_time)
-        if _heard_all(node):
-            return True
-        limit = LONGEST if missing(node) else ALONE
-        return now - start >= max(limit, spin_time)
-
-    spin(node, settled)
-
-
-def _heard_all(node: Any) -> bool:
-    """Return whether nobody can be there of whom nothing is known."""
-    local = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() == 'LOCALHOST'
-    others = [one for one in node.get_node_names_and_namespaces() if one[0] != node.get_name()]
-    if missing(node) or not (others or (local and on_this_machine(node.context.get_domain_id()))):
-        return False
-    return _complete(node, others)
-
-
-def _complete(node: Any, others: list[tuple[str, str]]) -> bool:
-    """Return whether something of each of the other nodes is known."""
-    from rclpy.node import NodeNameNonExistentError
-
-    try:
-        return all(node.get_publisher_names_and_types_by_node(*other) for other in others)
-    except NodeNameNonExistentError:  # it has left meanwhile
-        return False
-
-
 def spin(node: Any, until: Callable[[], bool] = forever) -> None:
     """Spin ``node`` until ``until()``, or a signal that ends the command."""
     import rclpy
@@ -138,6 +91,14 @@ def topics(node: Any, *, hidden: bool = False) -> dict[str, list[str]]:
     from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
     found = node.get_topic_names_and_types()
+    return {name: types for name, types in found if hidden or not topic_or_service_is_hidden(name)}
+
+
+def services(node: Any, *, hidden: bool = False) -> dict[str, list[str]]:
+    """Return the types of each service, by name, in order."""
+    from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+
+    found = node.get_service_names_and_types()
     return {name: types for name, types in found if hidden or not topic_or_service_is_hidden(name)}
 
 
@@ -179,7 +140,6 @@ def topic_class(node: Any, topic: str, *, wait: bool = False) -> Any:
 
     """
     name, warned = full_name(node, topic), False
-    _await(node, name)
     while name not in topics(node, hidden=True):
         typer.echo(f'WARNING: topic [{topic}] does not appear to be published yet')
         if not wait or warned:
@@ -201,18 +161,11 @@ def require_topic(node: Any, topic: str) -> list[str]:
         ConfigurationError: It is not.
 
     """
-    _await(node, full_name(node, topic))
     types = topics(node, hidden=True).get(full_name(node, topic))
     if types is None:
         msg = f"Unknown topic '{topic}'{_near(node, topic)}"
         raise ConfigurationError(msg)
     return types
-
-
-def _await(node: Any, name: str) -> None:
-    """Give a topic that was named the time to be found, where somebody may not have been heard."""
-    end = time.monotonic() + (0.0 if _heard_all(node) else PATIENCE)
-    spin(node, lambda: name in topics(node, hidden=True) or time.monotonic() > end)
 
 
 def _near(node: Any, name: str) -> str:

@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.graph.session import DISCOVERY, joined, spin
+from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.session import joined, spin
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.nodes.catalogue import available, require_node
 from agv_motion.ros.stop import end_at_once

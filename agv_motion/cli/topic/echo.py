@@ -7,7 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.graph.session import DISCOVERY, interface_class, joined, spin, topic_class
+from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.options import SimTime, SpinTime
+from agv_motion.cli.graph.session import interface_class, joined, spin, topic_class
 from agv_motion.cli.topic.echo_options import (
     Csv,
     Field,
@@ -22,7 +24,7 @@ from agv_motion.cli.topic.echo_options import (
 )
 from agv_motion.cli.topic.message_printer import MessagePrinter
 from agv_motion.cli.topic.message_text import MessageText
-from agv_motion.cli.topic.options import SimTime, SpinTime, Topic, preset_qos
+from agv_motion.cli.topic.options import Topic, preset_qos
 
 
 def echo(

@@ -7,20 +7,18 @@ from typing import Annotated
 
 import typer
 
-from agv_motion.cli.graph.session import (
-    DISCOVERY,
-    joined,
-    require_topic,
-    topics,
-)
+from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.options import HiddenTopics, NoDaemon, SimTime, SpinTime
+from agv_motion.cli.graph.session import joined, require_topic, topics
 from agv_motion.cli.lazy_group import lazy_group
-from agv_motion.cli.topic.options import Hidden, SimTime, SpinTime, Topic
+from agv_motion.cli.topic.options import Topic
 
 app = typer.Typer(
     cls=lazy_group(
         {
             'hz': 'topic.rates:hz',
             'bw': 'topic.rates:bw',
+            'delay': 'topic.delay:delay',
             'echo': 'topic.echo:echo',
             'pub': 'topic.pub:pub',
         }
@@ -35,10 +33,11 @@ def list_(
     *,
     show_types: Annotated[bool, typer.Option('-t', '--show-types', help='Show the types.')] = False,
     count_topics: Annotated[bool, typer.Option('-c', '--count-topics', help='Count.')] = False,
-    include_hidden_topics: Hidden = False,
+    include_hidden_topics: HiddenTopics = False,
     verbose: Annotated[bool, typer.Option('-v', '--verbose', help='Show all details.')] = False,
     spin_time: SpinTime = DISCOVERY,
     use_sim_time: SimTime = False,
+    no_daemon: NoDaemon = False,  # noqa: ARG001 - taken as ros2 does, without effect
 ) -> None:
     """List the topics of the graph.
 
@@ -77,6 +76,7 @@ def info(
     ] = False,
     spin_time: SpinTime = DISCOVERY,
     use_sim_time: SimTime = False,
+    no_daemon: NoDaemon = False,  # noqa: ARG001 - taken as ros2 does, without effect
 ) -> None:
     """Tell the type of a topic, and how many publish and subscribe.
 
@@ -92,3 +92,42 @@ def info(
             typer.echo(f'{word} count: {len(ends)}{end}', nl=False)
             for one in ends if verbose else ():
                 typer.echo(f'{one}{end}', nl=False)
+
+
+@app.command(name='type')
+def type_(
+    topic_name: Topic,
+    *,
+    include_hidden_topics: HiddenTopics = False,  # noqa: ARG001 - what is named is shown
+    spin_time: SpinTime = DISCOVERY,
+    use_sim_time: SimTime = False,
+    no_daemon: NoDaemon = False,  # noqa: ARG001
+) -> None:
+    """Tell the type of a topic.
+
+    Example: agv topic type /cmd_vel
+    """
+    with joined(spin_time, use_sim_time=use_sim_time) as node:
+        for one in require_topic(node, topic_name):
+            typer.echo(one)
+
+
+@app.command()
+def find(
+    topic_type: Annotated[str, typer.Argument(help="Such as 'nav_msgs/msg/Odometry'.")],
+    *,
+    count_topics: Annotated[bool, typer.Option('-c', '--count-topics', help='Count.')] = False,
+    include_hidden_topics: HiddenTopics = False,
+    spin_time: SpinTime = DISCOVERY,
+    use_sim_time: SimTime = False,
+    no_daemon: NoDaemon = False,  # noqa: ARG001
+) -> None:
+    """List the topics of a type.
+
+    Example: agv topic find nav_msgs/msg/Odometry
+    """
+    with joined(spin_time, use_sim_time=use_sim_time, whole=True) as node:
+        found = topics(node, hidden=include_hidden_topics).items()
+        names = [name for name, types in found if topic_type in types]
+        for line in [len(names)] if count_topics else names:
+            typer.echo(line)

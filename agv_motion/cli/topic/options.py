@@ -9,9 +9,6 @@ import typer
 from agv_motion.errors import ConfigurationError
 
 Topic = Annotated[str, typer.Argument(help="Name of the topic, such as '/cmd_vel'.")]
-SpinTime = Annotated[float, typer.Option(help='Seconds to wait for discovery.', min=0.0)]
-SimTime = Annotated[bool, typer.Option('--use-sim-time', '-s', help='Use simulation time.')]
-Hidden = Annotated[bool, typer.Option('--include-hidden-topics', help='Hidden topics as well.')]
 
 
 def preset_qos(preset: str, depth: int = 0, reliability: str = '', durability: str = '') -> Any:

@@ -7,9 +7,10 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.options import SimTime, SpinTime
 from agv_motion.cli.graph.session import interface_class, joined, spin
 from agv_motion.cli.topic.message_text import fill
-from agv_motion.cli.topic.options import SimTime, SpinTime, Topic, preset_qos
+from agv_motion.cli.topic.options import Topic, preset_qos
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 

@@ -9,9 +9,10 @@ from typing import Annotated, Any
 
 import typer
 
-from agv_motion.cli.graph.session import DISCOVERY, joined, spin, topic_class
+from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.options import SimTime, SpinTime
+from agv_motion.cli.graph.session import joined, spin, topic_class
 from agv_motion.cli.topic.message_printer import predicate
-from agv_motion.cli.topic.options import SimTime, SpinTime
 
 Duration = Annotated[float, typer.Option(help='Stop after so many seconds; 0: never.', min=0.0)]
 
@@ -76,11 +77,12 @@ def hz(
 
             return count
 
-        _subscribe(node, topic_name, counter, raw=not filter_expr)
-        _every_second(node, lambda: _tell(intervals), duration)
+        subscribe(node, topic_name, counter, raw=not filter_expr)
+        every_second(node, lambda: _tell(intervals), duration)
 
 
-def _subscribe(node: Any, names: list[str], callback: Any, *, raw: bool) -> None:
+def subscribe(node: Any, names: list[str], callback: Any, *, raw: bool) -> None:
+    """Wait for topics, and give to each the callback that ``callback(topic)`` returns."""
     from rclpy.qos import qos_profile_sensor_data
 
     for topic in names:
@@ -90,7 +92,8 @@ def _subscribe(node: Any, names: list[str], callback: Any, *, raw: bool) -> None
             typer.echo(f'Subscribed to [{topic}]')
 
 
-def _every_second(node: Any, tell: Any, duration: float) -> None:
+def every_second(node: Any, tell: Any, duration: float) -> None:
+    """Spin ``node`` and ``tell()`` every second, for ``duration`` [s] or (0) for ever."""
     start = time.monotonic()
     second = 1
     while not duration or second <= duration:
@@ -143,9 +146,9 @@ def bw(
         def weigh(data: bytes) -> None:
             seen.append((node.get_clock().now().nanoseconds * 1e-9, len(data)))
 
-        _subscribe(node, [topic], lambda _: weigh, raw=True)
+        subscribe(node, [topic], lambda _: weigh, raw=True)
         typer.echo(f'Subscribed to [{topic}]')
-        _every_second(
+        every_second(
             node,
             lambda: _tell_bytes(list(seen), node.get_clock().now().nanoseconds * 1e-9),
             duration,

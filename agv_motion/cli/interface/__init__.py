@@ -1,0 +1,1 @@
+"""`agv interface`: the words, options and output of `ros2 interface`."""

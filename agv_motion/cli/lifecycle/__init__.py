@@ -1,0 +1,1 @@
+"""`agv lifecycle`: the words, options and output of `ros2 lifecycle`."""

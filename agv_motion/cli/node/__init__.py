@@ -1,0 +1,1 @@
+"""`agv node`: the words, options and output of `ros2 node`."""

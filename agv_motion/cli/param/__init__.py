@@ -1,0 +1,1 @@
+"""`agv param`: the words, options and output of `ros2 param`."""

@@ -1,0 +1,1 @@
+"""`agv service`: the words, options and output of `ros2 service`."""
