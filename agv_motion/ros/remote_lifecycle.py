@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 
-from agv_motion.ros.remote_services import PATIENCE, NoAnswerError, call, call_all
+from agv_motion.ros.remote_services import PATIENCE, UnansweredError, call, call_all
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,7 +30,7 @@ def states(node: Any, names: Iterable[str], patience: float = PATIENCE) -> dict[
     requests = {service: GetState.Request() for service in services}
     answers = call_all(node, GetState, requests, patience)
     return {
-        services[service]: answer if isinstance(answer, NoAnswerError) else answer.current_state
+        services[service]: answer if isinstance(answer, UnansweredError) else answer.current_state
         for service, answer in answers.items()
     }
 
@@ -39,7 +39,7 @@ def transitions(node: Any, name: str, *, every: bool = False) -> list[Transition
     """Return the transitions that start from a node's present state, or ``every`` one.
 
     Raises:
-        NoAnswerError: The node does not answer.
+        UnansweredError: The node does not answer.
 
     """
     service = 'get_transition_graph' if every else 'get_available_transitions'
@@ -52,7 +52,7 @@ def change(node: Any, name: str, transition: Transition) -> bool:
     """Let a node change its state; return whether it has.
 
     Raises:
-        NoAnswerError: The node does not answer.
+        UnansweredError: The node does not answer.
 
     """
     request = ChangeState.Request(transition=transition)

@@ -19,7 +19,7 @@ LOOK = 0.02
 """[s] between two looks at what has come"""
 
 
-class NoAnswerError(AgvMotionError):
+class UnansweredError(AgvMotionError):
     """A service is not there, or does not answer in time."""
 
 
@@ -34,11 +34,11 @@ def call(node: Any, kind: type[Any], name: str, request: Any, patience: float = 
         patience: How long to wait [s].
 
     Raises:
-        NoAnswerError: It is not there, or does not answer in time.
+        UnansweredError: It is not there, or does not answer in time.
 
     """
     answer = call_all(node, kind, {name: request}, patience)[name]
-    if isinstance(answer, NoAnswerError):
+    if isinstance(answer, UnansweredError):
         raise answer
     return answer
 
@@ -46,7 +46,7 @@ def call(node: Any, kind: type[Any], name: str, request: Any, patience: float = 
 def call_all(
     node: Any, kind: type[Any], requests: Mapping[str, Any], patience: float = PATIENCE
 ) -> dict[str, Any]:
-    """Call services of one class, all at once; return of each the response, or a `NoAnswerError`.
+    """Call services of one class, all at once; return of each the response, or a `UnansweredError`.
 
     Args:
         node: Of rclpy, that calls; it is spun.
@@ -74,12 +74,12 @@ def call_all(
 
 def _answer(name: str, future: Any, patience: float) -> Any:
     if future is None:
-        return NoAnswerError(f'the service {name} was not there within {patience:g} s')
+        return UnansweredError(f'the service {name} was not there within {patience:g} s')
     if not future.done():
-        return NoAnswerError(
+        return UnansweredError(
             f'the service {name} is there, but did not answer within {patience:g} s: '
             'its node is stopped or busy'
         )
     if future.exception() is not None:
-        return NoAnswerError(f'the service {name}: {future.exception()}')
+        return UnansweredError(f'the service {name}: {future.exception()}')
     return future.result()

@@ -8,7 +8,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from std_srvs.srv import Trigger
 
-from agv_motion.ros.remote_services import NoAnswerError, call, call_all
+from agv_motion.ros.remote_services import UnansweredError, call, call_all
 
 
 @pytest.fixture
@@ -35,12 +35,12 @@ def test_an_answer_and_none(two):
     asker.create_service(Trigger, 'quick', answered)
     deaf.create_service(Trigger, 'slow', answered)
     assert call(asker, Trigger, '/quick', Trigger.Request()).message == 'here'
-    with pytest.raises(NoAnswerError, match=r'/slow is there, but did not answer within 0\.5 s'):
+    with pytest.raises(UnansweredError, match=r'/slow is there, but did not answer within 0\.5 s'):
         call(asker, Trigger, '/slow', Trigger.Request(), 0.5)
-    with pytest.raises(NoAnswerError, match=r'/none was not there within 0\.2 s'):
+    with pytest.raises(UnansweredError, match=r'/none was not there within 0\.2 s'):
         call(asker, Trigger, '/none', Trigger.Request(), 0.2)
     requests = {'/quick': Trigger.Request(), '/slow': Trigger.Request()}
     both = call_all(asker, Trigger, requests, 0.5)
     assert both['/quick'].message == 'here'
-    assert isinstance(both['/slow'], NoAnswerError)
+    assert isinstance(both['/slow'], UnansweredError)
     assert call_all(asker, Trigger, {}) == {}

@@ -51,13 +51,13 @@ def _list(
 ) -> None:  # fmt: skip
     """Print the names of one node's parameters."""
     from agv_motion.ros.remote_parameters import WORDS, RemoteParameters
-    from agv_motion.ros.remote_services import NoAnswerError
+    from agv_motion.ros.remote_services import UnansweredError
 
     remote = RemoteParameters(node, full)
     try:
         names = [name for name in remote.names(prefixes) if wanted.match(name)]
         kinds = [WORDS[one.type] for one in remote.descriptors(names)] if types else []
-    except NoAnswerError as error:
+    except UnansweredError as error:
         if not one_of_many:
             raise
         typer.echo(f'{full}: {error}', err=True)
