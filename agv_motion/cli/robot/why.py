@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from agv_motion.cli.graph.session import DISCOVERY, joined, spin
+from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.session import joined, spin
 from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
