@@ -33,8 +33,16 @@ def decoder(connection: Connection, bag: Path) -> MessageDecoder:
     return decode
 
 
-def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Message, Any]]:
+def decoded(
+    bag: BagReader, topics: Iterable[str], start: int | None = None, stop: int | None = None
+) -> Iterator[tuple[Message, Any]]:
     """Yield the messages of some topics by log time, as they were recorded and as objects.
+
+    Args:
+        bag: To read.
+        topics: Their names.
+        start: [ns] first log time; None: the beginning.
+        stop: [ns] log time before which to stop; None: never.
 
     Raises:
         ConfigurationError: A topic is not there, or its type cannot be understood.
@@ -44,7 +52,7 @@ def decoded(bag: BagReader, topics: Iterable[str]) -> Iterator[tuple[Message, An
     wanted = list(topics)
     bag.require(wanted)
     decoders: dict[tuple[str, str, str], MessageDecoder] = {}
-    for message in bag.messages(wanted) if wanted else ():
+    for message in bag.messages(wanted, start, stop) if wanted else ():
         connection = message.connection
         key = connection.topic, connection.type, connection.definition
         if key not in decoders:

@@ -35,6 +35,7 @@ app = typer.Typer(
             'calibrate': 'robot.calibrate:calibrate',
             'record': 'recording.record:record',
             'plot': 'recording.plot:plot',
+            'report': 'recording.report:report',
             'replay': 'recording.replay:replay',
             'reprocess': 'recording.reprocess:reprocess',
             'bag': 'bag.group:app',

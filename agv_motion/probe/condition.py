@@ -54,6 +54,8 @@ class ProbeConditions:
             values[f'{name} signal'] = self._signals.get(name, '')
             if reading is not None:
                 values[f'{name} dT [K]'] = f'{reading.temperature_difference:.3f}'
+                if reading.flux_density is not None:
+                    values[f'{name} flux density [m/s]'] = f'{reading.flux_density:.4e}'
                 if reading.sap_flow is not None:
                     values[f'{name} sap flow'] = f'{reading.sap_flow:.3f}'
         return values
