@@ -18,6 +18,15 @@ def test_the_tables_by_name():
     assert tables.v_dphi(0.0) == 0.5
 
 
+def test_by_default_it_slows_down_within_half_a_metre_of_the_end():
+    tables = FollowParameters().profiles()
+    assert [tables.v_d(d) for d in (0.0, 0.05, 0.15, 0.5, 9.0)] == [0.0, 0.06, 0.2, 0.5, 0.5]
+    assert [tables.v_dn(d) for d in (0.0, 0.1, 0.4)] == [0.12, 0.25, 0.5]
+    assert [tables.v_dphi(a) for a in (0.1, 0.6, 1.6)] == [0.5, 0.2, 0.02]
+    assert [tables.omega_dphi(a) for a in (0.0, 0.5, 1.6)] == [0.0, 0.8, 1.2]
+    assert [tables.v_alpha(a) for a in (1.5, 3.0)] == [0.12, 0.5]
+
+
 def test_the_top_speed_is_what_all_tables_together_allow():
     """At a corner the higher of two counts: far from it, or straight on."""
     given = {'v_dphi': (0.1, 0.9, 1.6, 0.1), 'v_d': (0.0, 0.0, 1.0, 0.8)}

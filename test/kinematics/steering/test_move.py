@@ -90,6 +90,19 @@ def test_a_wheel_at_the_centre_of_rotation_speeds_up_along_its_line():
     assert move.free == ((1, pytest.approx(atan2(2.0, 1.0))),)
 
 
+@pytest.mark.parametrize(('rate', 'arrives'), [(49.0, True), (-51.0, False), (51.0, False)])
+def test_a_turret_at_which_the_centre_of_rotation_comes_to_lie_must_be_able_to_stop(rate, arrives):
+    """Half of 1000 rad/s2 over 0.1 s are 50 rad/s; the centre comes from 0.1 rad away."""
+    half, near = sqrt(0.5), 0.1
+    before = (sin(near), cos(near) * half, cos(near) * half)
+    chassis = measure(PAIR, SteeringLimits(**FAST))
+    setpoints = AtRest.at((pi / 2, 0.0)).setpoints
+    setpoints.rates[1] = rate
+    rolling = Rolling(setpoints, Stance(before, [1.0, 1.0]))
+    rolling.speed = 0.1
+    assert plan_move(chassis, rolling, (0.0, half, half), 0.1).arrives is arrives
+
+
 @pytest.mark.parametrize(('angle', 'far'), [(1.7, False), (1.8, True), (-1.7, False), (-1.8, True)])
 def test_a_turret_that_would_turn_further_had_better_be_reversed(angle, far):
     """A quarter turn and the hysteresis of 0.2 rad are 1.77 rad; a stop once begun goes by less."""

@@ -7,10 +7,12 @@ import time
 from contextlib import suppress
 from datetime import datetime, timezone
 from math import isnan
+from types import SimpleNamespace
 
 import pytest
 
 from agv_motion.errors import SignalError
+from agv_motion.probe.sources import serial_line
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource, parse_line
 
 LINE = '24-06-15 13:05:30 0.750 0.760 0.770\r\n'
@@ -173,6 +175,28 @@ def test_a_port_that_is_not_there_is_told():
     source = SerialSource(SerialParameters(port='/dev/no_such_port'))
     assert source.read(0.0) == []
     assert 'check cable and permissions' in source.complaint()
+
+
+def test_pauses_grow_until_the_line_is_there_and_then_begin_anew(monkeypatch):
+    """Tries at 0, 1, 3 and 7 s; the line is there at 7 s, gone at once, and tried a second later."""
+    now, opened = SimpleNamespace(seconds=0.0), []
+
+    def gone(*_, **__):
+        opened.append(now.seconds)
+        if now.seconds != 7.0:
+            raise OSError(5, 'gone')
+        return SimpleNamespace(read=gone_too, close=lambda: None)
+
+    def gone_too(_):
+        raise OSError(5, 'gone')
+
+    monkeypatch.setattr(serial_line.wall, 'monotonic', lambda: now.seconds)
+    monkeypatch.setattr(serial_line.serial, 'Serial', gone)
+    source = SerialSource(SerialParameters(port='/dev/anything'))
+    for quarter in range(44):
+        now.seconds = quarter / 4
+        source.read(0.0)
+    assert opened == [0.0, 1.0, 3.0, 7.0, 8.0, 10.0]
 
 
 def test_the_clock_of_the_logger_may_be_elsewhere():

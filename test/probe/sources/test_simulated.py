@@ -76,3 +76,16 @@ def test_smooth_noise_goes_from_one_number_to_the_next_without_a_corner():
         assert smooth_noise(7, whole + 1 / 3) == pytest.approx(a + (b - a) / 4)
         assert smooth_noise(7, whole + 1e-4) == pytest.approx(a, abs=1e-7)
         assert smooth_noise(7, whole + 1 - 1e-4) == pytest.approx(b, abs=1e-7)
+
+
+def test_the_sun_rises_by_its_own_time():
+    """An hour more of it, and the sap flows an hour earlier; before, the tree tells zero flow."""
+
+    def rise(offset):
+        given = SimulatedSourceParameters(noise=0.0, drift=0.0, probes=1, solar_offset=offset)
+        source = SimulatedSource(given, 1.0)
+        minutes = (JUNE + 60.0 * minute for minute in range(1440))
+        dark = [source.sample(time, 1.0).values[0] == given.zero_flow for time in minutes]
+        return next(k for k in range(1, 1440) if dark[k - 1] and not dark[k])
+
+    assert rise(0.0) - rise(1.0) == pytest.approx(60.0, abs=1.0)

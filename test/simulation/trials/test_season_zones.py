@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from types import SimpleNamespace
 
 import pytest
 from shapely.geometry import Polygon
@@ -55,3 +56,15 @@ def test_a_kind_that_never_hangs_together_is_told(monkeypatch):
     monkeypatch.setitem(season_zones.ZONES, 'cut', lambda _: cut)
     with pytest.raises(GeometryError, match='no zone of kind cut from seed 3 hangs together'):
         plan_of('cut', 3)
+
+
+@pytest.mark.parametrize(('choose', 'corner'), [(min, 0.3), (max, None)])
+@pytest.mark.parametrize('kind', ['rooms', 'house'])
+def test_a_door_leaves_a_hand_of_wall_on_either_side(kind, choose, corner):
+    chance = SimpleNamespace(uniform=choose)
+    below, above = ZONES[kind](chance).holes[:2]
+    if corner:
+        assert max(y for _, y in below) == pytest.approx(corner)
+    else:
+        depth = max(y for _, y in above)
+        assert depth - min(y for _, y in above) == pytest.approx(0.3)
