@@ -178,7 +178,7 @@ def test_a_port_that_is_not_there_is_told():
 
 
 def test_pauses_grow_until_the_line_is_there_and_then_begin_anew(monkeypatch):
-    """Tries at 0, 1, 3 and 7 s; the line is there at 7 s, gone at once, and tried a second later."""
+    """Tries at 0, 1, 3 and 7 s; the line is there at 7 s, gone at once, and tried a second on."""
     now, opened = SimpleNamespace(seconds=0.0), []
 
     def gone(*_, **__):
