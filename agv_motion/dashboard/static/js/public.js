@@ -13,7 +13,7 @@ link.textContent = { en: 'English', fr: 'Français' }[other];
 link.href = `?lang=${other}`;
 link.lang = link.hreflang = other;
 
-const screen = new Screen('/live');
+const screen = new Screen('/live?public=1');
 const map = new WorldMap(screen, byId('map-canvas'));
 map.layers = new Set(['trail', 'light']);
 screen.add(map);

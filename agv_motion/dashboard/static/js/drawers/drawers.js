@@ -65,6 +65,7 @@ export class Drawers {
       const drawer = this.drawers[this.opened];
       drawer.open?.();
       drawer.body.classList.add('drawer-body');
+      drawer.body.tabIndex = 0; // so that keys scroll it
       this.where.append(drawer.body);
       this.tabs[this.opened].setAttribute('aria-expanded', 'true');
       this.where.setAttribute('aria-label', phrase(`drawer ${this.opened}`));

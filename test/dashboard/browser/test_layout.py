@@ -1,0 +1,76 @@
+"""Tablet and phone: nothing is cut off, nothing covers another, all is large enough for a thumb."""
+
+from __future__ import annotations
+
+import pytest
+
+TABLET, PHONE = {'width': 1024, 'height': 768}, {'width': 390, 'height': 844}
+LARGEST = {'width': 1920, 'height': 1080}
+PARTS = '.bar', '.stop', '.map', '.side', '.look-back', '.drawer-tabs'
+THUMB = 47.5
+"""[px] of 48: a browser rounds"""
+LONG = 'resting: probe 2 is off since 14:02: look at its heater, its cable and the logger at home'
+
+BOXES = """(selectors) => selectors.map((selector) => {
+  const box = document.querySelector(selector).getBoundingClientRect();
+  return [selector, box.left, box.top, box.right, box.bottom];
+})"""
+CUT = """() => [...document.querySelectorAll('button, .bar-title, .bar-clock, .stop-label, h2')]
+  .filter((one) => one.offsetParent && one.scrollWidth > one.clientWidth + 1)
+  .map((one) => one.id + one.className + one.textContent)"""
+SMALL = """(least) => [...document.querySelectorAll('button, a, select, input, summary')]
+  .filter((one) => one.offsetParent && !one.matches('input[type=checkbox]'))
+  .map((one) => [one.id + one.className + one.textContent, one.getBoundingClientRect()])
+  .filter(([, box]) => box.height < least || box.width < Math.min(least, 44))
+  .map(([name, box]) => `${name} ${box.width} x ${box.height}`)"""
+
+
+def overlaps(first, second):
+    return (
+        min(first[3], second[3]) - max(first[1], second[1]) > 0.5
+        and min(first[4], second[4]) - max(first[2], second[2]) > 0.5
+    )
+
+
+@pytest.mark.parametrize('size', [TABLET, PHONE, LARGEST], ids=['tablet', 'phone', 'large'])
+def test_nothing_is_cut_off_or_covers_another(park, serve, open_page, size):
+    park.tell('ash', 1, colour='yellow', word='resting', sentence=LONG)
+    page = open_page(serve(park).url, size)
+    page.wait_for_selector('[data-act=drive]')
+    boxes = page.evaluate(BOXES, list(PARTS))
+    for name, left, top, right, bottom in boxes:
+        inside = left >= -0.5 and top >= -0.5
+        assert inside and right <= size['width'] + 0.5 and bottom <= size['height'] + 0.5, name
+    pairs = [(one, two) for i, one in enumerate(boxes) for two in boxes[i + 1 :]]
+    assert [(one[0], two[0]) for one, two in pairs if overlaps(one, two)] == []
+    assert page.evaluate(CUT) == []
+    assert page.evaluate(SMALL, THUMB) == []
+    width = page.evaluate('document.documentElement.scrollWidth')
+    assert width <= size['width'], 'the page is wider than the screen'
+    stop = page.locator('#stop-button').bounding_box()
+    assert stop['width'] >= 150 and stop['height'] >= 70
+
+
+@pytest.mark.parametrize('size', [TABLET, PHONE], ids=['tablet', 'phone'])
+def test_stop_stays_in_sight_whatever_is_open(park, serve, open_page, size):
+    page = open_page(serve(park).url, size)
+    page.click('[data-act=drive]')
+    page.click('#stop-button', trial=True)
+    page.click('#drive-close')
+    for tab in page.locator('.tab').all():
+        tab.click()
+        page.click('#stop-button', trial=True)
+        assert page.evaluate(CUT) == []
+    page.click('#drawer-close')
+    page.click('[data-act=rest]')
+    page.click('#stop-button', trial=True)
+
+
+def test_ten_robots_have_room(make_park, serve, open_page):
+    park = make_park(*(f'tree_number_{i}' for i in range(10)))
+    park.tell_all()
+    page = open_page(serve(park).url, PHONE)
+    page.wait_for_selector('[data-robot=tree_number_9]')
+    page.locator('[data-robot=tree_number_9]').click()
+    page.click('#stop-button', trial=True)
+    assert page.get_attribute('[data-robot=tree_number_9]', 'aria-checked') == 'true'
