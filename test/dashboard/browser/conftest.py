@@ -16,7 +16,7 @@ FLAGS = [
     '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ]  # fmt: skip
 TABLET = {'width': 1024, 'height': 768}
-PASSWORD = 'a blue gate, 1905'
+PASSWORD = 'a blue gate, 1905'  # noqa: S105 - of users that live as long as a test
 ZONE = {
     'boundary': [[0, 0], [20, 0], [20, 15], [0, 15]], 'holes': [[[9, 6], [11, 6], [11, 8]]],
     'translation_only': [[[14, 1], [18, 1], [18, 4], [14, 4]]], 'margin': 0.5,

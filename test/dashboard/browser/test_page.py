@@ -6,6 +6,7 @@ import re
 
 PHONE = {'width': 390, 'height': 844}
 
+
 def text(page, selector):
     return page.locator(selector).inner_text()
 
@@ -153,7 +154,7 @@ def test_public_view_has_no_controls_and_speaks_french(park, serve, open_page):
     wait_for_text(page, '#public-robots', 'marche')
     assert page.locator('button, input, select, form, [role=button]').count() == 0
     assert page.get_attribute('html', 'lang') == 'fr'
-    assert "comme en 3.2" in text(page, '#public-robots')
+    assert 'comme en 3.2' in text(page, '#public-robots')
     page.click('#other-language')
     wait_for_text(page, '#public-robots', 'walking')
     page.keyboard.press('Escape')

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-ACTING = '#stop-button, #stop-release, [data-act], #look-mark:not([hidden]), #look-save:not([hidden])'
+ACTING = (
+    '#stop-button, #stop-release, [data-act], #look-mark:not([hidden]), #look-save:not([hidden])'
+)
 ROLES = 'viewer', 'operator', 'expert'
 
 

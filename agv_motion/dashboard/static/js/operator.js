@@ -16,7 +16,7 @@ writePhrases();
 const screen = new Screen('/live');
 const actions = new Actions(screen, byId('outcomes'));
 const map = new OperatorMap(screen, actions);
-const drive = new DrivePanel(screen, map);
+const drive = new DrivePanel(screen, map, actions);
 screen.add(new Bar());
 screen.add(new Stop(screen, actions, byId('stop')));
 screen.add(new RobotList(byId('robots')));

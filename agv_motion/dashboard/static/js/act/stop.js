@@ -85,7 +85,7 @@ export class Stop {
     }));
     const stopped = reports.filter((report) => report.summary?.stopped);
     const rolling = reports.filter(
-      (report) => !report.summary?.standstill || report.age > FRESH || store.silence() > FRESH);
+      (report) => !report.summary?.standstill || report.summary.moving || report.age > FRESH || store.silence() > FRESH);
     const all = reports.length > 0 && stopped.length === reports.length;
     let state = 'ready';
     if (all) state = rolling.length ? 'stopping' : 'stopped';

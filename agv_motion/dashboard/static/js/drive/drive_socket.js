@@ -1,10 +1,12 @@
 /** [ms] between two messages while the hand is on: 20 Hz */
 const PERIOD = 50;
+/** zeros that follow when the hand is off: a robot that hears them knows that it was let go */
+const ZEROS = 6;
 /** [bytes] that may wait in the browser: more means the network stalls, and old words would pile up */
 const LONGEST_BACKLOG = 2000;
 
 /**
- * Carries what the hand does to the robot: 20 times a second while it is held, then one zero.
+ * Carries what the hand does to the robot: 20 times a second while it is held, then zeros.
  *
  * The robot judges by the age of what arrives; here everything that could go on without a hand ends
  * it too: a hidden page, a lost focus, a closed or stalled socket.
@@ -22,6 +24,8 @@ export class DriveSocket {
     this.timer = 0;
     /** @type {(() => Command)|null} */
     this.source = null;
+    /** @type {Command[]} that are still to be sent after the hand is off */
+    this.farewell = [];
     this.told = told;
     this.refusal = '';
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
@@ -62,14 +66,12 @@ export class DriveSocket {
     this.timer = window.setInterval(() => this._tell(), PERIOD);
   }
 
-  /** The hand is off: a zero, at once, and silence. */
+  /** The hand is off: a zero at once, some more, and silence. */
   release() {
     if (!this.source) return;
-    window.clearInterval(this.timer);
-    this.timer = 0;
-    const turning = 'icr' in this.source();
     this.source = null;
-    this._send(turning ? { icr: [0, 0], speed: 0 } : { vx: 0, vy: 0, wz: 0 });
+    this.farewell = Array.from({ length: ZEROS }, () => ({ vx: 0, vy: 0, wz: 0 }));
+    this._tell();
   }
 
   /** End for good. */
@@ -79,13 +81,20 @@ export class DriveSocket {
     window.removeEventListener('pagehide', this.away);
     window.removeEventListener('offline', this.away);
     document.removeEventListener('visibilitychange', this.hidden);
+    window.clearInterval(this.timer);
     this.socket.close();
   }
 
   _tell() {
-    if (!this.source) return;
-    if (this.socket.bufferedAmount > LONGEST_BACKLOG) this.release();
-    else this._send(this.source());
+    const command = this.source ? this.source() : this.farewell.pop();
+    if (!command) {
+      window.clearInterval(this.timer);
+      this.timer = 0;
+    } else if (this.source && this.socket.bufferedAmount > LONGEST_BACKLOG) {
+      this.release();
+    } else {
+      this._send(command);
+    }
   }
 
   /** @param {Command} command */

@@ -18,9 +18,13 @@ export class DrivePanel {
   /**
    * @param {import('../live/screen.js').Screen} screen
    * @param {import('../map/operator_map.js').OperatorMap} map
+   * @param {import('../act/actions.js').Actions} actions
    */
-  constructor(screen, map) {
+  constructor(screen, map, actions) {
     this.screen = screen;
+    this.actions = actions;
+    /** whether this panel has locked the robot to the hand, and so unlocks it */
+    this.locked = false;
     this.map = map;
     /** @type {DriveSocket|null} */
     this.socket = null;
@@ -33,13 +37,17 @@ export class DrivePanel {
     this.closedAt = Infinity;
   }
 
-  /** Open the panel for the chosen robot; the hand is not on yet. */
+  /**
+   * Open the panel for the chosen robot; the hand is not on yet. As long as it is open the robot
+   * obeys the hand alone: it does not walk on whenever the stick is let go.
+   */
   show() {
     this.hide();
     if (!this.map.mayAct || !this.screen.chosen) return;
     this.robot = this.screen.chosen;
     this._build();
     this._open();
+    this._lock();
     byId('main').append(/** @type {HTMLElement} */ (this.panel));
     document.body.toggleAttribute('data-driving', true);
     this.surface.focus({ preventScroll: true });
@@ -57,9 +65,17 @@ export class DrivePanel {
     this.socket = null;
     if (this.turning) this.map.end();
     this.turning = null;
+    if (this.locked) this.actions.robot(this.robot, 'unlock');
+    this.locked = false;
     document.body.toggleAttribute('data-driving', false);
     this.panel?.remove();
     this.panel = null;
+  }
+
+  _lock() {
+    if (this.screen.store.value(this.robot, 'driver')?.lock) return; // somebody wants it so
+    this.locked = true;
+    this.actions.robot(this.robot, 'lock');
   }
 
   /** @param {import('../live/screen.js').Screen} screen */

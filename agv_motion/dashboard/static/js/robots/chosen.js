@@ -46,7 +46,7 @@ export class Chosen {
     const facts = [
       [phrase('speed'), twist ? pace(Math.hypot(twist.vx ?? NaN, twist.vy ?? NaN)) : phrase('unknown')],
       [phrase('turning'), twist ? `${degrees(twist.wz === null ? null : twist.wz * 60)}/min` : phrase('unknown')],
-      [phrase('drivenBy'), driver ? driver.driver || phrase('nobody') : phrase('unknown')],
+      [phrase('drivenBy'), driverName(driver)],
     ];
     if (goal) {
       const place = `(${number(goal.x, 1)}, ${number(goal.y, 1)})`;
@@ -105,4 +105,10 @@ export class Chosen {
     if (until.getTime() / 1000 <= now) until.setDate(until.getDate() + 1);
     await this.actions.robot(robot, 'rest', { until: until.getTime() / 1000 });
   }
+}
+
+/** @returns {string} */
+function driverName(/** @type {any} */ driver) {
+  if (!driver) return phrase('unknown');
+  return driver.driver && driver.driver !== 'none' ? driver.driver : phrase('nobody');
 }
