@@ -193,6 +193,7 @@ class Process:
             self.process.kill()
             self.process.wait()
         self.reader.join()
+        self.process.stdout.close()
 
     def _read(self, ready):
         for line in self.process.stdout:
