@@ -13,7 +13,9 @@ export class WhyDrawer {
 
   /** @param {import('../live/screen.js').Screen} screen */
   update({ store, chosen }) {
-    const links = store.value(chosen, 'why')?.links ?? [];
+    // the headline stands in the bar already
+    const links = (store.value(chosen, 'why')?.links ?? [])
+      .filter((/** @type {any} */ link) => link.name !== 'headline');
     const older = store.age(chosen, 'why');
     const told = JSON.stringify(links.map((/** @type {any} */ link) =>
       [link.name, link.level, link.sentence, link.since, link.remedy, link.limit]));
@@ -34,7 +36,7 @@ export class WhyDrawer {
    */
   _link(link, aged) {
     const parts = [];
-    if (link.since) parts.push(phrase('since', { time: typeof link.since === 'number' ? clockTime(link.since) : link.since }));
+    if (link.since) parts.push(phrase('since', { time: moment(link.since) }));
     if (link.limit) parts.push(phrase('limit', { limit: String(link.limit) }));
     return element('li.why-link', { 'data-level': String(link.level).toLowerCase() },
       element('div.why-head', {}, element('span.why-name', { text: link.name }),
@@ -43,4 +45,9 @@ export class WhyDrawer {
       parts.length ? element('p.why-limit', { text: parts.join(' · ') }) : null,
       link.remedy ? element('p.why-remedy', { text: link.remedy }) : null);
   }
+}
+
+/** @returns {string} a time of day, where seconds since 1970 are told; else what is told */
+function moment(/** @type {string|number} */ since) {
+  return Number(since) > 1e8 ? clockTime(Number(since)) : String(since);
 }

@@ -62,6 +62,7 @@ export class Timeline {
   update(screen) {
     const { span } = this;
     const past = Boolean(screen.past);
+    if (!past) this.playing = false;
     const may = ['operator', 'expert'].includes(screen.hello?.role ?? 'public');
     this.mark.hidden = this.save.hidden = !may;
     for (const part of this.where.querySelectorAll('button, input')) {
@@ -73,6 +74,7 @@ export class Timeline {
     banner.hidden = !past;
     if (past) write(banner, phrase('pastBanner', { time: dateTime(screen.store.heard === null ? Number(this.slider.value) : screen.store.now()) }));
     refill(this.play, String(this.playing), () => [icon(this.playing ? 'pause' : 'play')]);
+    if (!span) write(this.begin, phrase('noRecording'));
     if (!span) return;
     this.slider.min = String(Math.floor(span.begin));
     this.slider.max = String(Math.ceil(span.end));

@@ -69,7 +69,7 @@ export class Bodies {
   _wheels({ context, view, palette, store }, robot, platform) {
     const state = wheelState(store, robot);
     const places = wheelPlaces(platform, state);
-    const radius = platform.wheel_radius ?? 0.1;
+    const radius = Math.max(platform.wheel_radius ?? 0.1, view.pixels(5)); // to be seen from afar
     const speeds = state.speeds ?? [];
     const known = speeds.filter((/** @type {any} */ speed) => Number.isFinite(speed)).map(Math.abs);
     const fastest = Math.max(this.fastest.get(robot) ?? 1e-6, ...known);
@@ -78,15 +78,15 @@ export class Bodies {
       context.save();
       context.translate(x, y);
       context.rotate(angle);
-      context.beginPath();
-      context.roundRect(-radius, -radius * 0.45, 2 * radius, 0.9 * radius, radius * 0.25);
-      context.fillStyle = palette.colour('wheel');
-      context.fill();
       const speed = speeds[index];
       if (Number.isFinite(speed) && Math.abs(speed) > STANDSTILL) {
         const length = (speed / fastest) * ARROW * rim(platform);
         drawArrow(context, view, length, palette.colour('arrow'), palette.colour('halo'));
       }
+      context.beginPath();
+      context.roundRect(-radius, -radius * 0.45, 2 * radius, 0.9 * radius, radius * 0.25);
+      context.fillStyle = palette.colour('wheel');
+      context.fill();
       context.restore();
     });
   }

@@ -48,11 +48,12 @@ function drawGoal(scene, goal) {
   context.beginPath();
   context.arc(column, row, 3.5, 0, 2 * Math.PI);
   context.fill();
-  if (!goal.reason) return;
+  // the robot's words up to the place, which the map shows itself
+  const words = (goal.reason ?? '').split(/:? (?:at )?\(/)[0];
   context.font = `500 13px ${palette.font}`;
-  const half = context.measureText(goal.reason).width / 2 + 8;
+  const half = context.measureText(words).width / 2 + 8;
   const at = Math.min(view.width - half, Math.max(half, column));
-  label(scene, goal.reason, at, row > view.height - 70 ? row - 22 : row + 22);
+  label(scene, words, at, row > view.height - 70 ? row - 22 : row + 22);
 }
 
 /**

@@ -71,7 +71,8 @@ export class WorldMap {
 
   /** @returns {import('../live/types.js').Zone|null} */
   zone() {
-    return this.draft ?? this.screen.store.ownOrShared(this.screen.chosen, 'zone');
+    const { store, live, chosen } = this.screen;
+    return this.draft ?? store.ownOrShared(chosen, 'zone') ?? live.ownOrShared(chosen, 'zone');
   }
 
   /** @param {import('../live/screen.js').Screen} screen */

@@ -83,8 +83,10 @@ export class Bar {
     refill(byId('bar-account'), `${role} ${user}`, () => {
       if (!role) return [];
       if (role === 'public') return [element('a', { href: '/login', text: phrase('logIn') })];
-      const words = element('span', { text: user ? `${user}, ${phrase(`role ${role}`)}` : phrase(`role ${role}`) });
-      if (!user) return [words];
+      // at this machine nobody has logged in, so nobody logs out
+      const named = user && user !== 'local';
+      const words = element('span', { text: named ? `${user}, ${phrase(`role ${role}`)}` : phrase(`role ${role}`) });
+      if (!named) return [words];
       const out = element('button.quiet', {
         type: 'button', text: phrase('logOut'),
         onclick: async () => {

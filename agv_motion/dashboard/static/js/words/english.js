@@ -187,6 +187,7 @@ export const english = {
   markQuestion: 'Mark this moment in the recording.',
   markText: 'What happens',
   pastBanner: 'This is the past: {time}',
+  noRecording: 'nothing is recorded',
   noReports: 'No reports yet.',
   'word walking': 'walking',
   'word turning': 'turning',

@@ -187,6 +187,7 @@ export const french = {
   markQuestion: 'Marquer cet instant dans l’enregistrement.',
   markText: 'Ce qui se passe',
   pastBanner: 'Ceci est le passé : {time}',
+  noRecording: 'rien n’est enregistré',
   noReports: 'Pas encore de rapport.',
   'word walking': 'marche',
   'word turning': 'tourne',
