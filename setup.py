@@ -99,7 +99,12 @@ setup(
             'uvicorn>=0.35',
             'websockets>=13',
         ],
-        'benchmark': ['mcap>=1.1', 'mcap-ros2-support-fast>=0.8', 'robotpy-wpimath'],
+        'benchmark': [
+            'foxglove-sdk>=0.14',
+            'mcap>=1.1',
+            'mcap-ros2-support-fast>=0.8',
+            'robotpy-wpimath',
+        ],
         'cluster': ['distributed>=2024.5'],
     },
     data_files=[

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from agv_motion.dashboard.server.site import Site
     from agv_motion.ros.live_port import LivePort
 
-TAKE_PERIOD = 0.05
-"""[s] between two looks for what has come, while somebody looks at the page"""
 LOOK_PERIOD = 1.0
 """[s] between two looks at the graph, and for what has come while nobody looks at the page"""
-ACT_PERIOD = 0.02
+ACT_PERIOD = 0.04
 """[s] within which an act of a person goes out"""
+TAKE_EVERY = 3
+"""periods of these after which is taken what has come, while somebody looks at the page"""
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,8 @@ class Dashboard(PlainNode[DashboardParameters]):
         self.site: Site | None = None
         self.server: WebServer | None = None
         self._taken_at = 0.0
-        port.every(ACT_PERIOD, self.fleet.send, steady=True)
-        port.every(TAKE_PERIOD, self._take, steady=True)
+        self._turn = 0
+        port.every(ACT_PERIOD, self._go_on, steady=True)
         port.every(LOOK_PERIOD, self.fleet.look, steady=True)
 
     def begin(self) -> None:
@@ -118,7 +118,12 @@ class Dashboard(PlainNode[DashboardParameters]):
         url = '' if self.server is None else self.server.url
         return Diagnosis(OK, f'serving {url}', {'robots': ', '.join(self.fleet.robots)})
 
-    def _take(self) -> None:
+    def _go_on(self) -> None:
+        """Do what was asked; take what has come, when it is time to."""
+        self.fleet.send()
+        self._turn = (self._turn + 1) % TAKE_EVERY
+        if self._turn:
+            return
         now = time.monotonic()
         watched = self.site is not None and self.site.is_watched
         if watched or now - self._taken_at >= LOOK_PERIOD:

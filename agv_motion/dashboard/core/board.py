@@ -31,6 +31,11 @@ MOST_NAMES = 60
 """nodes of one robot, and trees that reserve floor, that are kept"""
 
 
+_ENCODER = json.JSONEncoder(
+    allow_nan=False, separators=(',', ':'), ensure_ascii=False, check_circular=False
+)
+
+
 class Cell(NamedTuple):
     """A slot as it is sent."""
 
@@ -244,4 +249,4 @@ def _taken(waiting: deque[Entry]) -> list[Entry]:
 
 def as_json(value: Any) -> str:
     """Return a value as JSON; a number that JSON does not have is refused."""
-    return json.dumps(value, allow_nan=False, separators=(',', ':'), ensure_ascii=False)
+    return _ENCODER.encode(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from math import atan2, isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,8 @@ LONGEST_TEXT = 1000
 
 def finite(value: Any, digits: int = DIGITS) -> float | None:
     """Return a number rounded; None where it is none that can be shown (NaN, infinity)."""
+    if type(value) is float:  # as nearly all are: this is called thousands of times a second
+        return round(value, digits) if isfinite(value) else None
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -29,12 +32,7 @@ def finite(value: Any, digits: int = DIGITS) -> float | None:
 
 def listed(values: Iterable[Any], most: int = MOST_JOINTS) -> list[float | None]:
     """Return numbers, at most ``most`` of them, None for each that cannot be shown."""
-    found: list[float | None] = []
-    for value in values:
-        if len(found) >= most:
-            break
-        found.append(finite(value))
-    return found
+    return [finite(value) for value in islice(values, most)]
 
 
 def thinned(items: Sequence[Any], most: int = MOST_POINTS) -> list[Any]:

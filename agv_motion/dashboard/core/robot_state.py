@@ -51,6 +51,9 @@ class RobotState:
         self.trail, self.day = Trail(), DayChart()
         self.trail_number = self.day_number = 0
         self.word, self.word_since = '', 0.0
+        self._speeds: list[float | None] = []
+        self._speeds_key: tuple[int, ...] = ()
+        """for which messages and shape the speeds were computed"""
 
     def message(self, topic: str) -> Any:
         """Return the newest message of a topic; None without one."""
@@ -77,6 +80,13 @@ class RobotState:
 
     def wheel_speeds(self) -> list[float | None]:
         """Return what is measured of each wheel [m/s], or [rad/s] where no radius is known."""
+        entries = [self.latest.get(topic) for topic in ('turrets/state', 'wheels/state')]
+        key = (*(entry.number if entry else 0 for entry in entries), self.platform_number)
+        if key != self._speeds_key:
+            self._speeds_key, self._speeds = key, self._measured_speeds()
+        return self._speeds
+
+    def _measured_speeds(self) -> list[float | None]:
         joints = self.message('turrets/state')
         if joints is not None:
             speeds: list[float | None] = conversions.turrets(joints, self.radius or 1.0)['speeds']

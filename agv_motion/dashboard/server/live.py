@@ -1,6 +1,6 @@
 """`WS /live`: the newest of each slot to each client, never a queue.
 
-One task looks at the board, at most ten times a second and only while somebody is there. Each
+One task looks at the board, eight times a second and only while somebody is there. Each
 client has a task of its own, which sends what is newer than what this client has, and then waits
 until the client acknowledges it: who is slow skips what is old, and costs the others nothing.
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from agv_motion.dashboard.core.board import Board
 
-PERIOD = 0.1
+PERIOD = 0.12
 """[s] between two frames"""
 PATIENCE = 1.0
 """[s] after which a frame goes out though the last one was not acknowledged"""
@@ -32,7 +32,7 @@ MOST_WANTED = 40
 RENEWAL = 2.0
 """[s] after which it is looked whether a client is still welcome"""
 MOST_SAID = 60
-"""messages that a client may send in `RENEWAL`: it acknowledges ten frames a second"""
+"""messages that a client may send in `RENEWAL`: it acknowledges eight frames a second"""
 MOST_OUTCOMES = 100
 """of acts that a client has not been told yet"""
 
