@@ -91,7 +91,7 @@ setup(
             'pyarrow>=14',
             'pytest>=8',
             'pytest-timeout>=2.3',
-            'pytest-xdist>=3.5',
+            'pytest-xdist>=3.7',
             'ruff>=0.12',
             'starlette>=0.40',
             'types-pyserial',
