@@ -29,7 +29,9 @@ class WarmPython:
     def fork(self, request, streams):
         """Return the number of a process, our child, that runs what is asked for."""
         socket.send_fds(self.line, [json.dumps(request).encode()], streams)
-        return int.from_bytes(self.line.recv(4), 'little')
+        number = int.from_bytes(self.line.recv(4), 'little')
+        assert number, 'the warm Python has ended'
+        return number
 
     def end(self):
         """Let it end."""

@@ -64,7 +64,7 @@ def cluster(tmp_path, wait_until):
     )
     worker = subprocess.Popen(  # noqa: S603
         [sys.executable, '-m', 'distributed.cli.dask_worker', '--scheduler-file',
-         str(address_file), '--nthreads', '1', '--no-dashboard'], **quiet,
+         str(address_file), '--nthreads', '1', '--no-nanny', '--no-dashboard'], **quiet,
     )  # fmt: skip
     try:
         wait_until(lambda: address_file.exists() and address_file.stat().st_size)

@@ -15,9 +15,9 @@ from std_msgs.msg import Float64MultiArray
 
 @pytest.fixture(scope='module')
 def talker(alone):
-    """Let the command itself say hello 50 times a second, long enough to be found."""
+    """Let the command itself say hello 25 times a second, long enough to be found."""
     process = alone.start(
-        'topic', 'pub', '-r', '50', '-p', '100000', '/chatter', 'std_msgs/msg/String', 'data: hello'
+        'topic', 'pub', '-r', '25', '-p', '100000', '/chatter', 'std_msgs/msg/String', 'data: hello'
     )
     alone('topic', 'echo', '/chatter', '--once')
     yield process
@@ -78,7 +78,7 @@ def test_what_the_filter_leaves_out_is_not_shown(alone, talker):
 
 def test_hz_and_bw(alone, talker):
     _, out, _ = alone('topic', 'hz', '/chatter', '--duration', '2')
-    assert 10 <= int(re.findall(r'average rate: (\d+)\.', out)[-1]) <= 100
+    assert 1 <= int(re.findall(r'average rate: (\d+)\.', out)[-1]) <= 50
     assert re.search(r'\tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+', out)
     _, out, _ = alone('topic', 'bw', '/chatter', '--duration', '2')
     assert out.startswith('Subscribed to [/chatter]\n')
