@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.explanation.link import Level, Link, worst
-from agv_motion.explanation.wheels import REPORT_OLD
+from agv_motion.explanation.wheels import CLOCK, REPORT_OLD
 from agv_motion.explanation.words import ago
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ UPSTREAM = {
 
 REMEDIES = {
     Cause.PERSON: 'whoever asked for it can end it, on the page',
-    Cause.CLOCK: 'look at the clock: /clock in a simulation, else that of this machine',
+    Cause.CLOCK: CLOCK,
     Cause.ZONE: 'drive it to free floor, or look at the zone',
     Cause.OTHERS: 'wait; if it lasts look at the tree that is named',
     Cause.MOTION: 'clear its way, look at wheels and motors, then let it go on',

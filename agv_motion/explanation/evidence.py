@@ -30,6 +30,11 @@ class Report(NamedTuple):
     at: float
     """[s] when it came"""
 
+    @property
+    def clock_fault(self) -> str:
+        """Why the node does not believe its clock; empty if it does."""
+        return self.values.get('clock fault', '')
+
     def number(self, key: str) -> float | None:
         """Return a value as a number; None if it is none, or none is told."""
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from agv_motion.explanation.link import Level, Link
-from agv_motion.explanation.wheels import DRIVERS, REPORT_OLD, SILENT, look
+from agv_motion.explanation.wheels import CLOCK, DRIVERS, REPORT_OLD, SILENT, look
 from agv_motion.explanation.words import ago
 from agv_motion.odometry.fusion_report import FusionState
 from agv_motion.watchdog import Silence
@@ -29,6 +29,8 @@ def pose_link(evidence: Evidence, now: float) -> Link:
     if report is None:
         return _by_odometry(evidence)
     silent = now - report.at
+    if fault := report.clock_fault:
+        return Link('pose', Level.ERROR, report.message, fault, remedy=CLOCK, age=silent)
     if silent > REPORT_OLD:
         return Link(
             'pose', Level.ERROR, f'localization is silent for {ago(silent)}',

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from agv_motion.explanation.link import Level, Link
-from agv_motion.explanation.wheels import REPORT_OLD
+from agv_motion.explanation.wheels import CLOCK, REPORT_OLD
 from agv_motion.explanation.words import ago, clock
 from agv_motion.probe.condition import LEARNING, NO_READING
 from agv_motion.probe.quality import Quality
@@ -63,6 +63,8 @@ def _flow(report: Report, now: float, probes: list[Link]) -> Link:
             'granier_probe is silent', remedy='see whether granier_probe still runs, and start it',
             age=silent,
         )  # fmt: skip
+    if fault := report.clock_fault:
+        return Link('sap flow', Level.ERROR, report.message, fault, remedy=CLOCK, age=age)
     bad = next((probe for probe in probes if probe.level is not Level.OK and probe.limit), None)
     if bad is not None:
         return Link('sap flow', Level.WARN, report.message, '', bad.name, age=age)

@@ -26,6 +26,9 @@ REPORT_OLD = 4.0
 IGNORED = 5.0
 """[s] for which wheels may stand though told to turn: they accelerate, turrets turn first."""
 
+CLOCK = 'look at the clock: /clock in a simulation, else that of this machine'
+"""What to do where a node does not believe its clock"""
+
 REMEDIES = {
     HeldBy.PERSON: 'let them go: call {node}/stop with data: false',
     HeldBy.FIGHT: 'look at the turrets, then call {node}/stop with data: false',
@@ -84,6 +87,8 @@ def wheels_link(evidence: Evidence, now: float, ignored: float) -> Link:
             remedy=f'see whether {name} still runs, and start it', age=now - report.at,
         )  # fmt: skip
     seen, held = look(report), _held_by(report)
+    if fault := report.clock_fault:
+        return Link('wheels', Level.ERROR, report.message, fault, remedy=CLOCK, age=seen.age)
     if held is HeldBy.ARBITER:
         return Link(
             'wheels', Level.WARN, f'wheels are told to stand at once; {report.message}',

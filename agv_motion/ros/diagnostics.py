@@ -59,7 +59,8 @@ class Diagnostics:
         for mismatch in graph.faults()[:1]:
             found = found.worsened(WARN, mismatch)
         if fault:
-            found = found._replace(level=ERROR, message=f'{fault}: standing still')
+            values = found.values | {'clock fault': fault}
+            found = Diagnosis(ERROR, f'{fault}: standing still', values, found.stamp)
         if complaints.is_recent():
             found = found.worsened(WARN, f'refused: {complaints.last}')
         return found

@@ -178,6 +178,17 @@ def test_wheels_that_do_not_turn_though_told_to(robot):
     assert robot.tell().level is Level.OK
 
 
+@pytest.mark.parametrize('part', ['wheels', 'localization', 'probes'])
+def test_a_clock_that_cannot_be_believed_is_no_fault_of_encoders_or_probes(robot, part, link):
+    level, _, values = getattr(robot, part)
+    told = values | {'clock fault': 'the clock leapt ahead by 2.0 s', 'odom': 'lost'}
+    setattr(robot, part, (2, 'the clock leapt ahead by 2.0 s: standing still', told))
+    found = link(robot.tell(), {'localization': 'pose', 'probes': 'sap flow'}.get(part, part))
+    assert (found.level, found.clause) == (Level.ERROR, 'the clock leapt ahead by 2.0 s')
+    assert found.remedy.startswith('look at the clock')
+    assert level == 0
+
+
 def test_since_when_a_link_is_so(robot, link):
     """The decision tells it; of the wheels the explainer remembers it."""
     robot.tell()
