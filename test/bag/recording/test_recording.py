@@ -48,6 +48,20 @@ def numbers(path):
         return [int(data[8:16]) for _, _, data in reader.messages()]
 
 
+@pytest.mark.parametrize(('publishers', 'lost'), [(0, 1), (1, 1), (2, 0)])
+def test_a_number_that_is_missing_is_lost_unless_another_publisher_may_have_its_own(
+    tmp_path, publishers, lost
+):
+    """Nobody seen counts as one: who has just left is not seen any more."""
+    one = recording(tmp_path / 'bag')
+    topic = one.add_topic('/text', TEXT, VOLATILE)
+    one.set_publishers(topic, publishers)
+    for i, number in enumerate((1, 2, 4)):
+        one.put(topic, i, text(i), i, number)
+    (report,) = one.close()
+    assert report.lost == lost
+
+
 def test_everything_handed_over_is_in_the_bag_and_reported(tmp_path):
     one = recording(tmp_path / 'bag')
     topic = one.add_topic('/text', TEXT, VOLATILE)
