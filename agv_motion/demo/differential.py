@@ -13,8 +13,9 @@ from agv_motion.arbitration import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
+from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
-from agv_motion.demo.recorder import RecordedTopic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.sequence import SequenceNode
@@ -82,6 +83,10 @@ class DifferentialScenario(Scenario[RunBag]):
     def progress(self, _: float) -> tuple[float, str]:
         """Return how much of the sequence is done, and the action."""
         return self._actions.plain.share_done(), self._actions.plain.told
+
+    def view(self, recorder: DemoRecorder) -> DriveView:
+        """Show where the robot is and how fast it drives."""
+        return DriveView(recorder, {'odom': 'odom', 'truth': 'ground_truth'}, 'sequence/state')
 
     def over(self, _: float, __: Callable[[str], None]) -> bool:
         """Return whether the sequence has ended, or will never begin."""

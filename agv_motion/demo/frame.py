@@ -15,11 +15,13 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from rich.console import Group
 from rich.live import Live
-from rich.progress import Progress
 from std_msgs.msg import String
 
 from agv_motion.demo.explained import robots, why_nodes, why_topics
+from agv_motion.demo.map_view import Room
+from agv_motion.demo.readout import bar
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.standard_error import apart
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 
@@ -63,7 +65,7 @@ def explained(graph: DemoGraph) -> DemoGraph:
 class LiveView(Protocol):
     """A picture of the demo as it runs."""
 
-    def draw(self, now: float, factor: float) -> RenderableType:
+    def draw(self, now: float, factor: float, room: Room) -> RenderableType:
         """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
 
 
@@ -166,22 +168,35 @@ class Demo(Generic[R]):
 
         """
         self._begun = time.perf_counter()
-        picture = self._picture(console)
-        next_picture = 0.0 if live and console.is_terminal else inf
-        with Live(console=console, auto_refresh=False, transient=True) as screen:
+        if live and console.is_terminal:
+            self._run_live(console)
+        else:
+            self._spin(lambda: self._finished(console))
+        self._ended = time.perf_counter()
+        self.recorder.close()
+
+    def _run_live(self, console: Console) -> None:
+        """Run with a picture; what nodes log stands above it."""
+        picture, next_picture = self._picture(console), 0.0
+        with (
+            Live(console=console, auto_refresh=False, transient=True) as screen,
+            apart(lambda text: console.print(text, highlight=False, soft_wrap=True)) as show_log,
+        ):
 
             def finished() -> bool:
                 nonlocal next_picture
+                show_log()
                 now = time.perf_counter()
                 if now >= next_picture:
                     next_picture = now + REFRESH
                     screen.update(picture(), refresh=True)
-                over = self.scenario.over(self.elapsed, console.print)
-                return over or self._stop.requested or bool(self.recorder.failure)
+                return self._finished(console)
 
             self._spin(finished)
-        self._ended = time.perf_counter()
-        self.recorder.close()
+
+    def _finished(self, console: Console) -> bool:
+        over = self.scenario.over(self.elapsed, console.print)
+        return over or self._stop.requested or bool(self.recorder.failure)
 
     def idle(self, seconds: float) -> float:
         """Run for ``seconds`` of real time; return the processor time per second."""
@@ -197,17 +212,15 @@ class Demo(Generic[R]):
     def _picture(self, console: Console) -> Callable[[], RenderableType]:
         """Return what makes the live picture: that of the scenario, and a bar below."""
         view = self.scenario.view(self.recorder)
-        bar = Progress(console=console)
-        task = bar.add_task(self.scenario.doing, total=1.0)
 
         def picture() -> RenderableType:
+            columns, rows = console.size
+            room = Room(columns, rows - 1 - bool(self.scenario.doing))
             parts: list[RenderableType] = []
             if view is not None:
-                parts.append(view.draw(self.graph.leader.plain.time, self.factor))
+                parts.append(view.draw(self.graph.leader.plain.time, self.factor, room))
             if self.scenario.doing:
-                share, doing = self.scenario.progress(self.elapsed)
-                bar.update(task, completed=share, description=doing)
-                parts.append(bar)
+                parts.append(bar(*self.scenario.progress(self.elapsed), columns))
             return Group(*parts)
 
         return picture

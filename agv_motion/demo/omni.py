@@ -13,9 +13,10 @@ from std_msgs.msg import Float64
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node
 from agv_motion.demo.configured import configured_node
+from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.omni_driver import OmniDriver
-from agv_motion.demo.recorder import RecordedTopic
+from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
@@ -86,6 +87,10 @@ class OmniScenario(Scenario[LocalizationRun]):
         arbiter = arbiter_node(CONFIG, self.state, {'timeouts__agent': 2.0})
         nodes = arbiter, wheels, localization, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
+
+    def view(self, recorder: DemoRecorder) -> DriveView:
+        """Show where the robot is and how fast it drives."""
+        return DriveView(recorder, {'pose': 'pose', 'truth': 'ground_truth'})
 
     def over(self, elapsed: float, say: Callable[[str], None]) -> bool:
         """Carry the robot away when it is time."""

@@ -6,11 +6,8 @@ from datetime import datetime, timezone
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from rich.columns import Columns
-from rich.panel import Panel
-from rich.table import Table
-
-from agv_motion.demo.zone_map import Mark, ZoneMap
+from agv_motion.demo.map_view import NUMBERS, MapView, Room
+from agv_motion.demo.readout import lines, number, pace, pose_text
 from agv_motion.ros.messages import TurretJoints, pose_of
 from agv_motion.simulation.shade import sunlit
 from agv_motion.simulation.sun import sun
@@ -20,11 +17,14 @@ if TYPE_CHECKING:
     from rich.text import Text
 
     from agv_motion.demo.recorder import DemoRecorder
+    from agv_motion.demo.zone_map import Mark
     from agv_motion.motion.navigation.zone import Zone
     from agv_motion.nodes.simulator import SimulatorParameters
-    from agv_motion.planar import Pose
 
 ARROWS = '→↗↑↖←↙↓↘'
+
+BAR = 15
+"""Characters of a full sap flow"""
 
 
 class TreeView:
@@ -39,72 +39,68 @@ class TreeView:
             place: Where the sun shines and what throws shadows.
 
         """
-        self._recorder, self._map, self._place = recorder, ZoneMap(zone), place
+        self._recorder, self._view, self._place = recorder, MapView(zone), place
         self._obstacles = place.obstacles()
-        self._trail: set[tuple[int, int]] = set()
+        self._trail: list[tuple[float, float]] = []
 
-    def draw(self, now: float, factor: float) -> RenderableType:
+    def draw(self, now: float, factor: float, room: Room) -> RenderableType:
         """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
+        self._view.fit(room)
         moment = datetime.fromtimestamp(now, timezone.utc)
-        title = f'{moment:%d %B %Y, %H:%M:%S} UTC, {factor:.0f} times real time'
-        return Columns([Panel(self._walk(now), title=title), self._numbers()])
+        title = f'{moment:%d %b %Y, %H:%M:%S} UTC'
+        numbers = lines(self._numbers(factor), NUMBERS, tall=3)
+        return self._view.picture(title, self._walk(now), numbers)
 
     def _walk(self, now: float) -> Text:
         """Shade as dots, the trail, the goal and the tree."""
         light = sun(now, self._place.latitude, self._place.longitude)
         truth, goal = self._recorder.latest('ground_truth'), self._recorder.latest('goal')
-        marks: dict[tuple[int, int], Mark] = {}
+        cell_of = self._view.map.cell_of
         if truth is not None:
-            here = self._map.cell_of(truth.pose.pose.position.x, truth.pose.pose.position.y)
-            self._trail.add(here)
-        marks.update(dict.fromkeys(self._trail, ('•', 'green')))
+            here = truth.pose.pose.position.x, truth.pose.pose.position.y
+            self._trail.append(here)
+        marks: dict[tuple[int, int], Mark] = {cell_of(*at): ('•', 'green') for at in self._trail}
         if goal is not None:
-            marks[self._map.cell_of(goal.pose.position.x, goal.pose.position.y)] = ('✕', 'bold red')
+            marks[cell_of(goal.pose.position.x, goal.pose.position.y)] = ('✕', 'bold red')
         if truth is not None:
-            marks[here] = ('♣', 'bold green')
-        return self._map.text(
+            marks[cell_of(*here)] = ('♣', 'bold green')
+        return self._view.map.text(
             marks, lambda x, y: '░' if sunlit(x, y, light, self._obstacles) < 0.5 else ' '
         )
 
-    def _numbers(self) -> Table:
-        table = Table(box=None, show_header=False, pad_edge=False)
-        recorder = self._recorder
-        state = recorder.latest('state')
-        table.add_row('state', '' if state is None else state.data)
-        flow = recorder.latest('granier/sap_flow')
-        for name, axis in (('s1 speed', 'x'), ('s2 rotation', 'y'), ('s3 places', 'z')):
-            if flow is not None:
-                value = getattr(flow.vector, axis)
-                table.add_row(name, f'{"█" * round(20 * value):<20} {value:.2f}')
-        twist = recorder.latest('cmd_vel')
+    def _numbers(self, factor: float) -> list[tuple[str, str]]:
+        """Return what stands beside the map; what is not known yet has its line all the same."""
+        latest = self._recorder.latest
+        state, flow, twist = latest('state'), latest('granier/sap_flow'), latest('cmd_vel')
+        rows = [('pace', pace(factor))]
+        for name, axis in (('speed', 'x'), ('turn', 'y'), ('places', 'z')):
+            value = 0.0 if flow is None else getattr(flow.vector, axis)
+            bar = '█' * round(BAR * min(max(value, 0.0), 1.0))
+            rows.append((name, '...' if flow is None else f'{bar:<{BAR}} {number(value, 5, 2)}'))
+        speed = turn = 0.0
         if twist is not None:
             speed = hypot(twist.twist.linear.x, twist.twist.linear.y) * 60.0
             turn = twist.twist.angular.z * 60.0 * 180.0 / pi
-            table.add_row('twist', f'{speed:.2f} m/min, {turn:+.0f} deg/min')
-        for row in self._turrets():
-            table.add_row(*row)
-        truth = recorder.latest('ground_truth')
-        if truth is not None:
-            pose: Pose = pose_of(truth.pose.pose)
-            table.add_row(
-                'pose', f'{pose.x:.2f} m, {pose.y:.2f} m, {pose.theta * 180 / pi:.0f} deg'
-            )
-        return table
+        moves = f'{number(speed, 5, 2)} m/min {number(turn, 4, 0, sign=True)}°/min'
+        rows += [('twist', '...' if twist is None else moves), *self._turrets()]
+        truth = latest('ground_truth')
+        rows.append(('pose', '...' if truth is None else pose_text(pose_of(truth.pose.pose))))
+        rows.append(('state', '...' if state is None else state.data))
+        return rows
 
     def _turrets(self) -> list[tuple[str, str]]:
         """One line a turret: which way it points and how fast it rolls."""
         state = self._recorder.latest('turrets/state')
         if state is None:
-            return []
+            return [('wheels', '...')]
         angles, rates = TurretJoints(len(state.name) // 2).read(state)
         return [
             (
-                f'turret {i}',
-                f'{ARROWS[round(angle / (pi / 4)) % 8]} {60 * rate * self._radius:+.2f} m/min',
+                f'wheel{i}',
+                (
+                    f'{ARROWS[round(angle / (pi / 4)) % 8]} '
+                    f'{number(60 * rate * self._place.wheel_radius, 6, 2, sign=True)} m/min'
+                ),
             )
             for i, (angle, rate) in enumerate(zip(angles, rates, strict=True))
         ]
-
-    @property
-    def _radius(self) -> float:
-        return self._place.wheel_radius

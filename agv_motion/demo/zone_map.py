@@ -11,7 +11,14 @@ if TYPE_CHECKING:
 
     from agv_motion.motion.navigation.zone import Zone
 
-WIDTH, HEIGHT = 56, 20
+WIDTH, HEIGHT = 46, 19
+"""Of a picture in a terminal of 80 by 24, with room for numbers beside it [characters]"""
+
+WIDEST = 110
+"""Of a picture where there is more room"""
+
+TALL = 2.0
+"""How much taller than wide a character is"""
 
 OUTSIDE = '#'
 
@@ -20,27 +27,31 @@ Mark = tuple[str, str]
 
 
 class ZoneMap:
-    """A picture of a zone, north up, `HEIGHT` rows of `WIDTH` characters."""
+    """A picture of a zone, north up."""
 
-    def __init__(self, zone: Zone) -> None:
-        """Draw ``zone``."""
+    def __init__(self, zone: Zone, width: int = WIDTH, height: int = HEIGHT) -> None:
+        """Draw ``zone`` in its proportions into ``width`` columns and ``height`` rows, or fewer."""
         self._west, self._south, self._east, self._north = zone.bounds
+        wide, high = self._east - self._west, self._north - self._south
+        fit = min(width, WIDEST, round(height * TALL * wide / high))
+        self.columns = max(fit, 2)
+        self.rows = max(min(round(self.columns * high / wide / TALL), height), 2)
         self._inside = {
             (row, column): zone.contains(*self.place_of(row, column))
-            for row in range(HEIGHT)
-            for column in range(WIDTH)
+            for row in range(self.rows)
+            for column in range(self.columns)
         }
 
     def cell_of(self, x: float, y: float) -> tuple[int, int]:
         """Return row and column of the picture at (x, y) [m]."""
-        column = int((x - self._west) / (self._east - self._west) * (WIDTH - 1) + 0.5)
-        row = int((self._north - y) / (self._north - self._south) * (HEIGHT - 1) + 0.5)
+        column = int((x - self._west) / (self._east - self._west) * (self.columns - 1) + 0.5)
+        row = int((self._north - y) / (self._north - self._south) * (self.rows - 1) + 0.5)
         return row, column
 
     def place_of(self, row: int, column: int) -> tuple[float, float]:
         """Return (x, y) [m] of a cell of the picture."""
-        x = self._west + column * (self._east - self._west) / (WIDTH - 1)
-        y = self._north - row * (self._north - self._south) / (HEIGHT - 1)
+        x = self._west + column * (self._east - self._west) / (self.columns - 1)
+        y = self._north - row * (self._north - self._south) / (self.rows - 1)
         return x, y
 
     def text(
@@ -59,6 +70,7 @@ class ZoneMap:
         for (row, column), inside in self._inside.items():
             bare = floor(*self.place_of(row, column)) if inside else OUTSIDE
             text.append(*marks.get((row, column), (bare, 'dim')))
-            if column == WIDTH - 1:
+            if column == self.columns - 1:
                 text.append('\n')
+        text.right_crop(1)
         return text

@@ -83,7 +83,12 @@ def _table(*titles: str) -> Table:
     table = Table(box=None, pad_edge=False)
     for title in titles:
         justify = 'left' if title == 'topic' else 'right'
-        table.add_column(title, justify=justify, overflow='fold')  # type: ignore[arg-type]
+        table.add_column(
+            title,
+            justify=justify,  # type: ignore[arg-type]
+            overflow='fold',
+            no_wrap=title == 'topic',
+        )
     return table
 
 
