@@ -22,6 +22,10 @@ FRAME = 4, 2
 """Columns and rows that the frame of the map takes"""
 
 
+NARROWEST = 60
+"""Columns of a terminal from which there is room for a map"""
+
+
 class Room(NamedTuple):
     """What a picture may take of the terminal [characters]."""
 
@@ -47,7 +51,9 @@ class MapView:
         return self.map
 
     def picture(self, title: str, walk: Text, numbers: RenderableType) -> RenderableType:
-        """Return map and numbers beside each other."""
+        """Return map and numbers beside each other; the numbers alone where it is narrow."""
+        if self._room and self._room.columns < NARROWEST:
+            return numbers
         whole = Table.grid(padding=(0, 1, 0, 0))
         whole.add_column(width=self.map.columns + FRAME[0], no_wrap=True)
         whole.add_column(width=NUMBERS, no_wrap=True)

@@ -71,7 +71,7 @@ def test_it_runs_until_the_scenario_is_over_and_leaves_a_bag(tmp_path):
     assert scenario.progress(2.0) == (0.4, 'counting')
     assert 'two seconds' in printed.getvalue()
     with BagReader(tmp_path / 'bag') as bag:
-        assert list(bag.topics) == ['/word']
+        assert list(bag.topics) == ['/word', '/mark']  # /mark: what a person notes
 
 
 def test_a_scenario_that_cannot_be_built_leaves_no_graph(tmp_path):
