@@ -65,6 +65,7 @@ class Board:
         }
         self._clock: Entry | None = None
         self._clock_before: tuple[float, float] | None = None
+        self._heard_clock = 0.0
         self._held: dict[str, Any] = {}
         """newest reservation of each tree"""
         self._made: dict[tuple[str, str], int] = {}
@@ -153,6 +154,12 @@ class Board:
             self._note_place(robot, now)
         return True
 
+    def time_of_robots(self, now: float) -> float:
+        """Return the time of the robots [s since 1970] at ``now`` [s]; goes on if they stand."""
+        if self.time is None or self._clock_before is None:
+            return now
+        return self.time + max(now - self._heard_clock, 0.0)
+
     def version_of(self, robot: str, slot: str) -> int:
         """Return the version of a cell; 0 without one."""
         cell = self.cells.get((robot, slot))
@@ -199,7 +206,7 @@ class Board:
         time = finite(stamp.sec + 1e-9 * stamp.nanosec, 3)
         if time is None:
             return
-        self.time = time
+        self.time, self._heard_clock = time, entry.at
         before = self._clock_before
         if before is None or entry.at - before[0] >= SLOWLY:
             if before is not None:

@@ -171,6 +171,7 @@ def why(message: Any) -> Value:
             'name': told['name'], 'level': told['level'], 'sentence': told['message'],
             'age': finite(values.get('age [s]'), 2), 'since': values.get('since', ''),
             'remedy': values.get('remedy', ''), 'limit': values.get('limit', ''),
+            'because': values.get('because', ''),
         })  # fmt: skip
     return {'links': links}
 

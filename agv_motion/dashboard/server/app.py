@@ -12,6 +12,7 @@ from starlette.responses import FileResponse, JSONResponse, RedirectResponse
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
+from agv_motion.dashboard.server.alerts import AlertDesk, alert_doors
 from agv_motion.dashboard.server.door import is_public
 from agv_motion.dashboard.server.doors import doors
 from agv_motion.dashboard.server.drive import drive
@@ -22,6 +23,7 @@ from agv_motion.dashboard.server.live import Client
 from agv_motion.dashboard.server.login import login_doors
 from agv_motion.dashboard.server.marks import mark_doors
 from agv_motion.dashboard.server.parameters import parameter_doors
+from agv_motion.dashboard.server.reports import report_doors
 from agv_motion.dashboard.server.roles import Role
 from agv_motion.dashboard.server.site import STATIC
 
@@ -62,9 +64,11 @@ def application(
             with suppress(asyncio.CancelledError):
                 await task
 
+    desk = AlertDesk(site)
     routes = [
         *_pages(site), *doors(site), *parameter_doors(site), *ground_doors(site),
-        *mark_doors(site), *history_doors(site), *login_doors(site), *_sockets(site),
+        *mark_doors(site), *history_doors(site, desk), *alert_doors(site, desk),
+        *report_doors(site), *login_doors(site), *_sockets(site),
     ]  # fmt: skip
     if STATIC.is_dir():
         routes.append(Mount('/static', StaticFiles(directory=STATIC)))

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from starlette.routing import Route
     from starlette.websockets import WebSocket
 
+    from agv_motion.dashboard.server.alerts import AlertDesk
     from agv_motion.dashboard.server.site import Site
 
 MOST = 6
@@ -34,7 +35,7 @@ LATEST = 1e11
 """[s since 1970]"""
 
 
-def history_doors(site: Site) -> list[Route]:
+def history_doors(site: Site, desk: AlertDesk) -> list[Route]:
     """Return the doors to the past."""
     history = site.history
 
@@ -45,7 +46,7 @@ def history_doors(site: Site) -> list[Route]:
 
     async def look(_: Asked) -> dict[str, Any]:
         begin, end = await require().span()
-        return {'begin': begin, 'end': end, 'marks': marks(site), 'alerts': []}
+        return {'begin': begin, 'end': end, 'marks': marks(site), 'alerts': desk.alerts()}
 
     async def save(asked: Asked) -> dict[str, Any]:
         begin, end = (number(asked.told, key, 0.0, LATEST) for key in ('begin', 'end'))

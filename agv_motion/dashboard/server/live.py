@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from starlette.websockets import WebSocket
 
     from agv_motion.dashboard.core.board import Board
+
+_LOG = logging.getLogger('uvicorn.error')
 
 PERIOD = 0.12
 """[s] between two frames"""
@@ -162,21 +165,30 @@ class Hub:
         """robot and slot of what clients have asked for"""
         self.at_each_look: list[Callable[[float], None]] = []
         """called after each look at the board, with its time"""
+        self.at_each_second: list[Callable[[float], None]] = []
+        """called about once a second, whether somebody looks or not, with the time of the board"""
         self.busy: Callable[[], bool] = lambda: False
         """returns whether the board must be looked at though there is no client"""
 
     async def run(self) -> None:
         """Look at the board until cancelled: often while somebody is there, else once a second."""
+        second = 0.0
         while True:
-            begun = asyncio.get_running_loop().time()
-            if self.clients or self.busy():
-                self.look()
-                period = PERIOD
-            else:
-                self.board.look(self.now())
-                period = 5.0 * PERIOD
-            spent = asyncio.get_running_loop().time() - begun
-            await asyncio.sleep(max(period - spent, 0.2 * PERIOD))
+            begun = time.monotonic()
+            try:
+                watched = bool(self.clients) or self.busy()
+                if watched:
+                    self.look()
+                else:
+                    self.board.look(self.now())
+                if begun - second >= 1.0:
+                    second = begun
+                    for act in self.at_each_second:
+                        act(self.now())
+            except Exception:  # noqa: BLE001 - told; the page must go on
+                _LOG.exception('a look at the robots has failed')
+            period = PERIOD if watched else 5.0 * PERIOD
+            await asyncio.sleep(max(period - (time.monotonic() - begun), 0.2 * PERIOD))
 
     def look(self) -> None:
         """Make the newest cells, and wake all clients."""

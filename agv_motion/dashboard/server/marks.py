@@ -44,7 +44,7 @@ def _mark(asked: Asked) -> dict[str, Any]:
         raise RequestError(409, 'this is a recording: nothing can be done in it')
     words = text(asked.told, 'text', LONGEST, least=1)
     board = site.fleet.board
-    at = site.fleet.now() if board.time is None else board.time
+    at = board.time_of_robots(site.fleet.now())
     site.store.change(
         'INSERT INTO marks (at, text, by) VALUES (?, ?, ?)', (at, words, asked.visitor.name)
     )

@@ -34,9 +34,10 @@ def opened(
     """
     store = Store(state_folder(folder))
     try:
+        beside = Path(bag).resolve().parent if bag else state_folder(folder)
         history = History(Path(bag), state_folder(folder) / 'bags') if bag else None
         access = Access(host, Users(store))
-        return Site(fleet, access, store, history, recorded=recorded)
+        return Site(fleet, access, store, history, reports=beside / 'reports', recorded=recorded)
     except BaseException:
         store.close()
         raise

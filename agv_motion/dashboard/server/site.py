@@ -30,6 +30,8 @@ class Site:
     """what is kept over a restart; None: nothing is"""
     history: History | None = None
     """into what one can look back; None: nothing is recorded"""
+    reports: Path | None = None
+    """folder of the daily reports"""
     recorded: bool = False
     """whether there is nothing but the past"""
     replays: Replays = field(default_factory=Replays)

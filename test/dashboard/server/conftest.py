@@ -59,7 +59,7 @@ class Browser(TestClient):
 def site(robots, tmp_path):
     """Return a page on this machine alone."""
     store = Store(tmp_path / 'state')
-    yield Site(robots, Access('127.0.0.1', Users(store)), store)
+    yield Site(robots, Access('127.0.0.1', Users(store, hasher=QUICK)), store)
     store.close()
 
 
