@@ -60,11 +60,12 @@ class RobotEars:
         self._listen()
 
     def gather(self) -> None:
-        """Listen until each node has told how it is, but not for long."""
+        """Listen until each node has told how it is, and a simulation its time; not for long."""
         end = time.monotonic() + PATIENCE
 
         def heard() -> bool:
-            return all(self._nodes[n] <= e.nodes.keys() for n, e in self.robots.items())
+            told = all(self._nodes[n] <= e.nodes.keys() for n, e in self.robots.items())
+            return told and (self._time > 0.0 or not self._node.count_publishers('/clock'))
 
         spin(self._node, lambda: heard() or time.monotonic() > end)
 
