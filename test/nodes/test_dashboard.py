@@ -185,7 +185,7 @@ def test_a_hand_drives_and_who_lets_go_stops_the_wheels(oak, open_page, graph):
     driving = page.run(drive())
     graph.spin_until(lambda: oak.speed == 0.5)
     graph.spin_until(driving.done)
-    graph.spin_until(lambda: oak.speed == 0.0, timeout=5.0)
+    graph.spin_until(lambda: oak.speed == 0.0)
     page.sees('oak', 'driver', lambda driver: driver['lost'] == 'manual')
     page.sees('oak', 'summary', lambda summary: summary['word'] == 'stopped')
 

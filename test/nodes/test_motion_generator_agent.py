@@ -261,7 +261,7 @@ def test_a_disk_that_does_not_take_it_is_told_and_the_tree_walks(seek, tmp_path)
     file = tmp_path / 'file'
     file.write_text('no folder')
     senses = seek(memory_file=str(file / 'places.npz'))
-    senses.tester.graph.spin_until(lambda: 'cannot keep' in senses.node.complaint, 5.0)
+    senses.tester.graph.spin_until(lambda: 'cannot keep' in senses.node.complaint)
     senses.stand(2.0, 2.0, 0.0)
     senses.feel(0.9, 0.5, 0.4)
     senses.moves()

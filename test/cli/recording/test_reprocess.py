@@ -123,7 +123,7 @@ def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
     assert len(started) >= 2
     (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
     _, errors = process.communicate(timeout=60)
-    wait_until(lambda: all(map(gone, started)), 10)
+    wait_until(lambda: all(map(gone, started)))
     assert process.returncode == (-9 if number == signal.SIGKILL else 130)
     assert 'Traceback' not in errors
     before = finished(out)
