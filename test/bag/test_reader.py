@@ -211,3 +211,15 @@ def test_what_is_no_bag_is_refused_with_its_name(tmp_path, content, complaint):
 def test_a_folder_without_a_bag_is_refused(tmp_path):
     with pytest.raises(SourceError, match=r'is no bag: it has no \.mcap'):
         BagReader(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ('harmless', 'lossy'), [([], False), ([True], False), ([True, False], True)]
+)
+def test_only_what_does_harm_makes_a_bag_lossy(tmp_path, harmless, lossy):
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/a', 'a/msg/A', 'int8 x', type_hash='')
+        writer.write(topic, 1, b'\0\1\0\0\1')
+    with BagReader(tmp_path / 'bag') as bag:
+        bag.problems += [DamagedBagError('x', 0, 'odd', harmless=each) for each in harmless]
+        assert bag.lossy is lossy

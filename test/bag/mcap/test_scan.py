@@ -103,3 +103,17 @@ def test_a_wrong_byte_among_messages_outside_chunks_is_told_by_the_crc_of_the_da
         found = scan(memoryview(before + records.data_end(crc)), file)
         assert (found.problems == []) == fine
     assert 'expected 00000001: one of them is wrong' in str(found.problems[0])
+
+
+def test_channels_that_are_described_inside_of_a_chunk_only_are_found(tmp_path):
+    inside = (
+        records.schema(records.Schema(4, 'a/msg/A', 'ros2msg', b'int8 x'))
+        + records.channel(records.Channel(9, 4, '/inside', 'cdr', {}))
+        + records.MESSAGE_HEAD.pack(records.MESSAGE, 22 + 5, 9, 0, 7, 7) + b'\0\1\0\0\3'
+    )  # fmt: skip
+    head = records.chunk_head((7, 7), (len(inside), len(inside)), 0, '')
+    data = records.MAGIC + records.header('ros2', 'us') + head + inside + records.data_end()
+    found = scan(memoryview(data), tmp_path / 'x.mcap')
+    assert found.channels[9].topic == '/inside'
+    assert found.schemas[4].name == 'a/msg/A'
+    assert found.problems == []
