@@ -15,7 +15,9 @@ LOOK = 0.2
 
 
 def bag(
-    bag: Annotated[Path, typer.Argument(help='Folder of the bag, or one of its files.')],
+    recording: Annotated[
+        Path, typer.Argument(metavar='BAG', help='Folder of the bag, or one of its files.')
+    ],
     *,
     host: Annotated[str, typer.Option(help='Address on which the page is served.')] = '127.0.0.1',
     port: Annotated[int, typer.Option(min=0, max=65535, help='Of the page; 0: any.')] = 8080,
@@ -27,13 +29,13 @@ def bag(
     from agv_motion.dashboard.server.opening import opened
     from agv_motion.dashboard.server.serve import WebServer, listening
 
-    fleet = BagFleet(bag)
-    site = opened(fleet, host, state_folder, str(bag), recorded=True)
+    fleet = BagFleet(recording)
+    site = opened(fleet, host, state_folder, str(recording), recorded=True)
     server = WebServer(application(site), listening(host, port))
     stop = Stop()
     try:
         server.start()
-        typer.echo(f'{bag} is at {server.url}; end with Ctrl-C')
+        typer.echo(f'{recording} is at {server.url}; end with Ctrl-C')
         while not stop.requested:
             time.sleep(LOOK)
     finally:

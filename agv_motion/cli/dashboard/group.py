@@ -40,7 +40,9 @@ def dashboard(
     certificate: Annotated[str, typer.Option(help='File of a certificate (PEM), for TLS.')] = '',
     key: Annotated[str, typer.Option(help='File of its key.')] = '',
     state_folder: Annotated[str, typer.Option(help='Where users and marks are kept.')] = '',
-    bag: Annotated[str, typer.Option(help='Being recorded, to look back into.')] = '',
+    recording: Annotated[
+        str, typer.Option('--bag', help='Being recorded, to look back into.')
+    ] = '',
     end_with_stdin: Annotated[bool, typer.Option(hidden=True)] = False,
     next_free_port: Annotated[
         bool, typer.Option('--next-free-port', help='Take the next port where this is taken.')
@@ -70,7 +72,7 @@ def dashboard(
     given: dict[str, object] = {'port': port, 'next_free_port': str(next_free_port).lower()}
     texts = {
         'host': host, 'certificate': certificate, 'key': key, 'state_folder': state_folder,
-        'bag': bag,
+        'bag': recording,
     }  # fmt: skip
     given |= {option: json.dumps(value) for option, value in texts.items() if value}
     for option, value in (('robots', robots), ('names', name)):
