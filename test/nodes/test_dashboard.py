@@ -86,10 +86,16 @@ class Page:
             lambda: (robot, topic) in self.slots and condition(self.slots[robot, topic])
         )
 
+    async def _end(self):
+        """End all that runs here: what is only cancelled may still be under way."""
+        others = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in others:
+            task.cancel()
+        await asyncio.gather(*others, return_exceptions=True)
+        await self.loop.shutdown_default_executor()
+
     def close(self):
-        self.looking.cancel()
-        self.graph.spin_until(self.looking.done)
-        stopped = self.run(self.loop.shutdown_default_executor())
+        stopped = self.run(self._end())
         self.graph.spin_until(stopped.done)
         self.loop.call_soon_threadsafe(self.loop.stop)
         self.thread.join(10.0)
