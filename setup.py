@@ -75,6 +75,7 @@ setup(
         'plot': ['matplotlib>=3.8'],
         'test': [
             'argon2-cffi>=23',
+            'axe-playwright-python>=0.1',
             'catkin_pkg',
             'colcon-common-extensions',
             'colcon-ros',
@@ -88,6 +89,7 @@ setup(
             'mypy>=1.11',
             'networkx>=3.1',
             'pandas>=2',
+            'playwright>=1.45',
             'pyarrow>=14',
             'pytest>=8',
             'pytest-timeout>=2.3',

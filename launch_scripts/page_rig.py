@@ -203,6 +203,12 @@ class Process:
         self.there.set()
 
 
+def free_port():
+    """Return a port of this machine that nobody listens on."""
+    with socket.create_server(('127.0.0.1', 0)) as free:
+        return free.getsockname()[1]
+
+
 class Rig:
     """Robot, server, cable and browser."""
 
@@ -211,8 +217,7 @@ class Rig:
         self.browser, self.folder = browser, folder
         self.wheels = Wheels()
         stack.callback(self.wheels.close)
-        with socket.create_server(('127.0.0.1', 0)) as free:
-            self.port = free.getsockname()[1]
+        self.port = free_port()
         self.cable = Cable(self.port)
         stack.callback(self.cable.close)
         self.robot = Process(str(ROOT / 'launch_scripts' / 'page_robot.py'), ready='ready')

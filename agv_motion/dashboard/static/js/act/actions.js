@@ -77,10 +77,9 @@ export class Actions {
 
   /** @param {import('../live/types.js').Outcome} outcome */
   _outcome(outcome) {
-    const card = this.cards.get(outcome.id);
-    const own = card?.querySelector('.outcome-title')?.textContent;
-    const title = own ?? [outcome.robot, phrase(`act ${outcome.action}`)].filter(Boolean).join(': ');
-    this._show(outcome.id, title, outcome.state, outcome.text);
+    this.cards.get(outcome.id)?.remove(); // of who asked: from here on each robot has its own
+    const title = [outcome.robot, phrase(`act ${outcome.action}`)].filter(Boolean).join(': ');
+    this._show(`${outcome.id}/${outcome.robot}`, title, outcome.state, outcome.text);
   }
 
   /**

@@ -1,6 +1,7 @@
 import { DriveKeys } from './keys.js';
 import { DriveSocket } from './drive_socket.js';
 import { Stick } from './stick.js';
+import { forPeople } from '../robots/verdict.js';
 import { byId, element, refill, write } from '../words/element.js';
 import { degrees, pace } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
@@ -94,7 +95,7 @@ export class DrivePanel {
     write(this.reported, twist
       ? `${pace(Math.hypot(twist.vx ?? NaN, twist.vy ?? NaN))}, ${degrees(twist.wz === null ? null : twist.wz * 60)}/min`
       : phrase('unknown'));
-    write(this.driver, driver?.sentence || driver?.driver || phrase('unknown'));
+    write(this.driver, forPeople(driver?.sentence || driver?.driver || phrase('unknown')));
     write(this.full, pace(this._limit().speed * this.share));
   }
 
@@ -132,17 +133,17 @@ export class DrivePanel {
         element('h2', { text: `${phrase('act drive')}: ${this.robot}` }),
         element('button', { type: 'button', id: 'drive-close', text: phrase('close'), onclick: () => this.hide() })),
       element('div.sticks', {}, this.move.base, steered ? this.turn.base : null),
-      this.surface,
-      element('label.field', { for: 'drive-share' }, element('span', { text: phrase('atFull') }), share, this.full),
+      this.turnButtons,
       steered ? element('button', {
         type: 'button', id: 'drive-turn', 'aria-pressed': 'false', text: phrase('turnAbout'),
         onclick: () => this._setTurning(!this.turning),
       }) : null,
-      this.turnButtons,
       element('dl.facts', {},
         element('div', {}, element('dt', { text: phrase('drivenBy') }), this.driver),
         element('div', {}, element('dt', { text: phrase('speed') }), this.reported)),
-      this.state);
+      this.state,
+      element('label.field', { for: 'drive-share' }, element('span', { text: phrase('atFull') }), share, this.full),
+      this.surface);
   }
 
   /** @param {boolean} on */

@@ -5,6 +5,8 @@ import { icon } from '../words/icon.js';
 import { phrase } from '../words/phrases.js';
 
 const DAY = 86400;
+/** seconds of the recording per second */
+const RATES = [1, 10, 60, 600];
 /** [ms] a slider that moves asks for a new moment at most so often */
 const CALM = 150;
 /** [s] kept before and after a moment that is saved */
@@ -31,13 +33,16 @@ export class Timeline {
       type: 'range', id: 'look-slider', min: '0', max: '1', step: '1', value: '1', 'aria-label': phrase('lookBack'),
     });
     this.slider.addEventListener('input', () => this._jumpSoon(Number(this.slider.value)));
+    this.rate = element('select', { id: 'look-rate', 'aria-label': phrase('look rate') },
+      ...RATES.map((rate) => element('option', { value: rate, text: `×${rate}` })));
+    this.rate.addEventListener('change', () => this.playing && this._jump(this.shown));
     this.ticks = element('div.ticks', { 'aria-hidden': 'true' });
     this.begin = element('span.look-end');
     this.play = button('play', () => this._play());
     this.now = element('button.look-now', { type: 'button', id: 'look-now', text: phrase('now'), onclick: () => this.screen.lookAtNow() });
     this.save = button('save', () => this._save());
     this.mark = element('button.look-mark', { type: 'button', id: 'look-mark', text: phrase('mark'), onclick: () => this._mark() });
-    where.append(this.now, button('before', () => this._step(-1)), this.play, button('after', () => this._step(1)),
+    where.append(this.now, button('before', () => this._step(-1)), this.play, this.rate, button('after', () => this._step(1)),
       element('div.look-slider', {}, this.ticks, this.slider, this.begin), this.save, this.mark);
   }
 
@@ -65,7 +70,7 @@ export class Timeline {
     if (!past) this.playing = false;
     const may = ['operator', 'expert'].includes(screen.hello?.role ?? 'public');
     this.mark.hidden = this.save.hidden = !may;
-    for (const part of this.where.querySelectorAll('button, input')) {
+    for (const part of this.where.querySelectorAll('button, input, select')) {
       if (part !== this.mark) part.disabled = !span;
     }
     this.now.disabled = !past;
@@ -98,7 +103,7 @@ export class Timeline {
 
   /** @param {number} at */
   _jump(at) {
-    this.screen.lookBack(at, this.playing ? 1 : 0);
+    this.screen.lookBack(at, this.playing ? Number(this.rate.value) : 0);
   }
 
   /** @returns {number} what is shown now, or the end */

@@ -30,13 +30,16 @@ export function drawJourney(scene, robot) {
     context.stroke();
     context.setLineDash([]);
   }
-  const goal = store.value(robot, 'goal');
-  if (goal && goal.x !== null && goal.y !== null) drawGoal(scene, goal);
 }
 
-/** @param {import('./map.js').Scene} scene @param {any} goal */
-function drawGoal(scene, goal) {
-  const { context, view, palette } = scene;
+/**
+ * Where the chosen robot goes, and its reason.
+ * @param {import('./map.js').Scene} scene
+ */
+export function drawGoal(scene) {
+  const { context, view, palette, store, chosen } = scene;
+  const goal = store.value(chosen, 'goal');
+  if (!goal || goal.x === null || goal.y === null) return;
   const [column, row] = view.toScreen(goal.x, goal.y);
   view.usePixels(context);
   context.strokeStyle = palette.colour('goal');
@@ -50,6 +53,7 @@ function drawGoal(scene, goal) {
   context.fill();
   // the robot's words up to the place, which the map shows itself
   const words = (goal.reason ?? '').split(/:? (?:at )?\(/)[0];
+  if (!words || view.height < 260) return;
   context.font = `500 13px ${palette.font}`;
   const half = context.measureText(words).width / 2 + 8;
   const at = Math.min(view.width - half, Math.max(half, column));

@@ -1,7 +1,7 @@
 import { Bodies, rim } from './body.js';
 import { drawGround, drawScale } from './ground.js';
 import { Heat } from './heat.js';
-import { drawJourney, drawReservations } from './journey.js';
+import { drawGoal, drawJourney, drawReservations } from './journey.js';
 import { drawShade, drawSun } from './light.js';
 import { Palette } from './palette.js';
 import { drawRotationCentre } from './rotation_centre.js';
@@ -46,7 +46,7 @@ export class WorldMap {
     this.view.ratio = window.devicePixelRatio || 1;
     this.view.width = clientWidth;
     this.view.height = clientHeight;
-    this.view.inset = inset(clientWidth, clientHeight);
+    this.view.inset = inset(clientHeight);
     this.canvas.width = Math.round(clientWidth * this.view.ratio);
     this.canvas.height = Math.round(clientHeight * this.view.ratio);
     if (whole) this.fit();
@@ -115,6 +115,7 @@ export class WorldMap {
     if (this.layers.has('reservations')) drawReservations(scene);
     if (this.layers.has('trail')) order.forEach((robot) => drawJourney(scene, robot));
     order.forEach((robot) => this.bodies.draw(scene, robot));
+    if (this.layers.has('trail')) drawGoal(scene);
     if (chosen) drawRotationCentre(scene, chosen);
     if (this.layers.has('light')) drawSun(scene);
     this.above.forEach((layer) => layer(scene));
@@ -148,8 +149,8 @@ export class WorldMap {
 }
 
 /** What the tools cover: a strip at the left, on a phone at the top, and on a very low map nothing. */
-function inset(/** @type {number} */ width, /** @type {number} */ height) {
+function inset(/** @type {number} */ height) {
   if (height < 260) return { left: 12, right: 12, top: 12, bottom: 12 };
-  if (width < 600) return { left: 16, right: 16, top: 72, bottom: 56 };
+  if (matchMedia('(max-width: 760px)').matches) return { left: 16, right: 16, top: 72, bottom: 56 };
   return { left: 80, right: 24, top: 24, bottom: 56 };
 }

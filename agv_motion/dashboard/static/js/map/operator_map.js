@@ -103,7 +103,9 @@ export class OperatorMap extends WorldMap {
 
   /** @param {string} layer */
   _layerBox(layer) {
-    const box = element('input', { type: 'checkbox', checked: this.layers.has(layer) });
+    const box = element('input', {
+      type: 'checkbox', checked: this.layers.has(layer), 'data-layer': layer,
+    });
     box.addEventListener('change', () => {
       if (box.checked) this.layers.add(layer);
       else this.layers.delete(layer);

@@ -56,7 +56,7 @@ export class Bar {
       };
     }
     return {
-      colour: found.colour, stale: all.every((one) => one.silent) && found.colour === 'red',
+      colour: found.colour, stale: !screen.past && all.every((one) => one.silent) && found.colour === 'red',
       name: found.robot, word: found.word, sentence: found.sentence,
     };
   }

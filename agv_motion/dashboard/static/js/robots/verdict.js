@@ -36,7 +36,7 @@ export function verdict(screen, robot) {
     robot,
     colour: summary.colour in RANK ? summary.colour : 'red',
     word: robotWord(summary.word),
-    sentence: summary.sentence ?? '',
+    sentence: forPeople(summary.sentence ?? ''),
     silent: summary.word === 'silent',
   };
 }
@@ -57,3 +57,11 @@ export function worst(all, chosen) {
   return all.reduce((/** @type {Verdict|undefined} */ found, one) =>
     (!found || rank(one) > rank(found) ? one : found), undefined);
 }
+
+/**
+ * Leave out what one would type on a command line: the page has buttons for it.
+ * @param {string} sentence of a robot
+ * @returns {string}
+ */
+export const forPeople = (sentence) =>
+  sentence.split('; ').filter((clause) => !clause.includes('~/')).join('; ') || sentence;

@@ -182,6 +182,7 @@ export const english = {
   'look before': 'Alert or mark before',
   'look after': 'Alert or mark after',
   'look play': 'Play or pause',
+  'look rate': 'How fast it plays',
   'look save': 'Save the minutes around',
   mark: 'Mark',
   markQuestion: 'Mark this moment in the recording.',

@@ -182,6 +182,7 @@ export const french = {
   'look before': 'Alerte ou repère précédent',
   'look after': 'Alerte ou repère suivant',
   'look play': 'Lecture ou pause',
+  'look rate': 'Vitesse de lecture',
   'look save': 'Garder les minutes autour',
   mark: 'Repère',
   markQuestion: 'Marquer cet instant dans l’enregistrement.',
