@@ -112,6 +112,22 @@ def test_stop_is_shown_as_done_only_when_the_wheels_are_reported_to_stand(park, 
     wait_for_text(page, '.stop-label', 'STOPPED')
 
 
+def test_stop_that_finds_no_server_is_tried_until_the_next_one_takes_it(park, serve, open_page):
+    server = serve(park)
+    port = server.listener.getsockname()[1]
+    page = open_page(server.url)
+    wait_for_text(page, '#bar-sentence', 'walking to the sun')
+    server.close()
+    page.keyboard.press('Escape')
+    wait_for_text(page, '.stop-note', 'The server does not answer')
+    assert park.asked == []
+    serve(park, port=port)
+    page.locator('#bar-sentence', has_text='walking to the sun').wait_for()
+    page.locator('#stop[data-state=ready]').wait_for()
+    assert {(robot, action) for robot, action, _ in park.asked} == {
+        ('oak', 'stop'), ('ash', 'stop'), ('elm', 'stop')}  # fmt: skip
+
+
 def test_release_asks_first_and_stop_can_be_pressed_meanwhile(park, serve, open_page):
     park.tell_all(stopped=True, standstill=True)
     page = open_page(serve(park).url)

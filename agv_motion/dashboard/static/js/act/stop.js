@@ -1,10 +1,11 @@
 import { confirm } from './confirm.js';
-import { newKey } from './actions.js';
 import { element, write } from '../words/element.js';
 import { phrase } from '../words/phrases.js';
 
 /** [ms] between two tries while the server does not answer */
 const TRY_AGAIN = 300;
+/** after which the server means it */
+const MOST_REFUSALS = 10;
 /** [s] a report older than this tells nothing of now */
 const FRESH = 2;
 
@@ -47,13 +48,15 @@ export class Stop {
     this.asked = true;
     this.trouble = '';
     this.draw();
-    const key = newKey();
+    let refused = 0;
     for (;;) {
-      const answer = await this.actions.post('/stop', {}, key);
+      const answer = await this.actions.post('/stop');
       if (answer.ok) break;
       this.trouble = answer.text;
       this.draw();
-      if (answer.status >= 400 && answer.status < 500 && answer.status !== 429) break; // no right
+      // refused again and again: no right; the first refusal may be of a server just restarted
+      refused = answer.status >= 400 && answer.status < 500 ? refused + 1 : 0;
+      if (refused >= MOST_REFUSALS) break;
       await new Promise((resolve) => setTimeout(resolve, TRY_AGAIN));
     }
     window.setTimeout(() => {

@@ -1,3 +1,4 @@
+import { Hours } from './hours.js';
 import { element, refill, write } from '../words/element.js';
 import { number } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
@@ -15,22 +16,29 @@ export class ZoneDrawer {
     this.map = map;
     /** @type {any} the zone that is being edited */
     this.draft = null;
+    /** id of the last zone that was sent: its outcome is told here too */
+    this.sent = '';
     this.text = element('p');
     this.numbers = element('div.corners');
     this.buttons = element('div.buttons');
     this.refusal = element('p.refusal', { role: 'alert' });
-    this.hours = this._makeHours();
+    this.hours = new Hours(screen, actions);
     this.body = element('div.columns', {},
       element('section', {}, element('h3', { text: phrase('zone') }), this.text, this.buttons, this.refusal, this.numbers),
-      element('section', {}, element('h3', { text: phrase('hours') }), this.hours));
+      element('section', {}, element('h3', { text: phrase('hours') }), this.hours.form));
     screen.outcomes.push((outcome) => {
-      if (outcome.action !== 'zone') return;
+      if (outcome.id !== this.sent) return;
       write(this.refusal, outcome.state === 'refused' || outcome.state === 'no_answer' ? outcome.text : '');
       if (outcome.state === 'done') this._end();
     });
   }
 
+  open() {
+    this.hours.open();
+  }
+
   close() {
+    this.hours.close();
     this._end();
   }
 
@@ -43,7 +51,7 @@ export class ZoneDrawer {
       corners: String(zone.boundary.length), area: number(area(zone), 0, 'm²'),
       holes: String(zone.holes.length), margin: number(zone.margin, 2, 'm'),
     }) : phrase('noZone'));
-    for (const field of this.hours.elements) field.disabled = !may;
+    this.hours.update(screen, may);
     refill(this.buttons, JSON.stringify([may, Boolean(this.draft), Boolean(zone)]), () => this._buttons(may, zone));
     if (!this.numbers.contains(document.activeElement)) {
       refill(this.numbers, JSON.stringify(this.draft), () => (this.draft ? this._corners(this.draft) : []));
@@ -81,6 +89,7 @@ export class ZoneDrawer {
     const shared = !this.screen.store.value(this.screen.chosen, 'zone');
     const answer = await this.actions.act('/zone',
       { ...(shared ? {} : { robot: this.screen.chosen }), zone: this.draft }, phrase('zone'));
+    this.sent = answer.body?.id ?? '';
     if (!answer.ok) write(this.refusal, answer.text);
   }
 
@@ -127,26 +136,6 @@ export class ZoneDrawer {
       this.screen.redraw('look');
     });
     return element('label', {}, element('span', { text: name }), field);
-  }
-
-  _makeHours() {
-    const field = (/** @type {string} */ name, /** @type {string} */ value) => element('label.field', {},
-      element('span', { text: phrase(name === 'close' ? 'closes' : 'opens') }), element('input', { type: 'time', name, value, required: true }));
-    return element('form.hours', {
-      onsubmit: (/** @type {Event} */ event) => {
-        event.preventDefault();
-        this._sendHours();
-      },
-    }, field('open', '10:00'), field('close', '18:00'), element('button', { type: 'submit', text: phrase('putInForce') }));
-  }
-
-  async _sendHours() {
-    const hour = (/** @type {string} */ name) => {
-      const [hours, minutes] = this.hours.elements.namedItem(name).value.split(':').map(Number);
-      return hours + minutes / 60;
-    };
-    await this.actions.act('/hours',
-      { robot: this.screen.chosen, open: hour('open'), close: hour('close') }, phrase('hours'));
   }
 }
 

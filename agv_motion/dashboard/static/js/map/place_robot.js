@@ -22,7 +22,8 @@ export class PlaceRobot {
   }
 
   _send() {
-    const pose = this.pose;
+    const { x, y, heading } = this.pose;
+    const pose = { x, y, heading: Math.atan2(Math.sin(heading), Math.cos(heading)) };
     this.map.end();
     this.map.actions.robot(this.robot, 'pose', pose);
   }

@@ -68,6 +68,7 @@ export const english = {
   'act goal': 'Go to a place',
   'act parameters': 'Parameter',
   'act set_parameter': 'Parameter',
+  'act set_parameters': 'Parameters',
   'act parameters/save': 'Save parameters',
   'act parameters/revert': 'Revert parameters',
   'act zone': 'Zone',

@@ -68,6 +68,7 @@ export const french = {
   'act goal': 'Aller à un lieu',
   'act parameters': 'Paramètre',
   'act set_parameter': 'Paramètre',
+  'act set_parameters': 'Paramètres',
   'act parameters/save': 'Enregistrer les paramètres',
   'act parameters/revert': 'Rétablir les paramètres',
   'act zone': 'Zone',
