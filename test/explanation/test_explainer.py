@@ -43,6 +43,7 @@ def test_a_probe_that_is_no_signal_is_told_and_is_no_cause(robot):
     }  # fmt: skip
     chain = robot.tell()
     assert chain.links[-1].sentence == 'probe 4 is stuck'
+    assert {link.level for link in chain.links[:-1]} == {Level.OK}
     assert chain.headline == 'wheels turn: walking to (3, 4)'
 
 
