@@ -90,11 +90,12 @@ def forward(open_server):
 
 def foxglove():
     """Be foxglove-sdk's server."""
-    from foxglove import Channel, start_server
+    from foxglove import Channel, Schema, start_server
 
     server = start_server(host='127.0.0.1', port=PORTS['foxglove'])
     try:
-        forward(lambda topic: Channel(topic, message_encoding='cdr').log)
+        kind = Schema(name='Bytes', encoding='ros2msg', data=b'byte[] data')
+        forward(lambda topic: Channel(topic, schema=kind, message_encoding='cdr').log)
     finally:
         server.stop()
 

@@ -51,6 +51,8 @@ class RobotState:
         self.trail, self.day = Trail(), DayChart()
         self.trail_number = self.day_number = 0
         self.word, self.word_since = '', 0.0
+        self._turrets: dict[str, tuple[tuple[int, int], dict[str, Any]]] = {}
+        """of each topic of turrets what it told, and for which message and shape"""
         self._speeds: list[float | None] = []
         self._speeds_key: tuple[int, ...] = ()
         """for which messages and shape the speeds were computed"""
@@ -86,10 +88,25 @@ class RobotState:
             self._speeds_key, self._speeds = key, self._measured_speeds()
         return self._speeds
 
+    def turrets(self, topic: str) -> dict[str, Any] | None:
+        """Return what a topic of turrets told last, converted once; None without a message."""
+        entry = self.latest.get(topic)
+        if entry is None or entry.message is None:
+            return None
+        key = entry.number, self.platform_number
+        known = self._turrets.get(topic)
+        if known is None or known[0] != key:
+            known = self._turrets[topic] = key, conversions.turrets(entry.message, self.radius)
+        return known[1]
+
     def _measured_speeds(self) -> list[float | None]:
+        told = self.turrets('turrets/state')
+        if told is not None and self.radius is not None:
+            known: list[float | None] = told['speeds']
+            return known
         joints = self.message('turrets/state')
         if joints is not None:
-            speeds: list[float | None] = conversions.turrets(joints, self.radius or 1.0)['speeds']
+            speeds: list[float | None] = conversions.turrets(joints, 1.0)['speeds']
             return speeds
         joints = self.message('wheels/state')
         if joints is None:

@@ -42,13 +42,11 @@ def _made(robot: RobotState, topic: str, convert: Callable[[Any], Value]) -> Val
 
 
 def _turrets(robot: RobotState) -> Value | None:
-    state, command = (robot.message(f'turrets/{what}') for what in ('state', 'command'))
+    state, command = (robot.turrets(f'turrets/{what}') for what in ('state', 'command'))
     if state is None and command is None:
         return None
     nothing: Value = {'angles': [], 'speeds': []}
-    told = nothing if state is None else conversions.turrets(state, robot.radius)
-    meant = nothing if command is None else conversions.turrets(command, robot.radius)
-    return told | {'commanded': meant}
+    return (state or nothing) | {'commanded': command or nothing}
 
 
 def _wheels(robot: RobotState) -> Value | None:
