@@ -76,11 +76,16 @@ def test_stop_stays_in_sight_whatever_is_open(park, serve, open_page, size):
         assert page.evaluate(CUT) == [], selector
 
 
-def test_ten_robots_have_room(make_park, serve, open_page):
-    park = make_park(*(f'tree_number_{i}' for i in range(10)))
+def test_ten_robots_with_long_names_have_room(make_park, serve, open_page):
+    park = make_park(*(f'a_tree_with_a_name_of_many_letters_{i}' for i in range(10)))
     park.tell_all()
     page = open_page(serve(park).url, PHONE)
-    page.wait_for_selector('[data-robot=tree_number_9]')
-    page.evaluate(OPEN, '[data-robot=tree_number_9]')
-    assert page.evaluate(IN_SIGHT)
-    assert page.get_attribute('[data-robot=tree_number_9]', 'aria-checked') == 'true'
+    last = '[data-robot=a_tree_with_a_name_of_many_letters_9]'
+    page.wait_for_selector(last)
+    for selector in (last, '[data-act=drive]', '#drive-close', '[data-drawer=why]'):
+        page.evaluate(OPEN, selector)
+        assert page.evaluate(IN_SIGHT), selector
+        assert page.evaluate(CUT) == [], selector
+    assert page.get_attribute(last, 'aria-checked') == 'true'
+    close = page.locator('#drawer-close').bounding_box()
+    assert close['x'] + close['width'] <= PHONE['width']

@@ -86,9 +86,12 @@ export class ZoneDrawer {
   }
 
   async _send() {
-    const shared = !this.screen.store.value(this.screen.chosen, 'zone');
+    const { store, chosen, robots } = this.screen;
+    const told = robots.map((robot) => store.ownOrShared(robot, 'zone')).filter(Boolean);
+    // robots that share a zone go on sharing it
+    const shared = told.every((zone) => JSON.stringify(zone) === JSON.stringify(told[0]));
     const answer = await this.actions.act('/zone',
-      { ...(shared ? {} : { robot: this.screen.chosen }), zone: this.draft }, phrase('zone'));
+      { ...(shared ? {} : { robot: chosen }), zone: this.draft }, phrase('zone'));
     this.sent = answer.body?.id ?? '';
     if (!answer.ok) write(this.refusal, answer.text);
   }

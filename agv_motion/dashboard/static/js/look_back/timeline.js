@@ -34,7 +34,7 @@ export class Timeline {
     });
     this.slider.addEventListener('input', () => this._jumpSoon(Number(this.slider.value)));
     this.rate = element('select', { id: 'look-rate', 'aria-label': phrase('look rate') },
-      ...RATES.map((rate) => element('option', { value: rate, text: `×${rate}` })));
+      ...RATES.map((rate) => element('option', { value: rate, text: `×${rate}`, selected: rate === 10 })));
     this.rate.addEventListener('change', () => this.playing && this._jump(this.shown));
     this.ticks = element('div.ticks', { 'aria-hidden': 'true' });
     this.begin = element('span.look-end');
