@@ -51,7 +51,9 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         self._arbiter = Arbiter(timeouts, self._held_before())
         self._limits = ChassisLimits(given.limits)
         self._watches = {
-            source: InputWatch(port, f'cmd_vel/{source.value}', given.freshness(source))
+            source: InputWatch(
+                port, f'cmd_vel/{source.value}', given.freshness(source), loss='obeyed no more'
+            )
             for source in DRIVERS
         }
         self._commanded_at = 0.0

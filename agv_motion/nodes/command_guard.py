@@ -68,8 +68,9 @@ class CommandGuard:
             wheels: To guard.
 
         """
-        self.command = InputWatch(port, 'cmd_vel', given.freshness())
-        self.state = InputWatch(port, encoders, given.freshness(), 'look at the encoders')
+        limits, loss = given.freshness(), 'the wheels stop'
+        self.command = InputWatch(port, 'cmd_vel', limits, loss=loss)
+        self.state = InputWatch(port, encoders, limits, 'look at the encoders', loss)
         self.blind = ''
         """Why nobody knows what the wheels do; empty if somebody does, or never did"""
         self.stopped_by = ''

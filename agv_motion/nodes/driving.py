@@ -100,7 +100,9 @@ class DrivingNode(PlainNode[P]):
         self._twist = REST
         self.told = ''
         """The state told last"""
-        self._pose_watch = InputWatch(port, given.position, given.freshness())
+        self._pose_watch = InputWatch(
+            port, given.position, given.freshness(), loss='the robot stops'
+        )
         self._last_cycle: float | None = None
         self._farewell = 0.0
         self._activity, self._active_since = (Activity.STARTING, Cause.NOTHING), port.seconds()

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 
+LOOKS_AROUND = 5
+"""Looks at the graph after which those that are there have been found, and a node says of itself
+what it listens to and what is missing."""
+
 PAST_THE_ARBITER = '; where there is an arbiter, remap all others to cmd_vel/agent or the like'
 """What to do about those who drive past it."""
 
@@ -40,6 +44,7 @@ class GraphGuard:
         self._node, self._watch = node, GraphWatch(node)
         self._is_active, self._warn = is_active, warn
         self._rests = False
+        self._looks_left = 0
         self._told: frozenset[str] = frozenset()
 
     def add(
@@ -52,6 +57,10 @@ class GraphGuard:
         """Watch nothing any more."""
         self._watch.clear()
         self.rivals, self._rests = '', False
+
+    def introduce(self) -> None:
+        """Say in a while what the node listens to, what it publishes, and what is missing."""
+        self._looks_left = LOOKS_AROUND
 
     def check(self) -> None:
         """Look at the graph; deactivate the node beside a rival, activate it when that is gone."""
@@ -69,6 +78,10 @@ class GraphGuard:
             node.get_logger().info('alone on its topics again: going on')
             node.trigger_activate()
         self._tell()
+        self._looks_left -= self._looks_left > 0 and self._is_active()
+        if self._looks_left == 1:
+            self._looks_left = 0
+            node.get_logger().info(self._watch.introduction())
 
     def faults(self) -> tuple[str, ...]:
         """Return what keeps ends from meeting, and what to do about it."""

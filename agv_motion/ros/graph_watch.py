@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 GRAPH_PERIOD = 0.4
 """[s] Two looks must agree on a rival; so it is told within 0.8 s of its discovery."""
+MOST_TOPICS = 8
+"""Topics that are named in one list."""
 IN_TURN = 2
 """Topics of each look that are asked for though no number has changed."""
 
@@ -81,6 +83,21 @@ class GraphWatch:
     def crowds(self) -> dict[str, str]:
         """Return which nodes published an input together at the last look, by topic."""
         return {end.topic: found.crowd for end, found in self._found.items() if found.crowd}
+
+    def introduction(self) -> str:
+        """Return in one line what the node listens to, what it publishes, and what nobody tells."""
+        heard = [end.topic for end in self._ends if not end.publishes]
+        told = [end.topic for end in self._ends if end.publishes]
+        missing = [topic for topic in heard if not self._node.count_publishers(topic)]
+        listens = f'listens to {self._listed(heard)}' if heard else 'listens to nothing'
+        publishes = f'publishes {self._listed(told)}' if told else 'publishes nothing'
+        without = f'nobody publishes {self._listed(missing)} yet' if missing else 'all are there'
+        return f'active: {listens}; {publishes}' + f'; {without}' * bool(heard)
+
+    def _listed(self, topics: Sequence[str]) -> str:
+        full = [self._node.resolve_topic_name(topic) for topic in dict.fromkeys(topics)]
+        more = f' and {len(full) - MOST_TOPICS} more' if len(full) > MOST_TOPICS else ''
+        return ', '.join(full[:MOST_TOPICS]) + more
 
     def _has_changed(self, end: OwnEnd) -> bool:
         """Return whether other ends have come or gone; always so while there are rivals."""

@@ -49,6 +49,7 @@ class InputWatch(Watchdog):
         name: str,
         limits: Freshness,
         remedy: str = '',
+        loss: str = 'taken for lost',
     ) -> None:
         """Start with an input that has never come.
 
@@ -57,6 +58,7 @@ class InputWatch(Watchdog):
             name: Of the input.
             limits: How fresh it has to be.
             remedy: What a person can do when it is lost.
+            loss: What becomes of it, or of what it moves, when it is lost.
 
         Raises:
             ConfigurationError: The limits of silence are not positive and in order.
@@ -67,6 +69,7 @@ class InputWatch(Watchdog):
         """Whether it has ever come"""
         self._port, self._name, self._max_age = port, name, limits.max_age
         self._remedy = f'; {remedy}' if remedy else ''
+        self._loss = loss
         self.newest = 0
         """Stamp of the last news [ns]"""
         self._overtaken = 0
@@ -179,7 +182,8 @@ class InputWatch(Watchdog):
             port.info(text)
             self._back_at = self._port.steady_seconds()
         elif silence is Silence.LATE:
-            text = f'{self._without(age)}: going on'
+            left = max(self.stop_after - age, 0.0)
+            text = f'{self._without(age)}: {self._loss} in {left:.1f} s unless one comes'
             port.warning(text)
         else:
             text = f'{self._without(age)}: stopping{self._remedy}'

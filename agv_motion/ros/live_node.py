@@ -148,6 +148,8 @@ class LiveNode(LifecycleNode, Generic[N]):
         self.defect = ''
         port.active = result is TransitionCallbackReturn.SUCCESS
         port.ends.hear()
+        if port.active:
+            port.graph.introduce()
         return result
 
     def on_deactivate(self, _: LifecycleState) -> TransitionCallbackReturn:

@@ -264,3 +264,19 @@ def test_a_quiet_graph_is_hardly_asked(onlooker):
     for _ in range(20):
         watch.look()
     assert len(asked) <= 20 * IN_TURN + 4
+
+
+def test_a_healthy_node_says_what_it_listens_to_and_what_is_missing(tester):
+    told = tester.logs()
+    tester.node.create_publisher(JointState, 'wheels/state', 1)
+    tester.start(DifferentialKinematics, **PATIENT)
+    line = tester.wait(told, lambda m: m.msg.startswith('active: ')).msg
+    heard, published, missing = line.split('; ')
+    assert heard.startswith('active: listens to ')
+    assert '/cmd_vel' in heard
+    assert '/wheels/state' in heard
+    assert '/wheels/command' in published
+    assert '/odom' in published
+    assert missing == 'nobody publishes /cmd_vel, /standstill yet'
+    tester.graph.spin_for(1.0)
+    assert sum(m.msg.startswith('active: ') for m in told) == 1
