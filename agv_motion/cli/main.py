@@ -27,6 +27,7 @@ app = typer.Typer(
             'drive': 'robot.drive:app',
             'why': 'robot.why:why',
             'run': 'nodes.group:run_app',
+            'up': 'nodes.up:app',
             'parameters': 'nodes.parameters:parameters',
             'route': 'robot.route:route',
             'sequence': 'robot.sequence:app',

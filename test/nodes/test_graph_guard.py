@@ -277,6 +277,6 @@ def test_a_healthy_node_says_what_it_listens_to_and_what_is_missing(tester):
     assert '/wheels/state' in heard
     assert '/wheels/command' in published
     assert '/odom' in published
-    assert missing == 'nobody publishes /cmd_vel, /standstill yet'
+    assert missing == 'nobody publishes /cmd_vel, /cmd_vel/stop, /standstill, /set_odometry yet'
     tester.graph.spin_for(1.0)
     assert sum(m.msg.startswith('active: ') for m in told) == 1

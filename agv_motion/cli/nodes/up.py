@@ -1,0 +1,139 @@
+"""`agv up`: all nodes of a robot, as its launch file starts them, without the launch package."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+import yaml
+
+from agv_motion.cli.lazy_group import HELP
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.robot_graphs import ROBOTS, GraphNode, RobotGraph
+from agv_motion.ros.parameter_arguments import VALUES, meant
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+app = typer.Typer()
+
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(help='Arguments of the launch file: --namespace oak, or namespace:=oak.'),
+]
+
+
+@app.command(context_settings=HELP | {'ignore_unknown_options': True})
+def up(
+    robot: Annotated[str, typer.Argument(help=f'One of {", ".join(ROBOTS)}.')],
+    words: Words = None,
+    *,
+    show_args: Annotated[
+        bool, typer.Option('--show-args', '-s', help='Tell which arguments there are.')
+    ] = False,
+) -> None:
+    """Start all nodes of a robot, until Ctrl-C ends them with their wheels at rest.
+
+    The same graph and the same arguments as of the launch files, without the launch package.
+    Each line is printed after the name of its node. Examples:
+    agv up tree --namespace oak --time-factor 10.0
+    agv up differential namespace:=hare simulate:=false use_sim_time:=false
+    """
+    if robot not in ROBOTS:
+        msg = f"no robot '{robot}'{meant(robot, list(ROBOTS))}; there are {', '.join(ROBOTS)}"
+        raise ConfigurationError(msg)
+    graph = ROBOTS[robot]
+    if show_args:
+        for one in graph.arguments:
+            typer.echo(f"'{one.name}': {one.text} (default: '{one.default}')")
+        return
+    given = arguments(graph, words or [])
+    from agv_motion.ros.process_group import ProcessGroup
+    from agv_motion.ros.stop import Stop
+
+    stop = Stop()
+    with tempfile.TemporaryDirectory(prefix='agv_up_') as folder:
+        commands = {
+            node.name: command(node, given, Path(folder))
+            for node in graph.nodes
+            if not node.condition or _true(node.condition, given[node.condition])
+        }
+        respawn = _true('respawn', given['respawn'])
+        group = ProcessGroup(commands, typer.echo, respawn=respawn)
+        group.run(lambda: stop.requested)
+    if group.failed:
+        raise typer.Exit(1)
+
+
+def arguments(graph: RobotGraph, words: Sequence[str]) -> dict[str, str]:
+    """Return the value of each argument of a robot.
+
+    Args:
+        graph: Of the robot.
+        words: As typed: ``--name value``, ``--name=value`` or ``name:=value``.
+
+    Raises:
+        ConfigurationError: There is no such argument, or one has no value.
+
+    """
+    values = {one.name: one.default for one in graph.arguments}
+    for name, value in _pairs(words):
+        if name not in values:
+            msg = f"no argument '{name}'{meant(name, list(values))}; there are {', '.join(values)}"
+            raise ConfigurationError(msg)
+        values[name] = value
+    from agv_motion.ros.config import find_config
+
+    values['namespace'] = values['namespace'].strip('/')
+    values['config'] = str(find_config(values['config']).resolve())
+    return values
+
+
+def _pairs(words: Sequence[str]) -> Iterator[tuple[str, str]]:
+    rest = iter(words)
+    for word in rest:
+        mark = '=' if word.startswith('--') else ':='
+        name, found, value = word.partition(mark)
+        if not found and word.startswith('--'):
+            value = next(rest, None)
+        if value is None or (not found and not word.startswith('--')):
+            msg = f"'{word}': write --name value, or name:=value"
+            raise ConfigurationError(msg)
+        yield name.removeprefix('--').replace('-', '_'), value
+
+
+def command(node: GraphNode, given: Mapping[str, str], folder: Path) -> list[str]:
+    """Return the words that start a node; its own parameters come into a file in ``folder``."""
+    space = f'/{given["namespace"]}' if given['namespace'] else '/'
+    values = {name: _typed(name, text.format(**given), kind) for name, text, kind in node.values}
+    own = folder / f'{node.name}.yaml'
+    full = f'{space.rstrip("/")}/{node.name}'
+    own.write_text(yaml.safe_dump({full: {VALUES: values}}), encoding='utf-8')
+    rules = {'__node': node.name, '__ns': space} | {
+        source: target.format(**given) for source, target in node.remappings
+    }
+    remappings = [w for source, target in rules.items() for w in ('-r', f'{source}:={target}')]
+    files = [w for path in (given['config'], str(own)) for w in ('--params-file', path)]
+    program = [sys.executable, '-m', f'agv_motion.nodes.{node.name}']
+    return [*program, '--ros-args', *remappings, *files]
+
+
+def _typed(name: str, text: str, kind: type) -> Any:
+    if kind is bool:
+        return _true(name, text)
+    try:
+        return kind(text)
+    except ValueError as error:
+        msg = f"{name} = '{text}': expected a number such as 1.0"
+        raise ConfigurationError(msg) from error
+
+
+def _true(name: str, text: str) -> bool:
+    words = {'true': True, '1': True, 'false': False, '0': False}
+    if text.lower() not in words:
+        msg = f"{name} = '{text}': expected true or false"
+        raise ConfigurationError(msg)
+    return words[text.lower()]

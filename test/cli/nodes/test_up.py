@@ -1,0 +1,98 @@
+"""`agv up`: the nodes of a robot, with the arguments of its launch file."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+import yaml
+
+pytest.importorskip('rclpy')
+
+from agv_motion.cli.nodes.up import arguments, command
+from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.catalogue import available
+from agv_motion.nodes.robot_graphs import ROBOTS
+
+
+def words_of(robot, name, folder, *words):
+    """Return the words that start a node, and the parameters beside those of the file."""
+    graph = ROBOTS[robot]
+    (node,) = (one for one in graph.nodes if one.name == name)
+    given = arguments(graph, words)
+    started = command(node, given, folder)
+    return started, yaml.safe_load((folder / f'{name}.yaml').read_text())
+
+
+@pytest.mark.parametrize('robot', ROBOTS)
+def test_every_node_is_one_of_the_package(robot):
+    names = [node.name for node in ROBOTS[robot].nodes]
+    assert set(names) <= set(available())
+    assert len(set(names)) == len(names)
+    told = {one.name for one in ROBOTS[robot].arguments}
+    assert {node.condition for node in ROBOTS[robot].nodes if node.condition} <= told
+
+
+@pytest.mark.parametrize(
+    'words',
+    [
+        ('--namespace', 'oak', '--time-factor=10', '--state', '/x'),
+        ('namespace:=oak', 'time_factor:=10', 'state:=/x'),
+        ('--namespace=/oak/', '--time_factor', '10.0', 'state:=/x'),
+    ],
+)
+def test_arguments_come_as_words_of_either_tool(tmp_path, words):
+    started, values = words_of('tree', 'simulator', tmp_path, *words)
+    assert values == {'/oak/simulator': {'ros__parameters': {'time_factor': 10.0, 'clock': 'lead'}}}
+    assert started[1:4] == ['-m', 'agv_motion.nodes.simulator', '--ros-args']
+    assert started[6:8] == ['-r', '__ns:=/oak']
+    assert started[-3].endswith('config/tree.yaml')  # the file first, what is given here counts
+    _, values = words_of('tree', 'arbiter', tmp_path, *words)
+    own = values['/oak/arbiter']['ros__parameters']
+    assert own == {'use_sim_time': True, 'state_file': '/x/oak/arbiter.json'}
+
+
+def test_drivers_drive_through_the_arbiter(tmp_path):
+    started, _ = words_of('differential', 'sequence', tmp_path, 'pose:=pose')
+    assert 'cmd_vel:=cmd_vel/sequence' in started
+    assert 'pose:=pose' in started
+
+
+@pytest.mark.parametrize(
+    ('words', 'error'),
+    [
+        (('--namespac', 'oak'), "did you mean 'namespace'?"),
+        (('--namespace',), "'--namespace': write --name value, or name:=value"),
+        (('oak',), "'oak': write --name value, or name:=value"),
+        (('config:=/no/such.yaml',), '/no/such.yaml'),
+    ],
+)
+def test_mistakes(words, error):
+    with pytest.raises(ConfigurationError, match=error.replace('?', r'\?')):
+        arguments(ROBOTS['tree'], words)
+
+
+def test_what_is_no_truth(alone):
+    status, _, errors = alone('up', 'tree', 'simulate:=perhaps')
+    assert (status, errors) == (1, "error: simulate = 'perhaps': expected true or false\n")
+    status, _, errors = alone('up', 'tre')
+    assert status == 1
+    assert "did you mean 'tree'?" in errors
+    assert "'source': where the readings" in alone('up', 'tree', '--show-args')[1]
+
+
+def test_a_robot_is_up_and_ends_with_its_wheels_at_rest(alone, tmp_path):
+    process = alone.start(
+        'up', 'omni', '--namespace', 'ant', 'simulate:=false', 'use_sim_time:=false',
+        f'state:={tmp_path}',
+    )  # fmt: skip
+    lines = []
+    while not any(line.startswith('[omni_kinematics]') and 'active: ' in line for line in lines):
+        lines.append(process.stdout.readline())
+        assert process.poll() is None, lines
+    process.send_signal(signal.SIGINT)
+    rest, errors = process.communicate(timeout=60.0)
+    assert (process.returncode, errors) == (0, ''), rest
+    names = {line.partition(']')[0].strip('[') for line in [*lines, *rest.splitlines()]}
+    assert {'omni_kinematics', 'localization'} <= names
+    assert names <= {'arbiter', 'why', 'omni_kinematics', 'localization'}
