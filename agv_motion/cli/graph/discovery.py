@@ -54,7 +54,7 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
     while not until():
         rclpy.spin_once(node, timeout_sec=LOOK)
         now = time.monotonic()
-        found = _ends(node)
+        found = ends_of(node)
         if found != known:
             known, changed = found, now
         if now - start >= spin_time and (
@@ -66,16 +66,16 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
 
 def heard_all(node: Any) -> bool:
     """Return whether nobody can be there of whom something is not known."""
-    return not missing(node) and not _alone(node) and whole(_ends(node))
+    return not missing(node) and not is_alone(node) and whole(ends_of(node))
 
 
 def _longest(node: Any) -> float:
     if missing(node):
         return LONGEST
-    return ALONE if _alone(node) else DOUBTFUL
+    return ALONE if is_alone(node) else DOUBTFUL
 
 
-def _alone(node: Any) -> bool:
+def is_alone(node: Any) -> bool:
     """Return whether nobody was heard, and others may be where this machine's ports do not tell."""
     local = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() in {'LOCALHOST', 'OFF'}
     if local and on_this_machine(node.context.get_domain_id()):
@@ -83,7 +83,7 @@ def _alone(node: Any) -> bool:
     return len(node.get_node_names()) < 2
 
 
-def _ends(node: Any) -> frozenset[tuple[str, bytes, bool, str]]:
+def ends_of(node: Any) -> frozenset[tuple[str, bytes, bool, str]]:
     """Return all ends that are known: DDS topic, identity, whether it writes, name of its node."""
     return frozenset(
         (topic, bytes(end.endpoint_gid), writes, end.node_name)

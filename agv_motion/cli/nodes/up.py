@@ -97,12 +97,11 @@ def _pairs(words: Sequence[str]) -> Iterator[tuple[str, str]]:
     for word in rest:
         mark = '=' if word.startswith('--') else ':='
         name, found, value = word.partition(mark)
-        if not found and word.startswith('--'):
-            value = next(rest, None)
-        if value is None or (not found and not word.startswith('--')):
+        following = next(rest, None) if not found and word.startswith('--') else value
+        if following is None or (not found and not word.startswith('--')):
             msg = f"'{word}': write --name value, or name:=value"
             raise ConfigurationError(msg)
-        yield name.removeprefix('--').replace('-', '_'), value
+        yield name.removeprefix('--').replace('-', '_'), following
 
 
 def command(node: GraphNode, given: Mapping[str, str], folder: Path) -> list[str]:

@@ -1,0 +1,105 @@
+"""What is known of a graph is whole when it goes together, and nobody waits for longer."""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.cli.graph import discovery
+from agv_motion.cli.graph.discovery import GRAPH_TOPIC, STRANGE, whole
+
+OWN, OTHER = b'a' * 12, b'b' * 12
+
+
+def participant(prefix, name, *, server='', client='', topic=''):
+    """Return all ends of a participant of ROS with one node."""
+    found = {(GRAPH_TOPIC, prefix + b'0001', True, ''), (GRAPH_TOPIC, prefix + b'0002', False, '')}
+    if server:
+        found |= {
+            (f'rq/{server}Request', prefix + b'0003', False, name),
+            (f'rr/{server}Reply', prefix + b'0004', True, name),
+        }
+    if client:
+        found |= {
+            (f'rq/{client}Request', prefix + b'0005', True, name),
+            (f'rr/{client}Reply', prefix + b'0006', False, name),
+        }
+    if topic:
+        found.add((f'rt/{topic}', prefix + b'0007', True, name))
+    return frozenset(found)
+
+
+ALL = participant(OWN, 'own', topic='rosout') | participant(
+    OTHER, 'other', server='go', client='stop', topic='cmd_vel'
+)
+
+
+def test_all_of_it_is_whole():
+    assert whole(ALL)
+    assert whole(frozenset())
+
+
+@pytest.mark.parametrize('end', sorted(ALL))
+def test_without_any_end_that_has_another_half_it_is_not(end):
+    """A topic of its own has no other half: what it lacks comes within the time to settle."""
+    assert whole(ALL - {end}) is end[0].startswith('rt/')
+
+
+@pytest.mark.parametrize('name', STRANGE)
+def test_an_end_of_no_node_is_waited_for(name):
+    (end,) = (one for one in ALL if one[0] == 'rt/cmd_vel')
+    assert not whole(ALL - {end} | {(*end[:3], name)})
+
+
+def test_what_is_no_ros_is_not_waited_for():
+    bare = ('rt/camera', b'c' * 12 + b'0001', True, STRANGE[1])
+    assert whole(ALL | {bare})
+
+
+def test_one_server_more_in_another_process_is_no_half():
+    assert whole(ALL | participant(b'd' * 12, 'twin', server='go'))
+
+
+@pytest.fixture
+def settled_after(monkeypatch):
+    """Return what tells after how many seconds, on a clock of its own, a graph is known."""
+    now = 0.0
+
+    def spin_once(_, timeout_sec):
+        nonlocal now
+        now += timeout_sec
+
+    def run(ends, missing=lambda _: 0, *, nobody=False, spin_time=discovery.DISCOVERY):
+        nonlocal now
+        now = 0.0
+        monkeypatch.setattr(discovery, 'ends_of', lambda _: ends(now))
+        monkeypatch.setattr(discovery, 'missing', lambda _: missing(now))
+        monkeypatch.setattr(discovery, 'is_alone', lambda _: nobody)
+        discovery.settle(None, spin_time)
+        return now
+
+    rclpy = pytest.importorskip('rclpy')
+    monkeypatch.setattr(rclpy, 'spin_once', spin_once)
+    monkeypatch.setattr(discovery.time, 'monotonic', lambda: now)
+    return run
+
+
+HALF = frozenset(list(participant(OTHER, 'other', server='go'))[:1])
+
+
+@pytest.mark.parametrize(
+    ('ends', 'missing', 'nobody', 'seconds'),
+    [
+        (lambda _: ALL, lambda _: 0, False, 0.5),  # all there at once: as ros2 --no-daemon
+        (lambda now: ALL if now > 1.0 else HALF, lambda _: 0, False, 1.2),  # whole, and 0.2 s calm
+        (lambda _: ALL, lambda now: now < 2.0, False, 2.0),  # one was heard late
+        (lambda _: ALL, lambda _: 1, False, 10.0),  # one is frozen
+        (lambda _: HALF, lambda _: 0, False, 4.0),  # one that never goes together
+        (lambda _: frozenset(), lambda _: 0, True, 1.5),  # nobody, maybe on another machine
+    ],
+)
+def test_how_long_is_listened(settled_after, ends, missing, nobody, seconds):
+    assert settled_after(ends, missing, nobody=nobody) == pytest.approx(seconds, abs=0.05)
+
+
+def test_who_asks_for_longer_has_longer(settled_after):
+    assert settled_after(lambda _: ALL, spin_time=3.0) == pytest.approx(3.0, abs=0.05)
