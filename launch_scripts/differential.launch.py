@@ -9,8 +9,8 @@ ros2 service call /sequence/start std_srvs/srv/Trigger
 
 from launch import LaunchDescription
 
-from agv_motion.nodes.robot_graphs import ROBOTS
 from agv_motion.ros.launch_description import described
+from agv_motion.ros.robot_graphs import ROBOTS
 
 
 def generate_launch_description() -> LaunchDescription:

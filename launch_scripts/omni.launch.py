@@ -6,8 +6,8 @@ ros2 topic pub -r 10 /ant/cmd_vel/agent geometry_msgs/msg/TwistStamped '{twist: 
 
 from launch import LaunchDescription
 
-from agv_motion.nodes.robot_graphs import ROBOTS
 from agv_motion.ros.launch_description import described
+from agv_motion.ros.robot_graphs import ROBOTS
 
 
 def generate_launch_description() -> LaunchDescription:

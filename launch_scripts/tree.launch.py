@@ -5,8 +5,8 @@ ros2 launch agv_motion tree.launch.py namespace:=oak source:=serial simulate:=fa
 
 from launch import LaunchDescription
 
-from agv_motion.nodes.robot_graphs import ROBOTS
 from agv_motion.ros.launch_description import described
+from agv_motion.ros.robot_graphs import ROBOTS
 
 
 def generate_launch_description() -> LaunchDescription:

@@ -1,4 +1,4 @@
-"""What the launch files say, from the one table of robots in `nodes/robot_graphs.py`.
+"""What the launch files say, from the one table of robots in `ros/robot_graphs.py`.
 
 The launch package is there only where ROS is installed, so it is imported when it is asked for.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.ros.config import find_config
 
 if TYPE_CHECKING:
-    from agv_motion.nodes.robot_graphs import GraphNode, RobotGraph
+    from agv_motion.ros.robot_graphs import GraphNode, RobotGraph
 
 RESPAWN_DELAY = 2.0
 """[s]"""

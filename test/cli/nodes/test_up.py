@@ -12,7 +12,7 @@ pytest.importorskip('rclpy')
 from agv_motion.cli.nodes.up import arguments, command
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.catalogue import available
-from agv_motion.nodes.robot_graphs import ROBOTS
+from agv_motion.ros.robot_graphs import ROBOTS
 
 
 def words_of(robot, name, folder, *words):
