@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 
 CHANGE = {'node': 'motion_generator', 'name': 'rest.arrival', 'value': 2.0}
@@ -61,7 +63,9 @@ def test_parameters_are_shown_to_who_asks_for_them(browser):
 
 
 def test_a_mark_is_kept_and_published(browser, robots):
-    robots.board.time = 1434366000.0
+    clock = SimpleNamespace(clock=SimpleNamespace(sec=1434366000, nanosec=0))
+    robots.say('', 'clock', clock)
+    robots.board.look(robots.time)
     assert browser.act('/mark', {'text': 'look\nhere <b>'}).status_code == 202
     assert robots.asked == [('', 'mark', {'text': 'look here <b>'})]
     with browser.look() as live:
