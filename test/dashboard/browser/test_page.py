@@ -112,6 +112,14 @@ def test_stop_is_shown_as_done_only_when_the_wheels_are_reported_to_stand(park, 
     wait_for_text(page, '.stop-label', 'STOPPED')
 
 
+def test_each_press_of_stop_is_sent_however_soon_it_follows(park, serve, open_page, wait_until):
+    page = open_page(serve(park).url)
+    for presses in (1, 2, 3):
+        with page.expect_response('**/stop'):
+            page.click('#stop-button')
+        wait_until(lambda count=3 * presses: len(park.asked) == count, 20.0)
+
+
 def test_stop_that_finds_no_server_is_tried_until_the_next_one_takes_it(park, serve, open_page):
     server = serve(park)
     port = server.listener.getsockname()[1]

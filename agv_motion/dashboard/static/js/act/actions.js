@@ -4,6 +4,9 @@ import { phrase } from '../words/phrases.js';
 /** [ms] how long the word on an action stays to be read */
 const SHOWN_FOR = { done: 6000, sent: 4000, refused: 20000, no_answer: 20000 };
 
+/** [ms] that an answer may take: asking all nodes of a robot takes a while */
+const PATIENCE = 30000;
+
 /** Asks the server for something, and shows what became of it in the server's and robot's words. */
 export class Actions {
   /**
@@ -29,9 +32,10 @@ export class Actions {
    * @param {string} path such as `/robots/oak/pause`
    * @param {object} body
    * @param {string} key the same for each try of one and the same act
+   * @param {number} patience [ms] after which the server has not answered
    * @returns {Promise<{ok: boolean, status: number, body: any, text: string}>} never rejected
    */
-  async post(path, body = {}, key = newKey()) {
+  async post(path, body = {}, key = newKey(), patience = PATIENCE) {
     try {
       const answer = await fetch(path, {
         method: 'POST',
@@ -41,6 +45,7 @@ export class Actions {
           'Idempotency-Key': key,
         },
         body: JSON.stringify(body),
+        signal: AbortSignal.timeout(patience),
       });
       if (!answer.ok) {
         return { ok: false, status: answer.status, body: null, text: await refusal(answer) };

@@ -1,9 +1,12 @@
+import { newKey } from './actions.js';
 import { confirm } from './confirm.js';
 import { element, write } from '../words/element.js';
 import { phrase } from '../words/phrases.js';
 
 /** [ms] between two tries while the server does not answer */
 const TRY_AGAIN = 300;
+/** [ms] a try without an answer is given up: the line may be dead without a word */
+const PATIENCE = 1500;
 /** after which the server means it */
 const MOST_REFUSALS = 10;
 /** [s] a report older than this tells nothing of now */
@@ -26,7 +29,9 @@ export class Stop {
     this.screen = screen;
     this.actions = actions;
     this.where = where;
-    this.asked = false;
+    /** whether a press is on its way, and whether it is to be seen that somebody pressed */
+    this.sending = this.asked = false;
+    this.timer = 0;
     this.trouble = '';
     this.label = element('span.stop-label', { text: phrase('stopAll') });
     this.note = element('span.stop-note', { id: 'stop-note' });
@@ -44,13 +49,14 @@ export class Stop {
 
   /** Stop all robots: at once, without a question. */
   async stop() {
-    if (this.asked || !this.button.isConnected) return;
-    this.asked = true;
+    if (this.sending || !this.button.isConnected) return;
+    this.asked = this.sending = true;
+    window.clearTimeout(this.timer);
     this.trouble = '';
     this.draw();
     let refused = 0;
     for (;;) {
-      const answer = await this.actions.post('/stop');
+      const answer = await this.actions.post('/stop', {}, newKey(), PATIENCE);
       if (answer.ok) break;
       this.trouble = answer.text;
       this.draw();
@@ -59,7 +65,8 @@ export class Stop {
       if (refused >= MOST_REFUSALS) break;
       await new Promise((resolve) => setTimeout(resolve, TRY_AGAIN));
     }
-    window.setTimeout(() => {
+    this.sending = false;
+    this.timer = window.setTimeout(() => {
       this.asked = false; // from here on the robots' word counts
       this.draw();
     }, 1000);
