@@ -65,7 +65,7 @@ def test_parameters_are_shown_to_who_asks_for_them(browser):
 def test_a_mark_is_kept_and_published(browser, robots):
     clock = SimpleNamespace(clock=SimpleNamespace(sec=1434366000, nanosec=0))
     robots.say('', 'clock', clock)
-    robots.board.look(robots.time)
+    robots.board.look(robots.time + 1.0)  # later than the last look of the page
     assert browser.act('/mark', {'text': 'look\nhere <b>'}).status_code == 202
     assert robots.asked == [('', 'mark', {'text': 'look here <b>'})]
     with browser.look() as live:
