@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from agv_motion.blocked import BlockedGuard
+from agv_motion.nodes.obedience import Obedience
 
 if TYPE_CHECKING:
     from agv_motion.blocked import BlockedParameters
@@ -13,7 +14,10 @@ if TYPE_CHECKING:
 
 
 class BlockedReport(BlockedGuard):
-    """A guard that tells when it stops the robot, and when it lets it try again."""
+    """A guard that tells when it stops the robot, and when it lets it try again.
+
+    A robot that stands since somebody else drives it, or has stopped it, is not blocked.
+    """
 
     def __init__(self, port: Port, parameters: BlockedParameters, arm: float, remedy: str) -> None:
         """Let the robot move.
@@ -27,6 +31,7 @@ class BlockedReport(BlockedGuard):
         """
         super().__init__(parameters, arm, remedy)
         self._port = port
+        self._obedience = Obedience(port)
 
     def look(
         self, parameters: BlockedParameters, pose: Pose | None, twist: Twist, dt: float
@@ -34,7 +39,7 @@ class BlockedReport(BlockedGuard):
         """Return whether the robot has been found blocked just now; see `BlockedGuard.update`."""
         self.watch.parameters = parameters
         before = self.reason
-        found = self.update(pose, twist, dt)
+        found = self.update(None if self._obedience.held else pose, twist, dt)
         if found:
             self._port.error(self.reason)
         elif before and not self.reason:

@@ -19,7 +19,9 @@ SOON = BlockedParameters(after=1.0, then=AfterBlock.RETRY.value, retry_after=2.0
 
 def test_it_is_told_when_it_begins_and_when_it_tries_again():
     log = []
-    port = SimpleNamespace(error=log.append, info=log.append)
+    port = SimpleNamespace(
+        error=log.append, info=log.append, full_name=lambda topic: f'/oak/{topic}'
+    )
     report = BlockedReport(port, NEVER, 0.2, 'clear its way')
     assert not any(report.look(NEVER, HERE, FAST, 0.1) for _ in range(100))
     found = [report.look(SOON, HERE, FAST, 0.1) for _ in range(50)]
