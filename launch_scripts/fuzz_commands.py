@@ -55,6 +55,7 @@ def commands(bag: Path, twin: Path, topics: Sequence[str], to: Path) -> dict[str
         'bag diff to': [twin, bag], 'plot': [bag, '-o', to / 'run.png'],
         'calibrate': [bag, '-o', to / 'new.yaml', '--node', DRIVING],
         'replay': [bag, '-r', '1000', '--disable-keyboard-controls', '--playback-duration', '50'],
+        'report': [bag, '-o', to / 'day.html'],
         'reprocess': [bag, to / 'again', '-n', DRIVING, '-c', 'differential.yaml'],
     }  # fmt: skip
     return {name: [*verb(name), *map(str, rest)] for name, rest in words.items()}

@@ -77,7 +77,7 @@ class DifferentialScenario(Scenario[RunBag]):
             cli_args=[*drives_as(TwistSource.SEQUENCE)['cli_args'], '-r', 'pose:=fix'],
         )  # fmt: skip
         wheels = configured_node(DifferentialKinematics, CONFIG, patient)
-        arbiter = arbiter_node(CONFIG, self.state, {'timeouts__sequence': 2.0})
+        arbiter = arbiter_node(CONFIG, {'timeouts__sequence': 2.0})
         return DemoGraph((self._actions, arbiter, wheels, robot), robot, TOPICS)
 
     def progress(self, _: float) -> tuple[float, str]:

@@ -80,8 +80,6 @@ class Scenario(ABC, Generic[R]):
     def __init__(self, seconds: float = inf) -> None:
         """Let the demo last so many simulated seconds, or until it is `over`."""
         self.seconds = seconds
-        self.state: Path | None = None
-        """Folder of what outlasts the demo; None: nothing does"""
 
     @abstractmethod
     def build(self) -> DemoGraph:

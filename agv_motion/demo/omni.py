@@ -84,7 +84,7 @@ class OmniScenario(Scenario[LocalizationRun]):
         )
         wheels = configured_node(OmniKinematics, CONFIG, patient)
         localization = configured_node(Localization, CONFIG, common)
-        arbiter = arbiter_node(CONFIG, self.state, {'timeouts__agent': 2.0})
+        arbiter = arbiter_node(CONFIG, {'timeouts__agent': 2.0})
         nodes = arbiter, wheels, localization, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
 

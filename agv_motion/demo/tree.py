@@ -92,7 +92,7 @@ class TreeScenario(Scenario[WalkRun]):
             **drives_as(TwistSource.AGENT),
         )  # fmt: skip
         self._zone = load_zone(find_config(motion.parameters.zone_file), motion.parameters.rim)
-        arbiter = arbiter_node(CONFIG, self.state, {})
+        arbiter = arbiter_node(CONFIG, {})
         wheels = configured_node(WheelKinematics, CONFIG, common)
         localization = configured_node(Localization, CONFIG, common)
         x, y = self._zone.home or (0.0, 0.0)

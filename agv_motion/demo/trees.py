@@ -126,7 +126,7 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
         return _Minds(
             node(GranierProbe, {'simulated__seed': seed}),
             node(MotionGenerator, shared, **drives_as(TwistSource.AGENT)),
-            arbiter_node(CONFIG, self.state, {'rate': RATE}, name),
+            arbiter_node(CONFIG, {'rate': RATE}, name),
             node(WheelKinematics, {'rate': RATE}),
             node(Localization, {}),
         )

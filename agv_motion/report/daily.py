@@ -60,7 +60,8 @@ def read_day(bags: Iterable[BagReader], begin: int | None = None, end: int | Non
         first, last = min(first, bag.start * SECOND), max(last, bag.end * SECOND)
         _read(bag, robots, begin, end)
     if not robots:
-        msg = f'no robot in it: a report needs one of {", ".join(sorted(SIGNS))}'
+        names = ', '.join(str(bag.path) for bag in bags)
+        msg = f'no robot in {names}: a report needs one of {", ".join(sorted(SIGNS))}'
         raise SourceError(msg)
     return Day(
         first if begin is None else begin * SECOND,

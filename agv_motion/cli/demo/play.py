@@ -44,15 +44,11 @@ def play(
         with_page: Serve the operator's page meanwhile.
 
     """
-    from agv_motion.demo.arbitrated import held
     from agv_motion.demo.frame import Demo
 
     figure = output / scenario.figure
-    scenario.state = output.resolve()
     with results(output, scenario.figure) as bag:
         with Demo(scenario, bag) as demo, page(bag, console, wanted=with_page):
-            for notice in held(demo.graph.nodes):
-                console.print(notice)
             demo.run(console, live=live)
         word = scenario.last_word(demo)
         if word:
