@@ -25,7 +25,7 @@ from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.report.walk import WalkOutcome, WalkRun, read_walk, summary
-from agv_motion.report.walk_figure import draw
+from agv_motion.report.walk_figure import WalkLimits, draw
 from agv_motion.ros.config import find_config
 
 if TYPE_CHECKING:
@@ -38,6 +38,9 @@ if TYPE_CHECKING:
     from agv_motion.bag.reader import BagReader
 
 CONFIG = 'tree.yaml'
+
+DAY = 86400.0
+"""[s]"""
 
 TOPICS = [
     *(RecordedTopic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
@@ -119,9 +122,15 @@ class TreeScenario(Scenario[WalkRun]):
         outcome = WalkOutcome(demo.elapsed, demo.factor, latencies, recorder.counts)
         yield summary(run, outcome, self._zone, wheels.max_wheel_speed, wheels.rim)
 
+    def _days(self) -> float:
+        """Return how many days of a recording are played; 0 on simulated probes."""
+        return float(self._probes.get('csv__speed', 0.0)) * self.seconds / DAY
+
     def draw(self, run: WalkRun, path: pathlib.Path) -> bool:
         """Draw the walk."""
-        draw(run, self._zone, self._wheels.max_wheel_speed, path, self._wheels.rim)
+        wheels = self._wheels
+        limits = WalkLimits(wheels.max_wheel_speed, wheels.residual_stop, wheels.rim)
+        draw(run, self._zone, limits, path, days=self._days())
         return True
 
 

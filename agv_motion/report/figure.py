@@ -1,4 +1,4 @@
-"""Figures: matplotlib without a screen, where it is installed."""
+"""Figures: matplotlib without a screen, where it is installed, in the hand of `style`."""
 
 from __future__ import annotations
 
@@ -7,15 +7,26 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.unfinished import replacing
+from agv_motion.report.style import settings, settle
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+DOTS_PER_INCH = 140
+
 
 @contextmanager
-def figure(path: Path, mosaic: list[Any], **options: Any) -> Iterator[dict[str, Any]]:
+def figure(
+    path: Path, mosaic: list[Any], *, theme: str = 'light', **options: Any
+) -> Iterator[dict[str, Any]]:
     """Yield the axes of a mosaic by name, and write them to ``path`` as a picture, whole or not.
+
+    Args:
+        path: Of the picture; its ending says the kind: png, svg, pdf.
+        mosaic: Names of the axes, as `matplotlib.pyplot.subplot_mosaic` takes them.
+        theme: ``light`` or ``dark``.
+        options: Of `matplotlib.pyplot.subplot_mosaic`.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -30,13 +41,15 @@ def figure(path: Path, mosaic: list[Any], **options: Any) -> Iterator[dict[str, 
     mpl.use('Agg')
     from matplotlib import pyplot as plt
 
-    drawn, axes = plt.subplot_mosaic(mosaic, constrained_layout=True, **options)
-    try:
-        yield axes
-        with replacing(path) as made:
-            drawn.savefig(made, dpi=110)
-    except ValueError as error:
-        msg = f"cannot draw '{path}': {error}"
-        raise ConfigurationError(msg) from error
-    finally:
-        plt.close(drawn)
+    with mpl.rc_context(settings(theme)):
+        drawn, axes = plt.subplot_mosaic(mosaic, layout='constrained', **options)
+        try:
+            yield axes
+            settle(drawn)
+            with replacing(path) as made:
+                drawn.savefig(made, dpi=DOTS_PER_INCH)
+        except ValueError as error:
+            msg = f"cannot draw '{path}': {error}"
+            raise ConfigurationError(msg) from error
+        finally:
+            plt.close(drawn)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.report import style
 from agv_motion.report.figure import figure
 
 if TYPE_CHECKING:
@@ -16,109 +17,215 @@ if TYPE_CHECKING:
     from agv_motion.report.walk import WalkRun
 
 PLATFORMS = 5
-"""Times at which the platform is drawn."""
+"""Times at which the platform is drawn: start, three between, end."""
 
 GOALS_LISTED = 12
-"""Goals that the figure has room for."""
+"""Goals that the figure has room for, the latest."""
+
+FELT = 0.01
+"""[-] By so much the sap flow must have changed to be called sun or shade."""
 
 
-def draw(
-    run: WalkRun, zone: Zone, max_wheel_speed: float, path: Path, rim: float = PLATFORM_RADIUS
-) -> None:
-    """Draw zone and trail, probes, wheel speeds and residual into one picture.
+class WalkLimits(NamedTuple):
+    """What the walk is measured by."""
+
+    wheel_speed: float
+    """[m/s] most that a wheel may do"""
+    residual: float = 0.02
+    """[m/s] at which the wheels are stopped"""
+    rim: float = PLATFORM_RADIUS
+    """[m] how far the platform reaches from its centre; it is drawn at its true size"""
+
+
+def draw(  # noqa: PLR0913 - a picture, each with its own name
+    run: WalkRun, zone: Zone, limits: WalkLimits, path: Path, *, days: float = 0.0,
+    theme: str = 'light',
+) -> None:  # fmt: skip
+    """Draw zone and trail, goals, probes and wheel speeds into one picture.
 
     Args:
         run: What was recorded.
         zone: Where the tree walked.
-        max_wheel_speed: Limit of the wheels [m/s].
+        limits: Of wheels and residual, and the rim.
         path: Of the picture.
-        rim: How far the platform reaches from its centre [m]; it is drawn at its true size.
+        days: How many days of recorded probes were played; 0: the probes were simulated.
+        theme: ``light`` or ``dark``.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
         SourceError: The file cannot be written.
 
     """
-    mosaic = [['map', 'flow'], ['map', 'speed'], ['goals', 'residual']]
-    with figure(path, mosaic, figsize=(13, 7), width_ratios=[1.25, 1]) as axes:
-        _draw_map(axes['map'], run, zone, rim)
-        _list_goals(axes['goals'], run)
-        _draw_signals(axes, run, max_wheel_speed)
+    mosaic: list[Any] = [['map', 'goals'], ['map', 'flow'], ['map', 'speed']]
+    with figure(
+        path, mosaic, theme=theme, figsize=(style.WIDTH, 5.9), width_ratios=[1.35, 1],
+        height_ratios=[2.4, 1, 1],
+    ) as axes:  # fmt: skip
+        style.title(axes['map'], finding(run, zone, limits.rim, days))
+        _draw_map(axes['map'], run, zone, limits.rim)
+        _draw_goals(axes['goals'], run, days)
+        _draw_flow(axes['flow'], run, days)
+        _draw_speeds(axes['speed'], run, limits, days)
 
 
-def _draw_signals(axes: dict[str, Any], run: WalkRun, max_wheel_speed: float) -> None:
-    """Draw sap flow, wheel speeds and residual over time."""
-    minutes = run.flow[:, 0] / 60.0
-    for i, name in enumerate(('s1: speed', 's2: rotation', 's3: places')):
-        axes['flow'].plot(minutes, run.flow[:, 1 + i], label=name)
-    axes['flow'].set(ylabel='sap flow', ylim=(-0.02, 1.02))
-    axes['flow'].legend(loc='upper right', fontsize='small', ncols=3)
-    for i in range(run.speeds.shape[1] - 1):
-        axes['speed'].plot(
-            run.speeds[:, 0] / 60.0, 60 * run.speeds[:, 1 + i], lw=0.8, label=f'turret {i}'
-        )
-    for sign in (-1, 1):
-        axes['speed'].axhline(sign * 60 * max_wheel_speed, color='grey', ls=':')
-    axes['speed'].set(ylabel='wheel speed [m/min]')
-    axes['speed'].legend(loc='upper right', fontsize='small', ncols=3)
-    axes['residual'].plot(run.residual[:, 0] / 60.0, 1e3 * run.residual[:, 1], lw=0.8)
-    axes['residual'].set(ylabel='residual [mm/s]', xlabel='simulated time [min]')
+def finding(run: WalkRun, zone: Zone, rim: float, days: float = 0.0) -> str:
+    """Return what the walk was, in one line, from its numbers."""
+    if not len(run.path):
+        return 'Nothing was recorded of the walk'
+    said = [
+        f'{style.in_words(run.distance())} metres in {style.span_in_words(run.path[-1, 0])}'
+        + (f' that played {style.in_words(days)} days' if days else ''),
+        *([] if days else towards(run)),
+    ]
+    near = run.nearest_edge(zone, rim)
+    inside = f'never nearer than {near:.1f} m to the edge'
+    said.append(inside if near > 0.0 else f'{-near:.1f} m over the edge at worst')
+    return style.sentence(', '.join(said))
+
+
+def towards(run: WalkRun) -> list[str]:
+    """Return whether the way led to the sun or the shade, where the sap flow tells."""
+    third = len(run.flow) // 3
+    if not third:
+        return []
+    gained = float(run.flow[-third:, 3].mean() - run.flow[:third, 3].mean())
+    if abs(gained) < FELT:
+        return []
+    return ['towards the sun' if gained > 0.0 else 'into the shade']
+
+
+def _seconds(run: WalkRun) -> float:
+    ends = [part[-1, 0] for part in (run.path, run.flow, run.speeds) if len(part)]
+    return float(max(ends, default=1.0))
 
 
 def _draw_map(axes: Any, run: WalkRun, zone: Zone, rim: float) -> None:
     """Draw the floor, its margin, and the memory, the trail and the goals."""
-    import shapely
-
-    for part, style in ((zone.floor, 'k-'), *((p, 'k:') for p in zone.parts)):
-        for ring in (part.exterior, *part.interiors):
-            axes.plot(*np.array(ring.coords).T, style, lw=1)
     for area in zone.translation_only:
-        axes.fill(*np.array(area.exterior.coords).T, color='orange', alpha=0.2)
-    if run.visited is not None:
-        axes.pcolormesh(run.visited.x, run.visited.y, 0.0 * run.visited.values, cmap='Greys',
-                        vmin=-0.12, vmax=1.0)  # fmt: skip
-    if run.felt is not None:
-        felt = axes.pcolormesh(run.felt.x, run.felt.y, run.felt.values / 100.0, cmap='viridis',
-                               vmin=0.0, vmax=1.0)  # fmt: skip
-        axes.figure.colorbar(felt, ax=axes, label='s3 remembered (grey: visited)', shrink=0.7)
-    if len(run.path):
-        axes.plot(*run.path[:, 1:3].T, lw=0.8, color='white')
-        axes.plot(*run.path[0, 1:3], 'o', color='tab:green', label='start')
-        axes.plot(*run.path[-1, 1:3], '^', color='tab:green', label='end')
-        _draw_platforms(axes, run, rim)
-    for i, (_, x, y) in enumerate(run.goals):
-        axes.annotate(
-            f'{i + 1}', (x, y), color='white', fontsize='small', ha='center', va='center',
-            bbox={'boxstyle': 'circle', 'facecolor': 'tab:red', 'edgecolor': 'none'},
-        )  # fmt: skip
-    west, south, east, north = shapely.total_bounds(zone.floor)
-    axes.set(
-        aspect='equal', xlabel='x [m]', ylabel='y [m]',
-        xlim=(west - 0.5, east + 0.5), ylim=(south - 0.5, north + 0.5),
+        axes.fill(*np.array(area.exterior.coords).T, color=style.HINDERED, alpha=0.2, lw=0)
+    _draw_memory(axes, run)
+    style.zone(axes, zone.floor, zone.parts)
+    west, _, _, north = zone.parts[0].bounds
+    axes.annotate(
+        'the centre stays within', (west, north), xytext=(0, 3), textcoords='offset points',
+        fontsize=style.SMALL,
     )  # fmt: skip
     if len(run.path):
-        axes.legend(loc='upper left', fontsize='small')
+        place = run.path[:, 1:3]
+        axes.plot(*place.T, color=style.PATH, lw=1.6)
+        style.direction(axes, place, style.PATH)
+        for row in np.linspace(0, len(run.path) - 1, PLATFORMS).astype(int):
+            ends = row in {0, len(run.path) - 1}
+            style.robot(axes, run.path[row, 1:], rim, strong=ends)
+        _name_ends(axes, run, rim)
+    for x, y, names in _places(run):
+        style.number(axes, x, y, '\u2009·\u2009'.join(names))
 
 
-def _draw_platforms(axes: Any, run: WalkRun, rim: float) -> None:
-    """Draw the platform at its true size with its heading: at the start, between, at the end."""
-    from matplotlib.patches import Circle
+def _draw_memory(axes: Any, run: WalkRun) -> None:
+    """Draw where the tree was, and what it felt there: from shade to sun, over its own range."""
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 
-    for row in np.linspace(0, len(run.path) - 1, PLATFORMS).astype(int):
-        _, x, y, heading = run.path[row]
-        last = row == len(run.path) - 1
-        style = {'ec': 'tab:green' if row == 0 or last else '0.4', 'lw': 1.4 if last else 0.8}
-        axes.add_patch(Circle((x, y), rim, fill=False, **style))
-        ahead = x + rim * np.cos(heading), y + rim * np.sin(heading)
-        axes.plot(*zip((x, y), ahead, strict=True), color=style['ec'], lw=style['lw'])
+    if run.visited is not None:
+        axes.pcolormesh(
+            run.visited.x, run.visited.y, 0.0 * run.visited.values, alpha=0.15, lw=0,
+            cmap=ListedColormap([style.faint()]), rasterized=True,
+        )  # fmt: skip
+    if run.felt is None or np.isnan(run.felt.values).all():
+        return
+    light = LinearSegmentedColormap.from_list('light', [style.SHADE, style.SUN])
+    felt = axes.pcolormesh(
+        run.felt.x, run.felt.y, run.felt.values / 100.0, cmap=light, rasterized=True
+    )
+    bar = axes.figure.colorbar(
+        felt, cax=axes.inset_axes((0.2, -0.2, 0.6, 0.025)), orientation='horizontal',
+        label='sap flow remembered, from shade to sun',
+    )  # fmt: skip
+    bar.outline.set_visible(False)
 
 
-def _list_goals(axes: Any, run: WalkRun) -> None:
-    """Write down when the tree set out for each goal and why: the latest, as many as fit."""
-    axes.axis('off')
-    lines = [
-        f'{i + 1:2d}  {goal[0] / 60.0:4.0f} min  {reason}'
-        for i, (goal, reason) in enumerate(zip(run.goals, run.reasons, strict=True))
-    ]
-    axes.text(0.0, 1.0, '\n'.join(['goals', *lines[-GOALS_LISTED:]]), va='top', fontsize='small',
-              family='monospace')  # fmt: skip
+def _name_ends(axes: Any, run: WalkRun, rim: float) -> None:
+    """Name start and end beside their platforms, where most room is."""
+    rows = np.linspace(0, len(run.path) - 1, 10 * PLATFORMS).astype(int)
+    taken = [*run.path[rows, 1:3], *run.goals[:, 1:3]]
+    for row, name in ((0, 'start'), (-1, 'end')):
+        place = style.free_place(run.path[row, 1:3], 1.45 * rim, taken)
+        axes.text(
+            *place, name, ha='center', va='center', color=style.ROBOT, fontweight='bold', zorder=7
+        )
+        taken.append(place)
+
+
+def _places(run: WalkRun) -> list[tuple[float, float, list[str]]]:
+    """Return the places of goals, and the numbers of all goals there: nearer than a disc is one."""
+    places: list[tuple[float, float, list[str]]] = []
+    for i, (_, x, y) in enumerate(run.goals):
+        near = next((p for p in places if np.hypot(p[0] - x, p[1] - y) < DISC), None)
+        if near is None:
+            places.append((x, y, [f'{i + 1}']))
+        else:
+            near[2].append(f'{i + 1}')
+    return places
+
+
+DISC = 0.9
+"""[m] that a numbered disc takes on the map."""
+
+
+def _draw_goals(axes: Any, run: WalkRun, days: float) -> None:
+    """Draw when the tree set out for each goal, its number and why, one row a goal."""
+    seconds = _seconds(run)
+    scaled = style.time_axis(axes, seconds, days)
+    first = max(len(run.goals) - GOALS_LISTED, 0)
+    rows = list(zip(run.goals, run.reasons, strict=True))[first:]
+    ends = [*(goal[0] for goal, _ in rows[1:]), seconds][: len(rows)]
+    for row, ((goal, reason), end) in enumerate(zip(rows, ends, strict=True)):
+        begin = float(scaled(goal[0]))
+        late = end > 0.55 * seconds
+        axes.barh(row, scaled(end) - begin, left=begin, height=0.3, color=style.PATH)
+        style.number(axes, begin, row, f'{first + row + 1}')
+        axes.annotate(
+            _short(reason), (begin if late else scaled(end), row),
+            xytext=(-10 if late else 6, 0), textcoords='offset points', va='center',
+            ha='right' if late else 'left', fontsize=style.SMALL,
+        )  # fmt: skip
+    axes.set(title='Goals and their reasons', yticks=[], xlabel='',
+             ylim=(max(len(rows), 4) - 0.4, -0.6))  # fmt: skip
+    axes.spines['left'].set_visible(False)
+    axes.tick_params(labelbottom=False)
+
+
+def _short(reason: str) -> str:
+    """Return a reason without its place, which the map shows, nor when it was felt."""
+    return reason.partition(' at (')[0].partition(': (')[0].replace('remembered ', '')
+
+
+def _draw_flow(axes: Any, run: WalkRun, days: float) -> None:
+    scaled = style.time_axis(axes, _seconds(run), days)
+    probes = {'s1 speed': style.ROBOT, 's2 rotation': style.OTHERS[0], 's3 places': style.SUN}
+    for i, (name, colour) in enumerate(probes.items()):
+        axes.plot(*style.thinned(scaled(run.flow[:, 0]), run.flow[:, 1 + i]), color=colour)
+        if len(run.flow):
+            style.line_label(axes, run.flow[-1, 1 + i], name, style.ink())
+    style.scale(axes, run.flow[:, 1:], least=0.05)
+    axes.set(title='Sap flow', ylabel='of the most [-]', xlabel='')
+    axes.tick_params(labelbottom=False)
+
+
+def _draw_speeds(axes: Any, run: WalkRun, limits: WalkLimits, days: float) -> None:
+    """Draw the speed of each wheel; the limit as a line where it is near, else in words."""
+    scaled = style.time_axis(axes, _seconds(run), days)
+    speeds = 60.0 * run.speeds[:, 1:]
+    for i, colour in zip(range(speeds.shape[1]), style.LINES, strict=False):
+        axes.plot(*style.thinned(scaled(run.speeds[:, 0]), speeds[:, i]), color=colour, lw=1.0)
+        if len(speeds):
+            style.line_label(axes, speeds[-1, i], f'turret {i}', colour)
+    top = float(np.abs(speeds).max(initial=0.0))
+    worst = 1e3 * float(run.residual[:, 1].max(initial=0.0))
+    style.scale(axes, speeds, least=0.1)
+    axes.set(ylabel='[m/min]', title=f'Wheels: at most {top:.2f} m/min, limit '
+             f'{60.0 * limits.wheel_speed:.3g}')  # fmt: skip
+    axes.set_xlabel(
+        f'{axes.get_xlabel()}\nresidual of the turrets at most {worst:.2f} mm/s, limit '
+        f'{1e3 * limits.residual:g}'
+    )

@@ -11,7 +11,7 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.report.walk import WalkOutcome, read_walk, summary
-from agv_motion.report.walk_figure import draw
+from agv_motion.report.walk_figure import WalkLimits, draw
 
 
 def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp_path):
@@ -23,5 +23,5 @@ def test_a_walk_of_which_nothing_was_recorded_is_told_and_drawn_all_the_same(tmp
     assert run.distance() == 0.0
     outcome = WalkOutcome(0.0, 0.0, np.empty(0), {})
     assert summary(run, outcome, zone, 0.02).row_count > 4
-    draw(run, zone, 0.02, tmp_path / 'walk.png')
+    draw(run, zone, WalkLimits(0.02), tmp_path / 'walk.png')
     assert (tmp_path / 'walk.png').stat().st_size > 10_000

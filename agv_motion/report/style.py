@@ -1,0 +1,311 @@
+"""One hand for all figures: colours with one meaning each, sizes, labels at the lines, events.
+
+Whatever is placed over data is registered here and moved apart by `settle`, once the layout is
+known: labels at the ends of lines downwards and upwards, events into rows above the axes.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.text import Annotation
+    from numpy.typing import ArrayLike, NDArray
+
+ROBOT = '#0072B2'
+"""Blue of Okabe and Ito, as all colours here: they stay apart for every eye."""
+GOAL = '#D55E00'
+PATH = '#009E73'
+OTHERS = ('#CC79A7', '#8C8C8C', '#7B5EA7', '#B0A0B8')
+"""Of other robots, and of what is not the robot's own."""
+SUN, SHADE = '#F0C80F', '#7488A0'
+HINDERED, WAITING = '#E69F00', '#56B4E9'
+"""Where a robot gives way, or something holds it down; where it waits."""
+LINES = (ROBOT, '#CC79A7', PATH, '#E69F00', '#56B4E9', GOAL, '#8C8C8C')
+"""Of fields without a meaning of their own."""
+
+TITLE, TEXT, SMALL = 13.0, 9.0, 8.0
+"""[pt] The typographic scale, on pictures 10 inches wide."""
+
+WIDTH = 10.0
+"""[in]"""
+
+MOST_POINTS = 5000
+"""of a line: what is longer is thinned by its envelope."""
+
+INKS = {'light': ('#1A1A1A', '#6B6B6B', '#FFFFFF'), 'dark': ('#EDEDED', '#A0A0A0', '#16191D')}
+"""Ink, faint ink and paper of each theme."""
+
+NUMBERS = (
+    'no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven',
+    'twelve', 'thirteen', 'fourteen', 'fifteen', 'sixteen', 'seventeen', 'eighteen', 'nineteen',
+    'twenty',
+)  # fmt: skip
+
+SETTLING = 200
+"""Steps in which labels are pushed apart."""
+
+_END, _EVENT = 'label at the end', 'event'
+
+
+def settings(theme: str = 'light') -> Any:
+    """Return the settings of matplotlib for a theme, ``light`` or ``dark``."""
+    ink, faint, paper = INKS[theme]
+    return {
+        'font.size': TEXT, 'axes.labelsize': TEXT, 'axes.titlesize': TEXT,
+        'axes.titleweight': 'bold', 'axes.titlelocation': 'left', 'figure.titlesize': TITLE,
+        'figure.titleweight': 'bold', 'xtick.labelsize': SMALL, 'ytick.labelsize': SMALL,
+        'legend.fontsize': SMALL, 'legend.frameon': False, 'axes.spines.top': False,
+        'axes.spines.right': False, 'axes.edgecolor': faint, 'axes.labelcolor': ink,
+        'xtick.color': faint, 'ytick.color': faint, 'xtick.labelcolor': ink,
+        'ytick.labelcolor': ink, 'text.color': ink, 'figure.facecolor': paper,
+        'axes.facecolor': paper, 'savefig.facecolor': paper, 'lines.linewidth': 1.3,
+        'lines.solid_capstyle': 'round', 'grid.color': faint, 'grid.alpha': 0.25,
+        'grid.linewidth': 0.6, 'figure.constrained_layout.h_pad': 0.08, 'svg.fonttype': 'none',
+    }  # fmt: skip
+
+
+def ink() -> Any:
+    """Return the colour of text and limits in the theme in force."""
+    import matplotlib as mpl
+
+    return mpl.rcParams['text.color']
+
+
+def faint() -> Any:
+    """Return the colour of what stands back in the theme in force."""
+    import matplotlib as mpl
+
+    return mpl.rcParams['xtick.color']
+
+
+def paper() -> Any:
+    """Return the colour of the ground in the theme in force."""
+    import matplotlib as mpl
+
+    return mpl.rcParams['axes.facecolor']
+
+
+def in_words(number: float) -> str:
+    """Return a whole number as a word up to twenty, and in digits above."""
+    whole = round(number)
+    return NUMBERS[whole] if 0 <= whole < len(NUMBERS) else f'{whole}'
+
+
+def span_in_words(seconds: float) -> str:
+    """Return a length of time as people say it: "an hour", "twelve minutes"."""
+    if seconds < 90.0:
+        return f'{seconds:.0f} seconds'
+    if abs(seconds - 3600.0) < 60.0:
+        return 'an hour'
+    if seconds < 2.0 * 3600.0:
+        return f'{in_words(seconds / 60.0)} minutes'
+    return f'{in_words(seconds / 3600.0)} hours'
+
+
+def sentence(text: str) -> str:
+    """Return a finding with a capital at its beginning; nothing else is changed."""
+    return text[:1].upper() + text[1:]
+
+
+def title(axes: Axes, finding: str, beside: str = '') -> None:
+    """Write the finding over the whole picture, at its left, and what is to be known below it."""
+    figure = axes.figure
+    figure.suptitle(
+        sentence(finding), x=0.01, ha='left', fontsize=TITLE if len(finding) < 84 else TITLE - 2
+    )
+    if beside:
+        figure.supxlabel(beside, x=0.01, ha='left', fontsize=SMALL, color=faint())
+
+
+def line_label(axes: Axes, y: float, text: str, color: Any) -> None:
+    """Name a line at its end, right of the axes, at the height ``y`` of its last value."""
+    if np.isfinite(y):
+        axes.annotate(
+            text, (1.0, y), xycoords=axes.get_yaxis_transform(), xytext=(5, 0),
+            textcoords='offset points', va='center', color=color, fontsize=SMALL, gid=_END,
+            annotation_clip=False,
+        )  # fmt: skip
+
+
+def event(axes: Axes, x: float, text: str, *, also: Iterable[Axes] = ()) -> None:
+    """Name what happened at ``x``: a thin line through the axes, and the words above them."""
+    for each in (axes, *also):
+        each.axvline(x, color=faint(), lw=0.8, ls=(0, (2, 2)), zorder=0.5)
+    axes.annotate(
+        text, (x, 1.0), xycoords=axes.get_xaxis_transform(), xytext=(0, 4), fontsize=SMALL,
+        textcoords='offset points', va='bottom', ha='left', gid=_EVENT, annotation_clip=False,
+    )  # fmt: skip
+
+
+def limit(axes: Axes, value: float, text: str) -> None:
+    """Draw a limit, in dashes and with its name; only what the axes can show."""
+    axes.axhline(value, color=ink(), ls=(0, (5, 3)), lw=1.0)
+    line_label(axes, value, text, ink())
+
+
+def scale(axes: Axes, *values: ArrayLike, least: float = 0.0) -> None:
+    """Let the axes hold the data and a little room, over at least ``least``."""
+    finite = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values])
+    finite = finite[np.isfinite(finite)]
+    if len(finite):
+        low, high = float(finite.min()), float(finite.max())
+        room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-9)
+        axes.set_ylim(low - room, high + room)
+
+
+def robot(
+    axes: Axes, pose: ArrayLike, rim: float, color: Any = ROBOT, *, strong: bool = False
+) -> None:
+    """Draw a robot at its true size, with a stroke from its centre to where it looks."""
+    from matplotlib.colors import to_rgba
+    from matplotlib.patches import Circle
+
+    x, y, heading = np.asarray(pose, dtype=float).tolist()
+    width = 1.8 if strong else 1.0
+    axes.add_patch(
+        Circle((x, y), rim, fc=to_rgba(color, 0.22 if strong else 0.08), ec=color, lw=width)
+    )
+    axes.plot([x, x + rim * np.cos(heading)], [y, y + rim * np.sin(heading)], color=color, lw=width)
+
+
+def direction(axes: Axes, way: NDArray[np.float64], color: Any, times: int = 4) -> None:
+    """Put arrow heads on a way, (n, 2), evenly along its length."""
+    moved = np.hypot(*np.diff(way, axis=0).T)
+    length = np.concatenate([[0.0], np.cumsum(np.where(np.isfinite(moved), moved, 0.0))])
+    if length[-1] <= 0.0:
+        return
+    for share in (np.arange(times) + 0.5) / times:
+        at = int(np.clip(np.searchsorted(length, share * length[-1]), 1, len(way) - 1))
+        before = int(np.searchsorted(length, max(length[at] - 0.02 * length[-1], 0.0)))
+        axes.annotate(
+            '', way[at], way[min(before, at - 1)],
+            arrowprops={'arrowstyle': '-|>', 'color': color, 'lw': 0.0, 'mutation_scale': 11},
+        )  # fmt: skip
+
+
+def number(axes: Axes, x: float, y: float, text: str, color: Any = GOAL) -> None:
+    """Put a numbered disc at a place."""
+    shape = 'circle,pad=0.22' if len(text) < 3 else 'round,pad=0.25,rounding_size=0.8'
+    axes.text(
+        x, y, text, color='white', fontsize=SMALL - 1.0, fontweight='bold', ha='center',
+        va='center', bbox={'boxstyle': shape, 'facecolor': color, 'edgecolor': 'none'}, zorder=6,
+        clip_on=False,
+    )  # fmt: skip
+
+
+def free_place(
+    centre: ArrayLike, distance: float, taken: Sequence[ArrayLike]
+) -> tuple[float, float]:
+    """Return the place, so far from ``centre``, that is farthest from all that is ``taken``."""
+    angles = np.arange(16) * np.pi / 8.0
+    around = np.asarray(centre) + distance * np.array([np.cos(angles), np.sin(angles)]).T
+    gaps = np.hypot(*(around[:, None, :] - np.asarray(taken)[None, :, :]).transpose(2, 0, 1))
+    x, y = around[int(gaps.min(axis=1).argmax())]
+    return float(x), float(y)
+
+
+def zone(axes: Axes, floor: Any, parts: Sequence[Any] = ()) -> None:
+    """Draw the edge of a floor, and in dashes how far the centre of a robot may go."""
+    for ring in (floor.exterior, *floor.interiors):
+        axes.plot(*np.array(ring.coords).T, color=ink(), lw=1.4)
+    for part in parts:
+        for ring in (part.exterior, *part.interiors):
+            axes.plot(*np.array(ring.coords).T, color=ink(), lw=0.9, ls=(0, (5, 3)))
+    west, south, east, north = floor.bounds
+    axes.set(
+        aspect='equal', xlabel='x [m]', ylabel='y [m]', xlim=(west - 0.3, east + 0.3),
+        ylim=(south - 0.3, north + 0.3),
+    )  # fmt: skip
+    axes.spines[:].set_visible(False)
+    axes.set_anchor('N')
+
+
+def frame(axes: Axes, places: ArrayLike, room: float) -> None:
+    """Let a map hold all ``places``, (n, 2) with NaN between, and ``room`` [m] around them."""
+    known = np.asarray(places, dtype=float)
+    known = known[np.isfinite(known).all(axis=1)]
+    if len(known):
+        (west, south), (east, north) = known.min(axis=0) - room, known.max(axis=0) + room
+        axes.set(xlim=(west, east), ylim=(south, north))
+    axes.set(aspect='equal', xlabel='x [m]', ylabel='y [m]')
+
+
+def time_axis(axes: Axes, seconds: float, days: float = 0.0) -> Callable[[ArrayLike], Any]:
+    """Write the time on an axis in the unit that fits, and return how to turn seconds into it.
+
+    Args:
+        axes: The lowest of those that share the axis.
+        seconds: How long it all took [s].
+        days: How many days of a recording were played meanwhile; 0: none.
+
+    """
+    if days:
+        unit, name = seconds / days, 'day of the recording'
+    elif seconds <= 600.0:
+        unit, name = 1.0, 'time [s]'
+    elif seconds <= 3.0 * 3600.0:
+        unit, name = 60.0, 'time [min]'
+    else:
+        unit, name = 3600.0, 'time [h]'
+    axes.set(xlabel=name, xlim=(0.0, max(seconds, 1e-3) / unit))
+    return lambda values: np.asarray(values, dtype=float) / unit
+
+
+def thinned(time: ArrayLike, values: ArrayLike) -> tuple[Any, Any]:
+    """Return a line of at most `MOST_POINTS`: the least and the greatest of each stretch."""
+    x, y = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    if len(x) <= MOST_POINTS:
+        return x, y
+    starts = np.linspace(0, len(x), MOST_POINTS // 2 + 1).astype(int)
+    picked = set()
+    for begin, end in pairwise(starts):
+        part = y[begin:end]
+        if np.isnan(part).all():
+            picked.add(begin)
+        else:
+            picked |= {begin + int(np.nanargmin(part)), begin + int(np.nanargmax(part))}
+    kept = np.array(sorted(picked))
+    return x[kept], y[kept]
+
+
+def settle(figure: Any) -> None:
+    """Move labels apart, once the layout is known: at line ends in height, events in rows."""
+    figure.draw_without_rendering()
+    renderer = figure.canvas.get_renderer()
+    for axes in figure.axes:
+        texts = [text for text in axes.texts if text.get_gid() == _END]
+        _spread(texts, figure.dpi / 72.0, renderer)
+        _stack([text for text in axes.texts if text.get_gid() == _EVENT], figure, renderer)
+
+
+def _spread(texts: list[Annotation], pixels: float, renderer: Any) -> None:
+    """Push labels that overlap apart, half a step each, in their order."""
+    boxes = [text.get_window_extent(renderer) for text in texts]
+    order = sorted(range(len(texts)), key=lambda i: boxes[i].y0)
+    low = np.array([boxes[i].y0 for i in order])
+    for _ in range(SETTLING):
+        for i in range(1, len(low)):
+            over = low[i - 1] + boxes[order[i - 1]].height + 2.0 - low[i]
+            if over > 0.0:
+                low[i - 1 : i + 1] += (-0.5 * over, 0.5 * over)
+    for i, place in zip(order, low, strict=True):
+        texts[i].xyann = (texts[i].xyann[0], (place - boxes[i].y0) / pixels)
+
+
+def _stack(texts: list[Annotation], figure: Any, renderer: Any) -> None:
+    """Move events that overlap into the row above, and into the figure if they reach beyond."""
+    rows: list[float] = []
+    pixels = figure.dpi / 72.0
+    for text in sorted(texts, key=lambda text: text.xy[0]):
+        box = text.get_window_extent(renderer)
+        over = max(box.x1 - (figure.bbox.x1 - 8.0), 0.0)
+        row = next((i for i, end in enumerate(rows) if end + 6.0 < box.x0 - over), len(rows))
+        rows[row : row + 1] = [box.x1 - over]
+        text.xyann = (-over / pixels, 4.0 + row * (SMALL + 3.0))

@@ -1,0 +1,131 @@
+"""Each picture, rendered: no two texts overlap, and all lie inside.
+
+The runs are recorded demos, thinned: every twentieth to every hundredth message.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip('matplotlib')
+
+from agv_motion.motion.navigation.zone import Zone
+from agv_motion.report import style
+from agv_motion.report.figure import figure
+from agv_motion.report.walk import Remembered, WalkRun
+from agv_motion.report.walk_figure import WalkLimits, finding
+from agv_motion.report.walk_figure import draw as draw_walk
+
+RECORDED = Path(__file__).parent / 'recorded'
+SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
+
+
+def texts_of(drawn):
+    """Return every text that is seen, with its box [px]."""
+    from matplotlib.text import Text
+
+    renderer = drawn.canvas.get_renderer()
+    seen = [text for text in drawn.findobj(Text) if text.get_text().strip() and text.get_visible()]
+    ticks = {
+        label
+        for axes in drawn.findobj(lambda artist: hasattr(artist, 'get_xticklabels'))
+        for axis in (axes.xaxis, axes.yaxis)
+        for tick in (*axis.majorTicks, *axis.minorTicks)
+        for label in (tick.label1, tick.label2)
+    }
+    shown = {
+        label
+        for axes in drawn.findobj(lambda artist: hasattr(artist, 'get_xticklabels'))
+        for axis in (axes.xaxis, axes.yaxis)
+        for tick in axis._update_ticks()  # noqa: SLF001 - there is no other way to ask
+        for label in (tick.label1, tick.label2)
+        if label.get_visible()
+    }
+    return [
+        (text.get_text(), text.get_window_extent(renderer))
+        for text in seen
+        if text not in ticks or text in shown
+    ]
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Return the figures as they were settled, before they are written."""
+    figures = []
+
+    def settled(each):
+        settle(each)
+        each.draw_without_rendering()
+        figures.append((each, texts_of(each)))
+
+    settle = style.settle
+    monkeypatch.setattr(import_module('agv_motion.report.figure'), 'settle', settled)
+    return figures
+
+
+def check(drawn):
+    """Assert that no two texts of the last figure overlap and none reaches out of it."""
+    each, texts = drawn[-1]
+    for text, box in texts:
+        assert box.x0 >= 0.0, (text, box)
+        assert box.y0 >= 0.0, (text, box)
+        assert box.x1 <= each.bbox.x1, (text, box)
+        assert box.y1 <= each.bbox.y1, (text, box)
+    for (one, here), (other, there) in combinations(texts, 2):
+        wide = min(here.x1, there.x1) - max(here.x0, there.x0)
+        high = min(here.y1, there.y1) - max(here.y0, there.y0)
+        assert min(wide, high) < 1.5, (one, other)
+
+
+def recorded_walk():
+    with np.load(RECORDED / 'tree.npz') as held:
+        felt = Remembered(held['felt_x'], held['felt_y'], held['felt'])
+        columns = [held[name] for name in ('path', 'flow', 'speeds', 'residual', 'goals')]
+        return WalkRun(*columns, [str(reason) for reason in held['reasons']], felt, None)
+
+
+@pytest.mark.parametrize(('days', 'theme'), [(0.0, 'light'), (7.0, 'dark')])
+def test_the_walk(drawn, tmp_path, days, theme):
+    run = recorded_walk()
+    draw_walk(run, SQUARE, WalkLimits(1 / 30), tmp_path / 'walk.png', days=days, theme=theme)
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    worst = 1e3 * run.residual[:, 1].max()
+    assert any(f'residual of the turrets at most {worst:.2f} mm/s, limit 20' in t for t in texts)
+    assert any('day of the recording' in text for text in texts) == bool(days)
+    assert {'start', 'end', 's3 places'} <= set(texts)
+    assert (tmp_path / 'walk.png').stat().st_size < 200_000
+
+
+def test_what_a_walk_was_is_told_from_its_numbers():
+    """Hand calculation: 3 m along x, the rim of 1 m comes from 3 m to the edge to 2 m."""
+    path = np.array([[0.0, 4.0, 7.0, 0.0], [3600.0, 7.0, 7.0, 0.0]])
+    flow = np.array([[i, 0.5, 0.5, 0.30 + 0.02 * i] for i in range(6)])
+    run = WalkRun(path, flow, *np.empty((2, 0, 2)), np.empty((0, 3)), [], None, None)
+    told = 'Three metres in an hour, towards the sun, never nearer than 3.0 m to the edge'
+    assert finding(run, SQUARE, 1.0) == told
+    assert 'into the shade' in finding(run._replace(flow=flow[::-1]), SQUARE, 1.0)
+    assert 'in an hour that played seven days, never' in finding(run, SQUARE, 1.0, 7.0)
+    assert finding(run, SQUARE, 4.5).endswith('0.5 m over the edge at worst')
+
+
+def test_labels_and_events_that_would_overlap_are_moved_apart(drawn, tmp_path):
+    with figure(tmp_path / 'a.png', [['a']], figsize=(6, 3)) as axes:
+        axes['a'].set(xlim=(0.0, 10.0), ylim=(0.0, 1.0))
+        for i in range(5):
+            style.line_label(axes['a'], 0.5 + 0.001 * i, f'line {i}', 'k')
+            style.event(axes['a'], 4.0 + 0.1 * i, f'event {i}')
+    check(drawn)
+
+
+def test_a_long_line_is_thinned_and_keeps_its_spikes():
+    values = np.zeros(100_000)
+    values[77_777], values[5], values[6] = 9.0, -3.0, np.nan
+    time, kept = style.thinned(np.arange(100_000.0), values)
+    assert len(time) <= style.MOST_POINTS
+    assert (kept.max(), kept.min(), time[kept.argmax()]) == (9.0, -3.0, 77_777.0)
