@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from contextlib import asynccontextmanager, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from starlette.applications import Starlette
 from starlette.responses import FileResponse, JSONResponse, RedirectResponse
@@ -43,6 +43,16 @@ MOST_OF_ONE = 40
 """of them from one address"""
 
 
+class PageFiles(StaticFiles):
+    """The files of the page: a browser keeps them, and asks each time whether they are the same."""
+
+    def file_response(self, *args: Any, **options: Any) -> Response:
+        """Return a file, or that it has not changed."""
+        response = super().file_response(*args, **options)
+        response.headers['cache-control'] = 'no-cache'
+        return response
+
+
 def application(
     site: Site, names: Collection[str] = (), clock: Callable[[], float] = time.monotonic
 ) -> ASGIApp:
@@ -71,7 +81,7 @@ def application(
         *report_doors(site), *login_doors(site), *_sockets(site),
     ]  # fmt: skip
     if STATIC.is_dir():
-        routes.append(Mount('/static', StaticFiles(directory=STATIC)))
+        routes.append(Mount('/static', PageFiles(directory=STATIC)))
     return Gate(Starlette(routes=routes, lifespan=life), names, clock)
 
 

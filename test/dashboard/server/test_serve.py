@@ -180,3 +180,11 @@ def test_with_a_certificate_the_page_is_served_by_tls(serve, tmp_path, monkeypat
             return json.loads(await live.recv())['role']
 
     assert asyncio.run(hello()) == 'expert'
+
+
+def test_a_browser_keeps_the_files_of_the_page_and_nothing_else(browser):
+    first = browser.get('/static/js/operator.js')
+    assert first.headers['cache-control'] == 'no-cache'
+    again = browser.get('/static/js/operator.js', headers={'If-None-Match': first.headers['etag']})
+    assert (again.status_code, again.content) == (304, b'')
+    assert browser.get('/').headers['cache-control'] == 'no-store'

@@ -55,6 +55,26 @@ def test_scripts_make_no_markup_of_text_and_stay_short(path):
         assert (path.parent / imported).resolve().is_file(), imported
 
 
+def needed(script, found):
+    """Collect a script and all that it imports, directly or not."""
+    if script not in found:
+        found.add(script)
+        for imported in re.findall(
+            r"^(?:import|export)\b[^']*?'(\.[^']+)'", script.read_text('utf-8'), re.MULTILINE
+        ):
+            needed((script.parent / imported).resolve(), found)
+    return found
+
+
+@pytest.mark.parametrize(('page', 'script'), [('index', 'operator'), ('public', 'public')])
+def test_a_page_loads_all_its_scripts_at_once_and_no_other(page, script):
+    first = (STATIC / 'js' / f'{script}.js').resolve()
+    text = (STATIC / f'{page}.html').read_text('utf-8')
+    told = re.findall(r'<link rel="modulepreload" href="/static/([^"]+)">', text)
+    assert told == sorted(set(told))
+    assert {(STATIC / each).resolve() for each in told} == needed(first, set()) - {first}
+
+
 def test_style_sheets_load_nothing():
     for path in (STATIC / 'css').glob('*.css'):
         assert not re.search(r'url\(|@import', path.read_text('utf-8')), path.name
