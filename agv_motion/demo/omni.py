@@ -21,7 +21,8 @@ from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
 from agv_motion.planar import Pose
-from agv_motion.report.localization import LocalizationRun, draw, read_localization, summary
+from agv_motion.report.localization import LocalizationRun, read_localization, summary
+from agv_motion.report.localization_figure import draw
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -26,7 +26,8 @@ from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.report.walks import RecordedWalk, draw, nearest, read_walks, summary
+from agv_motion.report.walks import RecordedWalk, nearest, read_walks, summary
+from agv_motion.report.walks_figure import draw
 from agv_motion.ros.config import find_config
 from agv_motion.simulation.trials.crowd import scattered
 

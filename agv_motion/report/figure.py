@@ -13,7 +13,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-DOTS_PER_INCH = 140
+DOTS_PER_INCH = 120
+
+
+def _shrink(picture: Path) -> None:
+    """Let a PNG do with a palette of its own: half the size, and the eye sees the same."""
+    if picture.suffix == '.png':
+        from PIL import Image
+
+        with Image.open(picture) as whole:
+            flat = whole.convert('RGB').quantize(256, dither=Image.Dither.NONE)
+        flat.save(picture, format='PNG', optimize=True)
 
 
 @contextmanager
@@ -48,6 +58,7 @@ def figure(
             settle(drawn)
             with replacing(path) as made:
                 drawn.savefig(made, dpi=DOTS_PER_INCH)
+                _shrink(made)
         except ValueError as error:
             msg = f"cannot draw '{path}': {error}"
             raise ConfigurationError(msg) from error

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from rich.table import Table
 
-from agv_motion.report.figure import figure
 from agv_motion.report.stamped_columns import PoseColumns, pose_columns
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
@@ -94,75 +91,3 @@ def _inside(run: LocalizationRun) -> float:
     xx, xy, _, yy, _, _ = run.pose.covariance
     square = (yy * x * x - 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy)
     return float(np.mean(square <= ELLIPSE**2))
-
-
-def draw(run: LocalizationRun, path: Path) -> None:
-    """Draw path and ellipses, and errors over time, into one picture.
-
-    Raises:
-        ConfigurationError: matplotlib is not installed.
-
-    """
-    mosaic = [['map', 'position'], ['map', 'heading']]
-    with figure(path, mosaic, figsize=(14, 7), width_ratios=[1.2, 1]) as axes:
-        _draw_map(axes['map'], run)
-        _draw_errors(axes['position'], axes['heading'], run)
-
-
-def _draw_map(axes: Any, run: LocalizationRun) -> None:
-    from matplotlib.patches import Ellipse
-
-    axes.plot(*run.fix.pose[:2], '.', ms=3, color='0.75', label='fixes')
-    axes.plot(*_broken(run.odometry_alone()), lw=0.7, color='tab:orange', label='odometry alone')
-    axes.plot(*_broken(run.truth), lw=2.5, color='k', alpha=0.35, label='truth')
-    axes.plot(*_broken(run.pose), lw=1.0, color='tab:blue', label='pose, and its 95 % ellipses')
-    step = max(len(run.pose.stamp) // 60, 1)
-    for (x, y, _), (xx, xy, _, yy, _, _) in zip(
-        run.pose.pose.T[::step], run.pose.covariance.T[::step], strict=True
-    ):
-        values, vectors = np.linalg.eigh([[xx, xy], [xy, yy]])
-        width, height = 2.0 * ELLIPSE * np.sqrt(values)
-        angle = np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0]))
-        axes.add_patch(Ellipse((x, y), width, height, angle=angle, fill=False, color='tab:blue',
-                               lw=0.7))  # fmt: skip
-    everywhere = np.concatenate([run.truth.pose[:2], run.pose.pose[:2]], axis=1)
-    low, high = everywhere.min(axis=1) - 1.0, everywhere.max(axis=1) + 1.0
-    axes.set(
-        aspect='equal', xlabel='x [m]', ylabel='y [m]', xlim=(low[0], high[0]),
-        ylim=(low[1], high[1]),
-    )  # fmt: skip
-    axes.legend(loc='upper left', fontsize='small')
-
-
-def _draw_errors(position: Any, heading: Any, run: LocalizationRun) -> None:
-    """Draw what pose and fixes err, and what the pose said it may."""
-    for of, style in (
-        (run.fix, {'marker': '.', 'ms': 3, 'ls': '', 'color': '0.7', 'label': 'fixes'}),
-        (run.odometry_alone(), {'lw': 0.8, 'color': 'tab:orange', 'label': 'odometry alone'}),
-        (run.pose, {'lw': 1.0, 'color': 'tab:blue', 'label': 'pose'}),
-    ):
-        wrong = run.error(of)
-        gap = np.diff(of.stamp, append=of.stamp[-1:]) > 1.0
-        position.plot(of.stamp, np.where(gap, np.nan, np.hypot(*wrong[:2])), **style)
-        if of is not run.fix:
-            heading.plot(of.stamp, np.where(gap, np.nan, np.degrees(np.abs(wrong[2]))), **style)
-    xx, _, _, yy, _, tt = run.pose.covariance
-    for axes, bound in (
-        (position, ELLIPSE * np.sqrt(np.maximum(xx, yy))),
-        (heading, 1.96 * np.degrees(np.sqrt(tt))),
-    ):
-        axes.fill_between(run.pose.stamp, 1e-4, bound, color='tab:blue', alpha=0.15, lw=0,
-                          label='95 % of it, by its covariance')  # fmt: skip
-        axes.set(yscale='log')
-        axes.grid(visible=True, which='major', alpha=0.3)
-    position.set(ylabel='position error [m]', ylim=(3e-3, 20.0))
-    heading.set(ylabel='heading error [deg]', xlabel='simulated time [s]', ylim=(3e-2, 200.0))
-    position.legend(loc='upper left', fontsize='small', ncols=2)
-
-
-def _broken(columns: PoseColumns) -> tuple[Array, Array]:
-    """Return x and y, not joined over a jump of more than half a metre in a step."""
-    x, y, _ = columns.pose.copy()
-    jumps = np.hypot(np.diff(x, append=x[-1:]), np.diff(y, append=y[-1:])) > 0.5
-    x[jumps] = np.nan
-    return x, y

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from matplotlib.axes import Axes
-    from matplotlib.text import Annotation
+    from matplotlib.text import Annotation, Text
     from numpy.typing import ArrayLike, NDArray
 
 ROBOT = '#0072B2'
@@ -51,7 +52,10 @@ NUMBERS = (
 SETTLING = 200
 """Steps in which labels are pushed apart."""
 
-_END, _EVENT = 'label at the end', 'event'
+_END, _EVENT, _NAME = 'label at the end', 'event', 'name'
+
+_ROOMS: WeakKeyDictionary[Text, list[tuple[float, float, str]]] = WeakKeyDictionary()
+"""Where each name may stand, x, y and its side, the place with most room first."""
 
 
 def settings(theme: str = 'light') -> Any:
@@ -200,15 +204,50 @@ def number(axes: Axes, x: float, y: float, text: str, color: Any = GOAL) -> None
     )  # fmt: skip
 
 
-def free_place(
-    centre: ArrayLike, distance: float, taken: Sequence[ArrayLike]
-) -> tuple[float, float]:
-    """Return the place, so far from ``centre``, that is farthest from all that is ``taken``."""
+def grouped(places: Iterable[Sequence[float]], distance: float) -> list[tuple[float, float, str]]:
+    """Return places, x and y, with their numbers from 1 on; the nearer ones share one."""
+    found: list[tuple[float, float, str]] = []
+    for i, (x, y) in enumerate(places):
+        near = next(
+            (k for k, at in enumerate(found) if np.hypot(at[0] - x, at[1] - y) < distance), None
+        )
+        if near is None:
+            found.append((x, y, f'{i + 1}'))
+        else:
+            found[near] = (*found[near][:2], f'{found[near][2]}\u2009·\u2009{i + 1}')
+    return found
+
+
+def name_near(  # noqa: PLR0913, PLR0917 - a word on a map
+    axes: Axes, centre: ArrayLike, distance: float, name: str, color: Any, taken: list[Any]
+) -> None:
+    """Write a bold name near a place, where most room is, and count it among what is ``taken``.
+
+    Args:
+        axes: A map.
+        centre: x and y of the place.
+        distance: Of the name from it, in the unit of the map.
+        name: What to write.
+        color: Of the name.
+        taken: Places, x and y, where something is drawn.
+
+    """
     angles = np.arange(16) * np.pi / 8.0
-    around = np.asarray(centre) + distance * np.array([np.cos(angles), np.sin(angles)]).T
+    ways = np.array([np.cos(angles), np.sin(angles)]).T
+    around = np.asarray(centre, dtype=float) + distance * ways
     gaps = np.hypot(*(around[:, None, :] - np.asarray(taken)[None, :, :]).transpose(2, 0, 1))
-    x, y = around[int(gaps.min(axis=1).argmax())]
-    return float(x), float(y)
+    order = np.argsort(-gaps.min(axis=1), kind='stable')
+    text = axes.text(
+        *around[order[0]], name, color=color, fontweight='bold', fontsize=SMALL, va='center',
+        ha='center', zorder=7, gid=_NAME,
+        bbox={'facecolor': paper(), 'edgecolor': 'none', 'alpha': 0.7, 'pad': 0.6},
+    )  # fmt: skip
+    _ROOMS[text] = [(*around[i].tolist(), _side(float(ways[i, 0]))) for i in order]
+    taken.append(around[order[0]])
+
+
+def _side(aside: float) -> str:
+    return 'left' if aside > 0.3 else 'right' if aside < -0.3 else 'center'
 
 
 def zone(axes: Axes, floor: Any, parts: Sequence[Any] = ()) -> None:
@@ -282,7 +321,25 @@ def settle(figure: Any) -> None:
     for axes in figure.axes:
         texts = [text for text in axes.texts if text.get_gid() == _END]
         _spread(texts, figure.dpi / 72.0, renderer)
+        for name in [text for text in axes.texts if text.get_gid() == _NAME]:
+            _find_room(name, axes, renderer)
         _stack([text for text in axes.texts if text.get_gid() == _EVENT], figure, renderer)
+
+
+def _find_room(name: Text, axes: Axes, renderer: Any) -> None:
+    """Move a name to the first of its places that is inside the axes and on no other text."""
+    others = [
+        text.get_window_extent(renderer).expanded(1.1, 1.1)
+        for text in axes.texts
+        if text is not name
+    ]
+    for x, y, side in _ROOMS[name]:
+        name.set(x=x, y=y, ha=side)
+        box = name.get_window_extent(renderer)
+        inside = axes.bbox.x0 < box.x0 and box.x1 < axes.bbox.x1
+        inside = inside and axes.bbox.y0 < box.y0 and box.y1 < axes.bbox.y1
+        if inside and not box.count_overlaps(others):
+            return
 
 
 def _spread(texts: list[Annotation], pixels: float, renderer: Any) -> None:

@@ -118,8 +118,8 @@ def _draw_map(axes: Any, run: WalkRun, zone: Zone, rim: float) -> None:
             ends = row in {0, len(run.path) - 1}
             style.robot(axes, run.path[row, 1:], rim, strong=ends)
         _name_ends(axes, run, rim)
-    for x, y, names in _places(run):
-        style.number(axes, x, y, '\u2009·\u2009'.join(names))
+    for x, y, names in style.grouped(run.goals[:, 1:], DISC):
+        style.number(axes, x, y, names)
 
 
 def _draw_memory(axes: Any, run: WalkRun) -> None:
@@ -149,27 +149,11 @@ def _name_ends(axes: Any, run: WalkRun, rim: float) -> None:
     rows = np.linspace(0, len(run.path) - 1, 10 * PLATFORMS).astype(int)
     taken = [*run.path[rows, 1:3], *run.goals[:, 1:3]]
     for row, name in ((0, 'start'), (-1, 'end')):
-        place = style.free_place(run.path[row, 1:3], 1.45 * rim, taken)
-        axes.text(
-            *place, name, ha='center', va='center', color=style.ROBOT, fontweight='bold', zorder=7
-        )
-        taken.append(place)
-
-
-def _places(run: WalkRun) -> list[tuple[float, float, list[str]]]:
-    """Return the places of goals, and the numbers of all goals there: nearer than a disc is one."""
-    places: list[tuple[float, float, list[str]]] = []
-    for i, (_, x, y) in enumerate(run.goals):
-        near = next((p for p in places if np.hypot(p[0] - x, p[1] - y) < DISC), None)
-        if near is None:
-            places.append((x, y, [f'{i + 1}']))
-        else:
-            near[2].append(f'{i + 1}')
-    return places
+        style.name_near(axes, run.path[row, 1:3], 1.2 * rim, name, style.ROBOT, taken)
 
 
 DISC = 0.9
-"""[m] that a numbered disc takes on the map."""
+"""[m] that a numbered disc takes on the map: goals nearer than that share one."""
 
 
 def _draw_goals(axes: Any, run: WalkRun, days: float) -> None:

@@ -1,31 +1,28 @@
-"""What several trees have done, read back from their bag: numbers, and one figure."""
+"""What several trees have done, read back from their bag: columns and numbers."""
 
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from rich.table import Table
 
 from agv_motion.bag.message_objects import decoded
-from agv_motion.report.figure import figure
 from agv_motion.report.stamped_columns import pose_columns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
     from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-    from agv_motion.motion.navigation.zone import Zone
 
     Array = NDArray[np.float64]
 
-DOINGS = {'walks': 'tab:green', 'gives way': 'tab:orange', 'waits': 'tab:red', 'rests': '0.8'}
-"""What a tree may do, and the colour of it."""
+DOINGS = ('walks', 'gives way', 'waits', 'rests')
+"""What a tree may do."""
 
 
 class RecordedWalk(NamedTuple):
@@ -128,61 +125,3 @@ def nearest(walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> str:
         f'{pair} came nearest: {between[pair].min():.2f} m from rim to rim; '
         f'{traffic.margin:.2f} m are allowed'
     )
-
-
-def draw(walks: Sequence[RecordedWalk], zone: Zone, traffic: TrafficParameters, path: Path) -> None:
-    """Draw the walks, the gaps between the trees, and what each did when, into one picture.
-
-    Raises:
-        ConfigurationError: matplotlib is not installed.
-        SourceError: The file cannot be written.
-
-    """
-    mosaic = [['map', 'gaps'], ['map', 'doings']]
-    with figure(path, mosaic, figsize=(13, 6), width_ratios=[1.25, 1]) as axes:
-        _draw_map(axes['map'], walks, zone, traffic.body)
-        _draw_gaps(axes['gaps'], walks, traffic)
-        _draw_doings(axes['doings'], walks)
-
-
-def _draw_map(axes: Any, walks: Sequence[RecordedWalk], zone: Zone, body: float) -> None:
-    """Draw the floor, the trails with the goals, and the trees where they are at the end."""
-    from matplotlib.patches import Circle
-
-    for part, style in ((zone.floor, 'k-'), *((p, 'k:') for p in zone.parts)):
-        for ring in (part.exterior, *part.interiors):
-            axes.plot(*np.array(ring.coords).T, style, lw=1)
-    for i, walk in enumerate(walks):
-        colour = f'C{i}'
-        axes.plot(*walk.path, lw=1.2, color=colour, label=walk.name)
-        axes.plot(*walk.path[:, 0], 'o', color=colour)
-        axes.add_patch(Circle(tuple(walk.path[:, -1]), body, color=colour, alpha=0.3))
-        for _, x, y in walk.goals:
-            axes.plot(x, y, 'x', color=colour)
-    west, south, east, north = zone.bounds
-    axes.set(
-        aspect='equal', xlabel='x [m]', ylabel='y [m]',
-        xlim=(west - 0.5, east + 0.5), ylim=(south - 0.5, north + 0.5),
-    )  # fmt: skip
-    axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='small', ncols=len(walks))
-
-
-def _draw_gaps(axes: Any, walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> None:
-    times, between = gaps(walks, traffic.body)
-    for pair, gap in between.items():
-        axes.plot(times / 60.0, gap, lw=1.0, label=pair)
-    axes.axhline(traffic.margin, color='k', ls='--', lw=1.0, label='least allowed')
-    axes.set(ylabel='rim to rim [m]', ylim=(0.0, None), xlim=(0.0, times[-1] / 60.0))
-    axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), fontsize='x-small', ncols=4)
-
-
-def _draw_doings(axes: Any, walks: Sequence[RecordedWalk]) -> None:
-    for i, walk in enumerate(walks):
-        for begin, length, what in walk.spans():
-            axes.barh(i, length / 60.0, left=begin / 60.0, color=DOINGS[what], height=0.7)
-    for what, colour in DOINGS.items():
-        axes.barh(0, 0.0, color=colour, label=what)
-    axes.set(xlabel='simulated time [min]', xlim=(0.0, max(w.time[-1] for w in walks) / 60.0))
-    axes.set_yticks(range(len(walks)), [walk.name for walk in walks])
-    axes.invert_yaxis()
-    axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), fontsize='small', ncols=len(DOINGS))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from agv_motion.report.localization import LocalizationRun, draw, summary
+from agv_motion.report.localization import LocalizationRun, summary
+from agv_motion.report.localization_figure import draw
 from agv_motion.report.stamped_columns import PoseColumns
 
 

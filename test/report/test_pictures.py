@@ -14,12 +14,20 @@ import pytest
 
 pytest.importorskip('matplotlib')
 
+from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.report import style
 from agv_motion.report.figure import figure
+from agv_motion.report.localization import LocalizationRun
+from agv_motion.report.localization_figure import carried
+from agv_motion.report.localization_figure import draw as draw_localization
+from agv_motion.report.localization_figure import finding as localization_finding
+from agv_motion.report.stamped_columns import PoseColumns
 from agv_motion.report.walk import Remembered, WalkRun
 from agv_motion.report.walk_figure import WalkLimits, finding
 from agv_motion.report.walk_figure import draw as draw_walk
+from agv_motion.report.walks import RecordedWalk
+from agv_motion.report.walks_figure import draw as draw_walks
 
 RECORDED = Path(__file__).parent / 'recorded'
 SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
@@ -112,6 +120,66 @@ def test_what_a_walk_was_is_told_from_its_numbers():
     assert 'into the shade' in finding(run._replace(flow=flow[::-1]), SQUARE, 1.0)
     assert 'in an hour that played seven days, never' in finding(run, SQUARE, 1.0, 7.0)
     assert finding(run, SQUARE, 4.5).endswith('0.5 m over the edge at worst')
+
+
+def recorded_walks():
+    with np.load(RECORDED / 'trees.npz') as held:
+        return [
+            RecordedWalk(
+                str(name), held[f'{name}_time'], held[f'{name}_path'],
+                [tuple(goal) for goal in held[f'{name}_goals']],
+                [
+                    (float(begin), str(doing))
+                    for begin, doing in zip(
+                        held[f'{name}_begins'], held[f'{name}_doings'], strict=True
+                    )
+                ],
+            )
+            for name in held['names']
+        ]  # fmt: skip
+
+
+def test_the_trees(drawn, tmp_path):
+    traffic = TrafficParameters(body=1.18, margin=0.2)
+    draw_walks(recorded_walks(), SQUARE, traffic, tmp_path / 'trees.png')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    told = 'Three trees walk 72 metres in 40 minutes, never nearer than 0.8 m to each other'
+    assert {told, 'least 0.2 m', 'oak, ash', 'start', 'gives way'} <= set(texts)
+    assert (tmp_path / 'trees.png').stat().st_size < 200_000
+
+
+def recorded_drive():
+    with np.load(RECORDED / 'omni.npz') as held:
+        return LocalizationRun(
+            *(
+                PoseColumns(*(held[f'{name}_{part}'] for part in PoseColumns._fields))
+                for name in LocalizationRun._fields
+            )
+        )
+
+
+def test_the_drive_of_the_omni_robot(drawn, tmp_path):
+    draw_localization(recorded_drive(), tmp_path / 'path.png')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    events = {'carried away', 'found again after 11 s', 'start', 'end', 'set down', 'found again'}
+    assert events <= set(texts)
+    assert texts.count('carried away') == 2
+
+
+def test_when_it_was_carried_and_found_again_by_hand():
+    """It stands at 0 m, is set down at 5 m after 3 s, and believes so after 5 s."""
+    stamp = np.arange(8.0)
+    truth = np.array([[0.0] * 3 + [5.0] * 5, [0.0] * 8, [0.0] * 8])
+    believed = np.array([[0.0] * 5 + [5.0] * 3, [0.0] * 8, [0.0] * 8])
+    there, told = (PoseColumns(stamp, pose, np.zeros((6, 8))) for pose in (truth, believed))
+    run = LocalizationRun(there, told, told, told)
+    assert carried(run) == (3.0, 5.0)
+    assert localization_finding(run).endswith('it finds itself again after 2 s')
+    never = run._replace(pose=told._replace(pose=0.0 * believed))
+    assert localization_finding(never).endswith('it did not find itself again')
+    assert carried(run._replace(truth=told._replace(pose=0.0 * truth))) is None
 
 
 def test_labels_and_events_that_would_overlap_are_moved_apart(drawn, tmp_path):
