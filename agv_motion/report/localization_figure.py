@@ -113,7 +113,7 @@ def _draw_map(axes: Any, run: LocalizationRun) -> None:
     _draw_ellipses(axes, pose)
     style.direction(axes, np.array(_broken(truth)).T, style.PATH, 6)
     shown = np.concatenate([run.truth.pose[:2], pose.pose[:2]], axis=1)
-    style.frame(axes, shown.T, 0.6)
+    style.frame(axes, shown.T, 1.0)
     _name_places(axes, run, window)
     axes.set_title(
         f'{max(window[0], 0.0):.0f} to {window[1]:.0f} s: way (green), pose believed with 95 % '

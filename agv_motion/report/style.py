@@ -237,13 +237,14 @@ def name_near(  # noqa: PLR0913, PLR0917 - a word on a map
     around = np.asarray(centre, dtype=float) + distance * ways
     gaps = np.hypot(*(around[:, None, :] - np.asarray(taken)[None, :, :]).transpose(2, 0, 1))
     order = np.argsort(-gaps.min(axis=1), kind='stable')
+    first = around[order[0]].tolist()
     text = axes.text(
-        *around[order[0]], name, color=color, fontweight='bold', fontsize=SMALL, va='center',
+        first[0], first[1], name, color=color, fontweight='bold', fontsize=SMALL, va='center',
         ha='center', zorder=7, gid=_NAME,
         bbox={'facecolor': paper(), 'edgecolor': 'none', 'alpha': 0.7, 'pad': 0.6},
     )  # fmt: skip
     _ROOMS[text] = [(*around[i].tolist(), _side(float(ways[i, 0]))) for i in order]
-    taken.append(around[order[0]])
+    taken.append(np.array(first))
 
 
 def _side(aside: float) -> str:
