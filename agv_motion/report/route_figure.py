@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from agv_motion.report import style
 from agv_motion.report.figure import figure
 from agv_motion.route.prediction import NOTHING
 from agv_motion.route.speeds import RouteLimiter
@@ -19,17 +20,21 @@ if TYPE_CHECKING:
     from agv_motion.route.prediction import Prediction
     from agv_motion.route.route import Route
 
-COLOURS = dict(
-    zip(
-        (NOTHING, *(limiter.value for limiter in RouteLimiter)),
-        ('0.4', 'tab:red', 'tab:orange', 'tab:purple', 'tab:green', 'tab:blue'),
-        strict=True,
-    )
-)
-"""Of each that holds the speed down."""
+HOLDERS = {
+    NOTHING: ('at top speed', style.ROBOT),
+    RouteLimiter.TO_GO.value: ('the end is near', style.GOAL),
+    RouteLimiter.HEADING.value: ('turns towards the virtual point', style.HINDERED),
+    RouteLimiter.WAYPOINT.value: ('a waypoint is near', style.OTHERS[0]),
+    RouteLimiter.BEND.value: ('a bend is near', style.OTHERS[2]),
+    RouteLimiter.COUPLING.value: ('gathers speed', style.WAITING),
+}
+"""What each that holds the speed down is in words, and its colour."""
+
+RIM = 0.05
+"""of the extent of the map: so large the robot is drawn; a route does not tell its true size."""
 
 
-def draw(route: Route, run: Prediction, path: Path) -> None:
+def draw(route: Route, run: Prediction, path: Path, *, theme: str = 'light') -> None:
     """Draw ``run`` on ``route`` into a picture.
 
     Raises:
@@ -37,52 +42,72 @@ def draw(route: Route, run: Prediction, path: Path) -> None:
         SourceError: The file cannot be written.
 
     """
+    mosaic: list[Any] = [['map', 'speed'], ['map', 'turn']]
     with figure(
-        path, [['map', 'speed'], ['map', 'turn']], figsize=(13, 6.5), width_ratios=[1.1, 1]
+        path, mosaic, theme=theme, figsize=(style.WIDTH, 5.4), width_ratios=[1, 1.1]
     ) as axes:
+        style.title(axes['map'], finding(run))
         _draw_map(axes['map'], route, run)
         _draw_time(axes, run)
 
 
-def _draw_map(axes: Any, route: Route, run: Prediction) -> None:
-    axes.plot(*np.array(route.waypoints).T, 'o-', color='0.8', lw=5, ms=7, label='route')
+def finding(run: Prediction) -> str:
+    """Return what the drive will be, in one line, from its numbers."""
     place = np.array([pose[:2] for pose in run.poses])
+    way = float(np.hypot(*np.diff(place, axis=0).T).sum())
+    held = run.held_by()
+    free = sum(holder == NOTHING for holder in held) / max(len(held), 1)
+    return (
+        f'{way:.1f} m in {run.dt * len(run.steps):.0f} s, {100.0 * free:.0f} % of it at top speed'
+    )
+
+
+def _draw_map(axes: Any, route: Route, run: Prediction) -> None:
+    """Draw the route, the way on it in the colour of what holds the speed down, and both ends."""
+    from matplotlib.lines import Line2D
+
+    points = np.array(route.waypoints)
+    axes.plot(*points.T, 'o-', color=style.OTHERS[1], alpha=0.35, lw=5, ms=7)
+    place = np.array([pose[:2] for pose in run.poses])
+    keys = []
     for holder, here in _held(run):
-        way = np.where(here[:, None], place, np.nan)
-        axes.plot(*way.T, '.-', ms=3, lw=1.5, color=COLOURS[holder], label=f'held by {holder}')
-    axes.plot(*place[0], 's', color='k', label='start')
-    axes.plot(*place[-1], '*', ms=12, color='k', label='end')
-    axes.set(
-        aspect='equal', xlabel='x [m]', ylabel='y [m]', adjustable='datalim',
-        title='the way of an ideal robot, and what holds its speed down',
-    )  # fmt: skip
-    axes.legend(fontsize='small')
+        word, colour = HOLDERS[holder]
+        axes.plot(*np.where(here[:, None], place, np.nan).T, '.-', ms=2, lw=2, color=colour)
+        keys.append(Line2D([], [], color=colour, lw=3, label=word))
+    both = np.concatenate([points, place])
+    extent = float(np.ptp(both, axis=0).max()) + 0.1
+    style.frame(axes, both, 0.14 * extent)
+    taken = list(both)
+    for row, name in ((0, 'start'), (-1, 'end')):
+        style.robot(axes, run.poses[row], RIM * extent, style.ink(), strong=True)
+        style.name_near(axes, place[row], 1.6 * RIM * extent, name, style.ink(), taken)
+    axes.legend(handles=keys, loc='upper center', bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
 def _held(run: Prediction) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     """Yield each that holds the speed down, and at which steps."""
     held = np.array(run.held_by())
-    for holder in COLOURS:
+    for holder in HOLDERS:
         here = held == holder
         if here.any():
             yield holder, here
 
 
 def _draw_time(axes: dict[str, Any], run: Prediction) -> None:
+    """Draw the speed over what holds it down, and how fast the robot turns."""
     time = run.dt * np.arange(len(run.steps))
     driven = np.array([np.hypot(*step.twist[:2]) for step in run.steps])
-    wanted = np.array([step.limits.speed for step in run.steps])
     for holder, here in _held(run):
         axes['speed'].fill_between(
-            time, driven, where=here, color=COLOURS[holder], alpha=0.4, lw=0, step='mid'
+            time, driven, where=here, color=HOLDERS[holder][1], alpha=0.5, lw=0, step='mid'
         )
-    axes['speed'].plot(time, wanted, 'k:', lw=1, label='V, before the coupling')
-    axes['speed'].plot(time, driven, 'k', lw=1, label='commanded')
-    axes['speed'].set(ylabel='speed [m/s]', ylim=(0.0, None))
-    axes['speed'].legend(fontsize='small')
-    axes['turn'].plot(
-        time, [step.limits.heading_error for step in run.steps], color='0.5', label='dphi [rad]'
-    )
-    axes['turn'].plot(time, [step.twist.wz for step in run.steps], 'k', lw=1, label='omega [rad/s]')
-    axes['turn'].set(xlabel='time [s]')
-    axes['turn'].legend(fontsize='small')
+    axes['speed'].plot(time, driven, color=style.ink(), lw=1.2)
+    axes['speed'].set(ylabel='[m/s]', ylim=(0.0, None), title='Speed, and what holds it down')
+    axes['speed'].tick_params(labelbottom=False)
+    turn = np.array([step.twist.wz for step in run.steps])
+    axes['turn'].plot(time, turn, color=style.ink(), lw=1.2)
+    axes['turn'].set(ylabel='[rad/s]', title='Turn rate, to the left positive')
+    end = float(time[-1]) if len(time) else 1.0
+    for each in ('speed', 'turn'):
+        style.time_axis(axes[each], end)
+    axes['speed'].set_xlabel('')

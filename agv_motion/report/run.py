@@ -51,6 +51,8 @@ class RunBag(NamedTuple):
     driven: Poses
     ways: dict[str, list[Column]]
     """(n, 2) places of each path that was shown [m], by topic"""
+    way_frames: frozenset[str] = frozenset()
+    """Of all those paths"""
 
     def distance(self) -> float:
         """Return how far the robot went [m]."""
@@ -75,14 +77,15 @@ def read_run(bag: BagReader, planned: str = '', driven: str = '') -> RunBag:
 
     """
     told = _tell(bag, topics_of(bag, POSES))
-    ways = {topic: _ways(bag, topic) for topic in topics_of(bag, ['nav_msgs/msg/Path'])}
+    frames: set[str] = set()
+    ways = {topic: _ways(bag, topic, frames) for topic in topics_of(bag, ['nav_msgs/msg/Path'])}
     ghost = _pick(told, planned, PLANNED, '')
     robot = _pick(told, driven, DRIVEN, ghost.frame if ghost else '')
     if robot is None:
         has = ', '.join(sorted(bag.topics))
         msg = f'{bag.path} does not tell where the robot was; it has {has}'
         raise ConfigurationError(msg)
-    return RunBag(ghost, robot, ways)
+    return RunBag(ghost, robot, ways, frozenset(frames))
 
 
 def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -> Poses | None:
@@ -117,10 +120,12 @@ def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
     return told
 
 
-def _ways(reader: BagReader, topic: str) -> list[Column]:
+def _ways(reader: BagReader, topic: str, frames: set[str]) -> list[Column]:
+    """Return the paths on a topic, and add their frames to ``frames``."""
     ways = []
     for _, content in decoded(reader, [topic]):
         places = [(p.pose.position.x, p.pose.position.y) for p in content.poses]
         if len(places) > 1:
             ways.append(np.array(places))
+            frames.add(content.header.frame_id)
     return ways

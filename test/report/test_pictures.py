@@ -16,18 +16,31 @@ pytest.importorskip('matplotlib')
 
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.zone import Zone
-from agv_motion.report import style
+from agv_motion.planar import Pose
+from agv_motion.report import errors_between, style
 from agv_motion.report.figure import figure
 from agv_motion.report.localization import LocalizationRun
 from agv_motion.report.localization_figure import carried
 from agv_motion.report.localization_figure import draw as draw_localization
 from agv_motion.report.localization_figure import finding as localization_finding
+from agv_motion.report.route_figure import draw as draw_route
+from agv_motion.report.run import Poses, RunBag
+from agv_motion.report.run_figure import draw as draw_run
+from agv_motion.report.run_figure import off_the_way
+from agv_motion.report.sequence_figure import draw as draw_sequence
 from agv_motion.report.stamped_columns import PoseColumns
 from agv_motion.report.walk import Remembered, WalkRun
 from agv_motion.report.walk_figure import WalkLimits, finding
 from agv_motion.report.walk_figure import draw as draw_walk
 from agv_motion.report.walks import RecordedWalk
 from agv_motion.report.walks_figure import draw as draw_walks
+from agv_motion.ros.config import find_config
+from agv_motion.route.parameters import FollowParameters
+from agv_motion.route.prediction import predict as predict_route
+from agv_motion.route.route_file import load_route
+from agv_motion.sequence.prediction import predict as predict_sequence
+from agv_motion.sequence.sequence_file import load_sequence
+from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 RECORDED = Path(__file__).parent / 'recorded'
 SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
@@ -180,6 +193,57 @@ def test_when_it_was_carried_and_found_again_by_hand():
     never = run._replace(pose=told._replace(pose=0.0 * believed))
     assert localization_finding(never).endswith('it did not find itself again')
     assert carried(run._replace(truth=told._replace(pose=0.0 * truth))) is None
+
+
+def straight_run(planned=None, frames=frozenset({'map'})):
+    """1 m/s along x for 10 s, 3 cm left of the way that is shown."""
+    time = np.linspace(0.0, 10.0, 201)
+    pose = np.array([time, 0.03 + 0.0 * time, 0.0 * time]).T
+    driven = Poses('/ground_truth', 'map', time, pose)
+    way = np.array([[0.0, 0.0], [20.0, 0.0]])
+    return RunBag(planned, driven, {'/path': [way]}, frames)
+
+
+def test_a_run_beside_the_way_that_was_shown(drawn, tmp_path):
+    run = straight_run()
+    draw_run(run, None, tmp_path / 'run.png')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    assert {'10.0 m in 10 s, never more than 3 cm from the way', 'start', 'end'} <= set(texts)
+    assert off_the_way(run) == pytest.approx(np.full(201, 0.03))
+    assert off_the_way(straight_run(frames=frozenset({'odom'}))) is None
+
+
+def test_a_run_beside_its_ghost(drawn, tmp_path):
+    """The Ghost is 4 cm ahead and the robot 3 cm left of it: 5 cm apart."""
+    time = np.linspace(0.0, 10.0, 201)
+    ghost = Poses('/ghost/pose', 'map', time, np.array([time + 0.04, 0.0 * time, 0.0 * time]).T)
+    run = straight_run(ghost)
+    draw_run(run, errors_between(ghost, run.driven), tmp_path / 'run.png', theme='dark')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    assert '10.0 m in 10 s, 5.0 cm from the plan, at most 5.0 cm' in texts
+    assert {'along', 'across', 'plan', 'driven'} <= set(texts)
+
+
+def test_a_sequence(drawn, tmp_path):
+    found = load_sequence(find_config('sequence_example.yaml'))
+    start = Pose(0.0, 0.0, 0.0)
+    predicted = predict_sequence(found, start, GhostParameters(), FollowParameters())
+    draw_sequence(found.name, start, predicted, tmp_path / 'sequence.png')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    assert any(t.startswith('Round trip: seven actions, ') for t in texts)
+    assert {'2, 3', 'start, 7'} <= set(texts)
+
+
+def test_a_route(drawn, tmp_path):
+    found = load_route(find_config('route_example.yaml'), 1)
+    run = predict_route(found, FollowParameters(), Pose(0.0, 0.0, 0.0), 0.05)
+    draw_route(found, run, tmp_path / 'route.png')
+    check(drawn)
+    texts = [text for text, _ in drawn[-1][1]]
+    assert {'start', 'end', 'at top speed', 'the end is near'} <= set(texts)
 
 
 def test_labels_and_events_that_would_overlap_are_moved_apart(drawn, tmp_path):
