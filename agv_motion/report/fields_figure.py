@@ -8,6 +8,7 @@ import numpy as np
 
 from agv_motion.bag.columns.columns import read_topic
 from agv_motion.errors import ConfigurationError
+from agv_motion.report import style
 from agv_motion.report.figure import figure
 
 if TYPE_CHECKING:
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
 MOST_LINES = 24
 """of one panel"""
+
+DASHES = ('-', '--', '-.', ':')
+"""Of a line, by how often its colour was there before in its panel."""
 
 
 class FieldLine(NamedTuple):
@@ -69,13 +73,17 @@ def draw(panels: Sequence[Sequence[FieldLine]], path: Path) -> None:
 
     """
     mosaic = [[str(i)] for i in range(len(panels))]
-    size = (10.0, 1.5 + 2.5 * len(panels))
+    size = (style.WIDTH, 1.5 + 2.5 * len(panels))
     with figure(path, mosaic, figsize=size, sharex=True) as axes:
         for i, panel in enumerate(panels):
-            for line in panel:
-                axes[str(i)].plot(line.time, line.values, label=line.label, linewidth=1.0)
-            axes[str(i)].legend(loc='upper right', fontsize='small')
-            axes[str(i)].grid(alpha=0.3)
+            for k, line in enumerate(panel):
+                colour, dash = style.LINES[k % len(style.LINES)], DASHES[k // len(style.LINES)]
+                axes[str(i)].plot(
+                    *style.thinned(line.time, line.values), label=line.label, color=colour,
+                    ls=dash, lw=1.0,
+                )  # fmt: skip
+            axes[str(i)].legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), ncols=2)
+            axes[str(i)].grid()
         axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from agv_motion.report import style
 from agv_motion.report.figure import figure
 from agv_motion.trajectory.feasibility import examine
 
@@ -20,11 +21,14 @@ SAMPLES = 1000
 NEAR = 0.02
 """[m] So far around a place where it is slow the way is marked, to be seen."""
 
+RIM = 0.04
+"""of the extent of the map: so large the robot is drawn; a plan does not tell its true size."""
+
 COLOURS = {
-    'lateral acceleration': 'tab:red',
-    'wheel speed': 'tab:orange',
-    'turn rate': 'tab:purple',
-    'jump of curvature': 'tab:brown',
+    'lateral acceleration': style.GOAL,
+    'wheel speed': style.HINDERED,
+    'turn rate': style.OTHERS[0],
+    'jump of curvature': style.OTHERS[2],
 }
 
 
@@ -40,45 +44,56 @@ def draw(trajectory: Trajectory, limits: GhostParameters, path: Path) -> None:
     poses = np.array([trajectory.pose(t) for t in time.tolist()])
     speeds = np.array([trajectory.speeds(t) for t in time.tolist()])
     driven = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(poses[:, :2], axis=0).T))))
-    with figure(
-        path, [['map', 'speed'], ['map', 'turn']], figsize=(13, 6.5), width_ratios=[1.1, 1]
-    ) as axes:
+    mosaic = [['map', 'speed'], ['map', 'turn']]
+    with figure(path, mosaic, figsize=(style.WIDTH, 5.4), width_ratios=[1, 1]) as axes:
+        held_by = ', '.join(sorted({slow.reason for slow in examine(trajectory).slow}))
+        style.title(
+            axes['map'],
+            f'{driven[-1]:.1f} m in {trajectory.duration:.1f} s, '
+            + (f'slowed by {held_by}' if held_by else 'nowhere slowed by a limit'),
+        )
         held = {slow.reason: np.zeros(SAMPLES, dtype=bool) for slow in examine(trajectory).slow}
         for slow in examine(trajectory).slow:
             held[slow.reason] |= (driven >= slow.start - NEAR) & (driven <= slow.end + NEAR)
         _draw_map(axes['map'], poses, held)
         _draw_speeds(axes['speed'], time, speeds, limits, held)
-        axes['turn'].plot(time, speeds[:, 1], 'k', lw=1.2)
-        axes['turn'].set(xlabel='time [s]', ylabel='turn rate [rad/s]')
-        axes['turn'].grid(alpha=0.3)
+        axes['turn'].plot(time, speeds[:, 1], color=style.ink(), lw=1.2)
+        axes['turn'].set(ylabel='[rad/s]', title='Turn rate, to the left positive')
+        for each in ('speed', 'turn'):
+            style.time_axis(axes[each], trajectory.duration)
+            axes[each].grid()
+        axes['speed'].set_xlabel('')
+        axes['speed'].tick_params(labelbottom=False)
 
 
 def _draw_map(axes: Any, poses: Any, held: dict[str, Any]) -> None:
-    axes.plot(*poses[:, :2].T, color='0.3', lw=2)
+    """Draw the way with its direction, where which limit slows it, and the robot at both ends."""
+    axes.plot(*poses[:, :2].T, color=style.PATH, lw=2)
+    style.direction(axes, poses[:, :2], style.PATH, 5)
     for reason, here in held.items():
         way = np.where(here[:, None], poses[:, :2], np.nan)
-        axes.plot(*way.T, lw=5, alpha=0.5, color=COLOURS[reason], label=f'slow: {reason}')
-    every = poses[:: SAMPLES // 20]
-    axes.quiver(
-        every[:, 0], every[:, 1], np.cos(every[:, 2]), np.sin(every[:, 2]), color='tab:blue',
-        angles='xy', scale=35, width=0.004, label='heading',
-    )  # fmt: skip
-    axes.plot(*poses[0, :2], 's', color='k', label='start')
-    axes.plot(*poses[-1, :2], '*', ms=12, color='k', label='end')
-    axes.set(aspect='equal', adjustable='datalim', xlabel='x [m]', ylabel='y [m]')
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize='small')
+        axes.plot(*way.T, lw=6, alpha=0.5, color=COLOURS[reason], label=f'slowed by {reason}')
+    extent = float(np.ptp(poses[:, :2], axis=0).max()) + 0.1
+    style.frame(axes, poses[:, :2], 0.14 * extent)
+    taken = list(poses[::20, :2])
+    for row, name in ((0, 'start'), (-1, 'end')):
+        style.robot(axes, poses[row], RIM * extent, strong=True)
+        style.name_near(axes, poses[row, :2], 1.7 * RIM * extent, name, style.ROBOT, taken)
+    if held:
+        axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
 def _draw_speeds(
     axes: Any, time: Any, speeds: Any, limits: GhostParameters, held: dict[str, Any]
 ) -> None:
     linear, across = speeds[:, 0], 0.5 * limits.track * speeds[:, 1]
-    axes.plot(time, linear, 'k', lw=1.5, label='robot')
-    axes.plot(time, linear - across, color='tab:blue', lw=0.8, label='left wheel')
-    axes.plot(time, linear + across, color='tab:green', lw=0.8, label='right wheel')
+    for values, colour, name in (
+        (linear - across, style.OTHERS[0], 'left wheel'),
+        (linear + across, style.WAITING, 'right wheel'),
+        (linear, style.ROBOT, 'robot'),
+    ):
+        axes.plot(time, values, color=colour, lw=1.2)
+        style.line_label(axes, float(values[-1]), name, colour)
     for reason, here in held.items():
         axes.fill_between(time, linear, where=here, color=COLOURS[reason], alpha=0.3, lw=0)
-    axes.set(ylabel='speed [m/s]')
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize='small')
+    axes.set(ylabel='[m/s]', title='Speed')

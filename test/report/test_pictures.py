@@ -29,6 +29,7 @@ from agv_motion.report.run_figure import draw as draw_run
 from agv_motion.report.run_figure import off_the_way
 from agv_motion.report.sequence_figure import draw as draw_sequence
 from agv_motion.report.stamped_columns import PoseColumns
+from agv_motion.report.trajectory_figure import draw as draw_plan
 from agv_motion.report.walk import Remembered, WalkRun
 from agv_motion.report.walk_figure import WalkLimits, finding
 from agv_motion.report.walk_figure import draw as draw_walk
@@ -40,6 +41,7 @@ from agv_motion.route.prediction import predict as predict_route
 from agv_motion.route.route_file import load_route
 from agv_motion.sequence.prediction import predict as predict_sequence
 from agv_motion.sequence.sequence_file import load_sequence
+from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 RECORDED = Path(__file__).parent / 'recorded'
@@ -244,6 +246,16 @@ def test_a_route(drawn, tmp_path):
     check(drawn)
     texts = [text for text, _ in drawn[-1][1]]
     assert {'start', 'end', 'at top speed', 'the end is near'} <= set(texts)
+
+
+def test_a_plan(drawn, tmp_path):
+    limits = GhostParameters()
+    ghost = Ghost(Pose(0.0, 0.0, 0.0), limits)
+    trajectory = ghost.compute_trajectory(Pose(2.0, 1.0, np.pi / 2), 0.5, 0.4, 0.4)
+    draw_plan(trajectory, limits, tmp_path / 'plan.png')
+    check(drawn)
+    texts = {text for text, _ in drawn[-1][1]}
+    assert {'start', 'end', 'left wheel', 'right wheel'} <= texts
 
 
 def test_labels_and_events_that_would_overlap_are_moved_apart(drawn, tmp_path):
