@@ -121,9 +121,7 @@ def sentence(text: str) -> str:
 def title(axes: Axes, finding: str, beside: str = '') -> None:
     """Write the finding over the whole picture, at its left, and what is to be known below it."""
     figure = axes.figure
-    figure.suptitle(
-        sentence(finding), x=0.01, ha='left', fontsize=TITLE if len(finding) < 84 else TITLE - 2
-    )
+    figure.suptitle(sentence(finding), x=0.01, ha='left', fontsize=TITLE)
     if beside:
         figure.supxlabel(beside, x=0.01, ha='left', fontsize=SMALL, color=faint())
 
@@ -319,6 +317,9 @@ def settle(figure: Any) -> None:
     """Move labels apart, once the layout is known: at line ends in height, events in rows."""
     figure.draw_without_rendering()
     renderer = figure.canvas.get_renderer()
+    for text in figure.texts:
+        wide = text.get_window_extent(renderer).width / (0.97 * figure.bbox.width)
+        text.set_fontsize(text.get_fontsize() / max(wide, 1.0))
     for axes in figure.axes:
         texts = [text for text in axes.texts if text.get_gid() == _END]
         _spread(texts, figure.dpi / 72.0, renderer)
