@@ -26,6 +26,7 @@ def plot(
     driven: Annotated[
         str, typer.Option(help='Topic of the robot; else ground_truth, pose or odom.')
     ] = '',
+    dark: Annotated[bool, typer.Option('--dark', help='Light on dark.')] = False,
 ) -> None:
     """Draw a run: where the robot was to be, where it was, and how far apart they were.
 
@@ -43,7 +44,7 @@ def plot(
 
     with opened(bag) as reader:
         run = read_run(reader, planned, driven)
-        draw(run, _told(run), output)
+        draw(run, _told(run), output, theme='dark' if dark else 'light')
         typer.echo(f'Figure: {output}')
 
 
