@@ -84,7 +84,9 @@ export class Actions {
   _outcome(outcome) {
     this.cards.get(outcome.id)?.remove(); // of who asked: from here on each robot has its own
     const title = [outcome.robot, phrase(`act ${outcome.action}`)].filter(Boolean).join(': ');
-    this._show(`${outcome.id}/${outcome.robot}`, title, outcome.state, outcome.text);
+    const done = outcome.state === 'done'; // the rest tells how to undo it by a service
+    const text = done ? outcome.text.split('; ')[0] : outcome.text;
+    this._show(`${outcome.id}/${outcome.robot}`, title, outcome.state, text);
   }
 
   /**
