@@ -31,6 +31,7 @@ DEATH_SIGNAL = 1
 
 
 def _end_with_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background job inherits deafness to it
     ctypes.CDLL(None).prctl(DEATH_SIGNAL, signal.SIGINT)
 
 

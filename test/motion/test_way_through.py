@@ -21,8 +21,8 @@ from agv_motion.planar import Pose
 ZONE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], [[[8, 5], [12, 5], [12, 9], [8, 9]]], home=[2, 2])
 NOON = 1434369600.0
 FLOW = SapFlow(0.8, 0.6, 0.4)
-GEOMETRY = {'planar', 'polyline', 'separation', 'zone'}
-"""They answer what is asked of points and lines, and know nothing of trees."""
+VALUES = {'goal', 'planar', 'polyline', 'sap_flow', 'separation', 'zone'}
+"""They answer what is asked of points, lines and values, and decide nothing."""
 
 
 def passed(act):
@@ -40,7 +40,7 @@ def passed(act):
         act()
     finally:
         sys.setprofile(None)
-    return files - GEOMETRY, calls
+    return files - VALUES, calls
 
 
 def test_flow_and_pose_pass_seven_files_to_the_twist_and_the_node_is_the_eighth():
@@ -54,7 +54,7 @@ def test_flow_and_pose_pass_seven_files_to_the_twist_and_the_node_is_the_eighth(
 
     tick(3.0)
     files, calls = passed(lambda: tick(3.01))
-    assert files == {'pilot', 'agent', 'sap_flow', 'memory', 'path_follower', 'limits', 'polar'}
+    assert files == {'pilot', 'agent', 'ground', 'memory', 'path_follower', 'limits', 'polar'}
     assert calls < 50
 
 

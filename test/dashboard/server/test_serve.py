@@ -8,6 +8,7 @@ import socket
 import ssl
 import statistics
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
@@ -62,6 +63,12 @@ async def look(server, frames, ages, delay=0.0):
                 return
 
 
+def run_apart(coroutine):
+    """Run a coroutine in a thread of its own: a browser of other tests may have a loop in ours."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, coroutine).result()
+
+
 def test_a_stalled_client_and_one_far_away_cost_a_good_one_nothing(serve, site, robots):
     """What is counted is the order of things: how old, on the board's clock, what is sent."""
     server = serve()
@@ -82,7 +89,7 @@ def test_a_stalled_client_and_one_far_away_cost_a_good_one_nothing(serve, site, 
             await look(server, 40, frames)
             await slow
 
-        asyncio.run(both())
+        run_apart(both())
         assert max(client.number for client in site.hub.clients) < 40  # they got no queue
     assert statistics.quantiles(frames, n=100)[98] <= 0.3
 
@@ -98,7 +105,7 @@ def test_a_silent_crowd_keeps_nobody_from_the_page(serve):
                     made.sendall(b'GET / HTTP/1.1\r\nHost: ')  # and no more
             crowd.append(made)
         ages: list[float] = []
-        asyncio.run(asyncio.wait_for(look(server, 1, ages), 30.0))
+        run_apart(asyncio.wait_for(look(server, 1, ages), 30.0))
         assert ages
     finally:
         for made in crowd:
@@ -128,8 +135,8 @@ def test_a_huge_message_ends_its_sender_alone(serve):
             await live.wait_closed()
             return live.close_code
 
-    assert asyncio.run(asyncio.wait_for(send(), 30.0)) == 1009
-    asyncio.run(look(server, 1, []))
+    assert run_apart(asyncio.wait_for(send(), 30.0)) == 1009
+    run_apart(look(server, 1, []))
 
 
 def test_who_floods_is_sent_away(serve):
@@ -143,7 +150,7 @@ def test_who_floods_is_sent_away(serve):
             await live.wait_closed()
             return live.close_code
 
-    assert asyncio.run(asyncio.wait_for(flood(), 30.0)) == 1008
+    assert run_apart(asyncio.wait_for(flood(), 30.0)) == 1008
 
 
 def test_a_port_that_is_taken_is_told_or_passed_over():
@@ -179,7 +186,7 @@ def test_with_a_certificate_the_page_is_served_by_tls(serve, tmp_path, monkeypat
         async with connect(url, ssl=context, origin=server.url) as live:
             return json.loads(await live.recv())['role']
 
-    assert asyncio.run(hello()) == 'expert'
+    assert run_apart(hello()) == 'expert'
 
 
 def test_a_browser_keeps_the_files_of_the_page_and_nothing_else(browser):
