@@ -20,7 +20,7 @@ from PIL import Image
 from agv_motion.bag.reader import BagReader
 from agv_motion.motion.command.polar import PLATFORM_RADIUS
 from agv_motion.motion.navigation.zone_file import load_zone
-from agv_motion.report import style
+from agv_motion.report import label_layout, style
 from agv_motion.report.walk import WalkRun, read_walk
 from agv_motion.report.walk_figure import finding
 from agv_motion.ros.config import find_config
@@ -91,7 +91,7 @@ def _draw(axes: dict[str, Any], run: WalkRun, zone: Zone, now: float) -> None:
     axes['flow'].set(title='Sap flow', xlabel='')
     axes['flow'].tick_params(labelbottom=False)
     axes['speed'].set(title='Wheels [m/min]')
-    style.settle(axes['map'].figure)
+    label_layout.settle(axes['map'].figure)
 
 
 def _draw_map(axes: Any, run: WalkRun, zone: Zone, row: int, now: float) -> None:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.unfinished import replacing
-from agv_motion.report.style import settings, settle
+from agv_motion.report.label_layout import settle
+from agv_motion.report.style import settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

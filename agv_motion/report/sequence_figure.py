@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.report import style
+from agv_motion.report import style, wording
 from agv_motion.report.figure import figure
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def finding(name: str, predicted: list[Predicted]) -> str:
     way = sum(each.length for each in predicted)
     told = f'{len(late)} will take too long' if late else 'each within its timeout'
     return (
-        f'{name}: {style.in_words(len(predicted))} actions, {way:.1f} m in '
+        f'{name}: {wording.in_words(len(predicted))} actions, {way:.1f} m in '
         f'{last.begin + last.duration:.0f} s, {told}'
     )
 

@@ -1,22 +1,23 @@
 """One hand for all figures: colours with one meaning each, sizes, labels at the lines, events.
 
-Whatever is placed over data is registered here and moved apart by `settle`, once the layout is
-known: labels at the ends of lines downwards and upwards, events into rows above the axes.
+Whatever is placed over data is moved apart by `label_layout.settle`, once the layout is known:
+labels at the ends of lines downwards and upwards, events into rows above the axes.
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
+
+from agv_motion.report.label_layout import END, EVENT, NAME, ROOMS
+from agv_motion.report.wording import sentence
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from matplotlib.axes import Axes
-    from matplotlib.text import Annotation, Text
     from numpy.typing import ArrayLike, NDArray
 
 ROBOT = '#0072B2'
@@ -42,20 +43,6 @@ MOST_POINTS = 5000
 
 INKS = {'light': ('#1A1A1A', '#6B6B6B', '#FFFFFF'), 'dark': ('#EDEDED', '#A0A0A0', '#16191D')}
 """Ink, faint ink and paper of each theme."""
-
-NUMBERS = (
-    'no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven',
-    'twelve', 'thirteen', 'fourteen', 'fifteen', 'sixteen', 'seventeen', 'eighteen', 'nineteen',
-    'twenty',
-)  # fmt: skip
-
-SETTLING = 200
-"""Steps in which labels are pushed apart."""
-
-_END, _EVENT, _NAME = 'label at the end', 'event', 'name'
-
-_ROOMS: WeakKeyDictionary[Text, list[tuple[float, float, str]]] = WeakKeyDictionary()
-"""Where each name may stand, x, y and its side, the place with most room first."""
 
 
 def settings(theme: str = 'light') -> Any:
@@ -96,28 +83,6 @@ def paper() -> Any:
     return mpl.rcParams['axes.facecolor']
 
 
-def in_words(number: float) -> str:
-    """Return a whole number as a word up to twenty, and in digits above."""
-    whole = round(number)
-    return NUMBERS[whole] if 0 <= whole < len(NUMBERS) else f'{whole}'
-
-
-def span_in_words(seconds: float) -> str:
-    """Return a length of time as people say it: "an hour", "twelve minutes"."""
-    if seconds < 90.0:
-        return f'{seconds:.0f} seconds'
-    if abs(seconds - 3600.0) < 60.0:
-        return 'an hour'
-    if seconds < 2.0 * 3600.0:
-        return f'{in_words(seconds / 60.0)} minutes'
-    return f'{in_words(seconds / 3600.0)} hours'
-
-
-def sentence(text: str) -> str:
-    """Return a finding with a capital at its beginning; nothing else is changed."""
-    return text[:1].upper() + text[1:]
-
-
 def title(axes: Axes, finding: str, beside: str = '') -> None:
     """Write the finding over the whole picture, at its left, and what is to be known below it."""
     figure = axes.figure
@@ -131,7 +96,7 @@ def line_label(axes: Axes, y: float, text: str, color: Any) -> None:
     if np.isfinite(y):
         axes.annotate(
             text, (1.0, y), xycoords=axes.get_yaxis_transform(), xytext=(5, 0),
-            textcoords='offset points', va='center', color=color, fontsize=SMALL, gid=_END,
+            textcoords='offset points', va='center', color=color, fontsize=SMALL, gid=END,
             annotation_clip=False,
         )  # fmt: skip
 
@@ -142,7 +107,7 @@ def event(axes: Axes, x: float, text: str, *, also: Iterable[Axes] = ()) -> None
         each.axvline(x, color=faint(), lw=0.8, ls=(0, (2, 2)), zorder=0.5)
     axes.annotate(
         text, (x, 1.0), xycoords=axes.get_xaxis_transform(), xytext=(0, 4), fontsize=SMALL,
-        textcoords='offset points', va='bottom', ha='left', gid=_EVENT, annotation_clip=False,
+        textcoords='offset points', va='bottom', ha='left', gid=EVENT, annotation_clip=False,
     )  # fmt: skip
 
 
@@ -238,10 +203,10 @@ def name_near(  # noqa: PLR0913, PLR0917 - a word on a map
     first = around[order[0]].tolist()
     text = axes.text(
         first[0], first[1], name, color=color, fontweight='bold', fontsize=SMALL, va='center',
-        ha='center', zorder=7, gid=_NAME,
+        ha='center', zorder=7, gid=NAME,
         bbox={'facecolor': paper(), 'edgecolor': 'none', 'alpha': 0.7, 'pad': 0.6},
     )  # fmt: skip
-    _ROOMS[text] = [(*around[i].tolist(), _side(float(ways[i, 0]))) for i in order]
+    ROOMS[text] = [(*around[i].tolist(), _side(float(ways[i, 0]))) for i in order]
     taken.append(np.array(first))
 
 
@@ -311,60 +276,3 @@ def thinned(time: ArrayLike, values: ArrayLike) -> tuple[Any, Any]:
             picked |= {begin + int(np.nanargmin(part)), begin + int(np.nanargmax(part))}
     kept = np.array(sorted(picked))
     return x[kept], y[kept]
-
-
-def settle(figure: Any) -> None:
-    """Move labels apart, once the layout is known: at line ends in height, events in rows."""
-    figure.draw_without_rendering()
-    renderer = figure.canvas.get_renderer()
-    for text in figure.texts:
-        wide = text.get_window_extent(renderer).width / (0.97 * figure.bbox.width)
-        text.set_fontsize(text.get_fontsize() / max(wide, 1.0))
-    for axes in figure.axes:
-        texts = [text for text in axes.texts if text.get_gid() == _END]
-        _spread(texts, figure.dpi / 72.0, renderer)
-        for name in [text for text in axes.texts if text.get_gid() == _NAME]:
-            _find_room(name, axes, renderer)
-        _stack([text for text in axes.texts if text.get_gid() == _EVENT], figure, renderer)
-
-
-def _find_room(name: Text, axes: Axes, renderer: Any) -> None:
-    """Move a name to the first of its places that is inside the axes and on no other text."""
-    others = [
-        text.get_window_extent(renderer).expanded(1.1, 1.1)
-        for text in axes.texts
-        if text is not name
-    ]
-    for x, y, side in _ROOMS[name]:
-        name.set(x=x, y=y, ha=side)
-        box = name.get_window_extent(renderer)
-        inside = axes.bbox.x0 < box.x0 and box.x1 < axes.bbox.x1
-        inside = inside and axes.bbox.y0 < box.y0 and box.y1 < axes.bbox.y1
-        if inside and not box.count_overlaps(others):
-            return
-
-
-def _spread(texts: list[Annotation], pixels: float, renderer: Any) -> None:
-    """Push labels that overlap apart, half a step each, in their order."""
-    boxes = [text.get_window_extent(renderer) for text in texts]
-    order = sorted(range(len(texts)), key=lambda i: boxes[i].y0)
-    low = np.array([boxes[i].y0 for i in order])
-    for _ in range(SETTLING):
-        for i in range(1, len(low)):
-            over = low[i - 1] + boxes[order[i - 1]].height + 2.0 - low[i]
-            if over > 0.0:
-                low[i - 1 : i + 1] += (-0.5 * over, 0.5 * over)
-    for i, place in zip(order, low, strict=True):
-        texts[i].xyann = (texts[i].xyann[0], (place - boxes[i].y0) / pixels)
-
-
-def _stack(texts: list[Annotation], figure: Any, renderer: Any) -> None:
-    """Move events that overlap into the row above, and into the figure if they reach beyond."""
-    rows: list[float] = []
-    pixels = figure.dpi / 72.0
-    for text in sorted(texts, key=lambda text: text.xy[0]):
-        box = text.get_window_extent(renderer)
-        over = max(box.x1 - (figure.bbox.x1 - 8.0), 0.0)
-        row = next((i for i, end in enumerate(rows) if end + 6.0 < box.x0 - over), len(rows))
-        rows[row : row + 1] = [box.x1 - over]
-        text.xyann = (-over / pixels, 4.0 + row * (SMALL + 3.0))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.motion.command.polar import PLATFORM_RADIUS
-from agv_motion.report import style
+from agv_motion.report import style, wording
 from agv_motion.report.figure import figure
 
 if TYPE_CHECKING:
@@ -73,14 +73,14 @@ def finding(run: WalkRun, zone: Zone, rim: float, days: float = 0.0) -> str:
     if not len(run.path):
         return 'Nothing was recorded of the walk'
     said = [
-        f'{style.in_words(run.distance())} metres in {style.span_in_words(run.path[-1, 0])}'
-        + (f' that played {style.in_words(days)} days' if days else ''),
+        f'{wording.in_words(run.distance())} metres in {wording.span_in_words(run.path[-1, 0])}'
+        + (f' that played {wording.in_words(days)} days' if days else ''),
         *([] if days else towards(run)),
     ]
     near = run.nearest_edge(zone, rim)
     inside = f'never nearer than {near:.1f} m to the edge'
     said.append(inside if near > 0.0 else f'{-near:.1f} m over the edge at worst')
-    return style.sentence(', '.join(said))
+    return wording.sentence(', '.join(said))
 
 
 def towards(run: WalkRun) -> list[str]:

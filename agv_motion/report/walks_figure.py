@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.report import style
+from agv_motion.report import style, wording
 from agv_motion.report.figure import figure
 from agv_motion.report.walks import DOINGS, RecordedWalk, gaps
 
@@ -34,12 +34,12 @@ def finding(walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> str:
     walked = sum(walk.distance() for walk in walks)
     seconds = max(float(walk.time[-1]) for walk in walks)
     said = (
-        f'{style.in_words(len(walks))} trees walk {style.in_words(walked)} metres in '
-        f'{style.span_in_words(seconds)}'
+        f'{wording.in_words(len(walks))} trees walk {wording.in_words(walked)} metres in '
+        f'{wording.span_in_words(seconds)}'
     )
     _, between = gaps(walks, traffic.body)
     near = min((float(gap.min()) for gap in between.values() if len(gap)), default=np.inf)
-    return style.sentence(
+    return wording.sentence(
         said if np.isinf(near) else f'{said}, never nearer than {near:.1f} m to each other'
     )
 

@@ -17,7 +17,7 @@ pytest.importorskip('matplotlib')
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.planar import Pose
-from agv_motion.report import errors_between, style
+from agv_motion.report import errors_between, label_layout, style
 from agv_motion.report.figure import figure
 from agv_motion.report.localization import LocalizationRun
 from agv_motion.report.localization_figure import carried
@@ -86,7 +86,7 @@ def drawn(monkeypatch):
         each.draw_without_rendering()
         figures.append((each, texts_of(each)))
 
-    settle = style.settle
+    settle = label_layout.settle
     monkeypatch.setattr(import_module('agv_motion.report.figure'), 'settle', settled)
     return figures
 
