@@ -13,6 +13,10 @@ NODES = sorted(
     if '\ndef main()' in path.read_text(encoding='utf-8')
 )
 
+ROS = ['ros-jazzy-common-interfaces', 'ros-jazzy-rclpy', 'ros-jazzy-rmw-fastrtps-cpp']
+DASHBOARD = ['argon2-cffi>=23', 'starlette>=0.40', 'uvicorn>=0.35', 'websockets>=13']
+PLOT = ['matplotlib>=3.8']
+
 
 def files(folder: str, pattern: str) -> list[str]:
     """Return the files of a folder as data_files wants them: relative to this one."""
@@ -40,7 +44,18 @@ setup(
     name=NAME,
     version='0.1.0',
     description='Motion of slow, sensor-driven robots on ROS 2: probes, twist, turrets, one ICR',
+    long_description=(HERE / 'README.md').read_text(encoding='utf-8'),
+    long_description_content_type='text/markdown',
     license='Apache-2.0',
+    keywords=['ROS 2', 'robotics', 'kinematics', 'swerve', 'sap flow', 'rosbag', 'MCAP'],
+    classifiers=[
+        'Development Status :: 4 - Beta',
+        'Intended Audience :: Developers',
+        'Intended Audience :: Science/Research',
+        'Operating System :: POSIX :: Linux',
+        'Programming Language :: Python :: 3',
+        'Topic :: Scientific/Engineering',
+    ],
     packages=find_packages(include=[NAME, f'{NAME}.*']),
     package_data={NAME: ['dashboard/static/**']},
     python_requires='>=3.10',
@@ -59,22 +74,16 @@ setup(
     ],
     extras_require={
         # ROS 2 Jazzy itself, for a machine without a ROS installation
-        'ros': [
-            'ros-jazzy-common-interfaces',
-            'ros-jazzy-rclpy',
-            'ros-jazzy-rmw-fastrtps-cpp',
-        ],
+        'ros': ROS,
         # the operator's page
-        'dashboard': [
-            'argon2-cffi>=23',
-            'starlette>=0.40',
-            'uvicorn>=0.35',
-            'websockets>=13',
-        ],
+        'dashboard': DASHBOARD,
         'parquet': ['pyarrow>=14'],
-        'plot': ['matplotlib>=3.8'],
+        'plot': PLOT,
+        # all that `agv demo` wants on a machine without a ROS installation
+        'demo': [*ROS, *DASHBOARD, *PLOT],
         'test': [
-            'argon2-cffi>=23',
+            *DASHBOARD,
+            *PLOT,
             'axe-playwright-python>=0.1',
             'catkin_pkg',
             'colcon-common-extensions',
@@ -82,7 +91,6 @@ setup(
             'distributed>=2024.5',
             'httpx>=0.27',
             'hypothesis>=6.100',
-            'matplotlib>=3.8',
             'mcap>=1.1',
             'mcap-ros2-support>=0.5',
             'mpmath>=1.3',
@@ -95,11 +103,8 @@ setup(
             'pytest-timeout>=2.3',
             'pytest-xdist>=3.7',
             'ruff>=0.12',
-            'starlette>=0.40',
             'types-pyserial',
             'types-pyyaml',
-            'uvicorn>=0.35',
-            'websockets>=13',
         ],
         'benchmark': [
             'foxglove-sdk>=0.14',
