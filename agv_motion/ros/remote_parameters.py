@@ -41,6 +41,12 @@ class RemoteParameters:
     def _call(self, kind: type[Any], service: str, request: Any) -> Any:
         return call(self._node, kind, f'{self._name}/{service}', request, self._patience)
 
+    def _whole(self, answers: list[Any], names: Sequence[str]) -> list[Any]:
+        """Return the answers if there is one for each name; a node leaves out all else."""
+        if len(answers) != len(names):
+            self._require(names)
+        return answers
+
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
         """Return the names, in order; with ``prefixes`` those below one of them."""
         request = ListParameters.Request(prefixes=list(prefixes))
@@ -53,11 +59,10 @@ class RemoteParameters:
             ConfigurationError: There is one that the node has not.
 
         """
-        request = GetParameters.Request(names=list(names))
-        values = list(self._call(GetParameters, 'get_parameters', request).values)
-        if len(values) != len(names):
-            self._require(names)
-        return values
+        answer = self._call(
+            GetParameters, 'get_parameters', GetParameters.Request(names=list(names))
+        )
+        return self._whole(list(answer.values), names)
 
     def descriptors(self, names: Sequence[str]) -> list[ParameterDescriptor]:
         """Return the descriptors of parameters.
@@ -66,11 +71,10 @@ class RemoteParameters:
             ConfigurationError: There is one that the node has not.
 
         """
-        request = DescribeParameters.Request(names=list(names))
-        found = list(self._call(DescribeParameters, 'describe_parameters', request).descriptors)
-        if len(found) != len(names):
-            self._require(names)
-        return found
+        answer = self._call(
+            DescribeParameters, 'describe_parameters', DescribeParameters.Request(names=list(names))
+        )
+        return self._whole(list(answer.descriptors), names)
 
     def set(self, values: Mapping[str, ParameterValue]) -> list[SetParametersResult]:
         """Set parameters one after the other; return of each whether it was taken, or why not."""

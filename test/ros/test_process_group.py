@@ -100,3 +100,16 @@ def test_they_end_when_whoever_started_them_is_killed():
     assert select.select([watch], [], [], 30.0)[0]  # readable once it has ended
     os.close(watch)
     assert parent.returncode == -signal.SIGKILL
+
+
+def test_they_hear_ctrl_c_though_a_script_has_made_us_deaf_to_it():
+    """What a shell starts in the background ignores SIGINT, and would hand that on."""
+    shown = []
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        ProcessGroup({'a': shell(FOR_EVER)}, shown.append, respawn=False).run(
+            lambda: '[a] up' in shown
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert shown == ['[a] up', '[a] zero']

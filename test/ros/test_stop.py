@@ -55,7 +55,7 @@ def slow_import(tmp_path):
     package = tmp_path / 'rclpy'
     package.mkdir()
     (package / '__init__.py').write_text(
-        "import time\nprint('importing', flush=True)\ntime.sleep(1e6)\n"
+        "import threading\nprint('importing', flush=True)\nthreading.Event().wait()\n"
     )
     return tmp_path
 
