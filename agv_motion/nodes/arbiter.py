@@ -194,8 +194,7 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         # after a rest, or a hiccup, no more time counts than has passed in one step, or two
         longest = self._period if self._limits.twist == REST else 2.0 * self._period
         dt = min(max(now - self._commanded_at, 0.0), longest)
-        self._commanded_at = now
-        self._publish(self._limits.apply(choice.twist, dt))
+        self._commanded_at = self._publish(self._limits.apply(choice.twist, dt))
         if self._is_new(choice):
             self._told = _matter(choice)
             self._report.publish(diagnosis(choice))

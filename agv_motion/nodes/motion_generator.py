@@ -282,10 +282,10 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         return self._motion
 
     def _publish(self, limited: Limited, doing: Doing) -> None:
-        # when it is said, not when the decision began: by their stamps the rates hold
-        self._limited_by, self._commanded_at = limited.by, self.port.seconds()
+        self._limited_by = limited.by
         self._twist = to_twist(limited.command, self.parameters.linear_speed, self._rim)
-        self._command(self._twist)
+        # when it is said, not when the decision began: by their stamps the rates hold
+        self._commanded_at = self._command(self._twist)
         if 'translation only' in limited.by:
             doing = doing._replace(state=f'{doing.state}; not turning: delicate floor')
         self._report.publish_state(doing)

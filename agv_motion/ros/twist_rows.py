@@ -50,8 +50,11 @@ class TwistRows:
         return twist_of(message.twist)
 
 
-def twist_publisher(port: Port, frame: str, *, stamped: bool) -> Callable[[Twist], None]:
-    """Open `cmd_vel`, and return what commands a twist from now on.
+def twist_publisher(port: Port, frame: str, *, stamped: bool) -> Callable[[Twist], float]:
+    """Open `cmd_vel`, and return what commands a twist and returns the instant of it [s].
+
+    The instant is that of the stamp: who limits rates counts from it, so that they hold by stamps
+    whatever else the machine does in between.
 
     Args:
         port: Of the node that commands.
@@ -66,17 +69,21 @@ def twist_publisher(port: Port, frame: str, *, stamped: bool) -> Callable[[Twist
         port.nanoseconds,
     )
 
-    def command(twist: Twist) -> None:
-        publish(twist, now())
+    def command(twist: Twist) -> float:
+        instant = now()
+        publish(twist, instant)
+        return instant * 1e-9
 
     return command
 
 
-def _plain_publisher(port: Port) -> Callable[[Twist], None]:
+def _plain_publisher(port: Port) -> Callable[[Twist], float]:
     message, topic = TwistMessage(), port.publisher(TwistMessage, 'cmd_vel', COMMAND)
 
-    def command(twist: Twist) -> None:
+    def command(twist: Twist) -> float:
         fill_twist(message, twist)
+        instant = port.seconds()
         topic.publish(message)
+        return instant
 
     return command
