@@ -77,7 +77,8 @@ def test_of_the_arbiter():
 
 def test_of_the_motion_generator():
     """The rate is of v, and v = 1 is one metre a minute."""
-    rates = Rates(MotionGenerator, **{'limits.v_rate': 0.5, 'goals.strategy': 'fixed', 'goal': (8.0, 5.0)})
+    given = {'limits.v_rate': 0.5, 'goals.strategy': 'fixed', 'goal': (8.0, 5.0)}
+    rates = Rates(MotionGenerator, **given)
     for i in range(25):
         pose, flow = PoseWithCovarianceStamped(), Vector3Stamped()
         pose.header.frame_id = 'map'
