@@ -7,6 +7,12 @@ sends may be of any length: messages quote no more than `QUOTED` characters of i
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from typing_extensions import Self
 
 QUOTED = 200
 """Characters after which a quotation ends."""
@@ -44,6 +50,25 @@ class AgvMotionError(Exception):
     """Where the message may quote a file: the same without a word of it."""
     file = ''
     """the file"""
+
+    @classmethod
+    def at(cls, where: tuple[Path | str, int, int], reason: str, unquoted: str) -> Self:
+        """Return what is wrong at a place of a file.
+
+        Args:
+            where: File, line and column.
+            reason: May quote the file: for who can read it anyway.
+            unquoted: The same without a word of the file: for who asks over the network.
+
+        """
+        error = cls(f'{place(*where)}: {reason}')
+        error.unquoted, error.file = f'{place(*where)}: {unquoted}', str(where[0])
+        return error
+
+
+def place(path: Path | str, line: int, column: int) -> str:
+    """Return file, line and column, counted from 1 as editors do."""
+    return f'{path}, line {line}, column {column}'
 
 
 class GeometryError(AgvMotionError, ValueError):

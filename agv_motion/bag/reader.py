@@ -10,10 +10,9 @@ from __future__ import annotations
 from difflib import get_close_matches
 from functools import cached_property
 from heapq import merge
-from operator import index
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, SupportsIndex, final
+from typing import TYPE_CHECKING, final
 
 from agv_motion.bag.bag_files import find, unpack_file
 from agv_motion.bag.columns.message_batches import unpack_message
@@ -21,6 +20,7 @@ from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.file_kind import MCAP, SQLITE, ZSTD, kind
 from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.metadata import FILE_NAME
+from agv_motion.bag.request import listed, span_of
 from agv_motion.bag.sqlite.file import SqliteFile
 from agv_motion.errors import ConfigurationError, SourceError
 
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.storage import Storage
-
-FOREVER = 2**64
 
 
 @final
@@ -203,38 +201,6 @@ class BagReader:
             if self.messages_compressed:
                 stream = (unpack_message(message, self.path) for message in stream)
             yield from stream
-
-
-def listed(names: str | Iterable[str]) -> list[str]:
-    """Return names as a list; one name alone is a list of one."""
-    return [names] if isinstance(names, str) else list(names)
-
-
-def whole(name: str, time: object) -> int:
-    """Return a time that somebody gave [ns].
-
-    Raises:
-        ConfigurationError: It is no whole number.
-
-    """
-    if isinstance(time, SupportsIndex) and not isinstance(time, bool):
-        return index(time)
-    msg = (
-        f'{name} = {time!r}: give whole nanoseconds since 1970 (an int), such as '
-        'bag.start + 5 * 10**9, five seconds after the beginning'
-    )
-    raise ConfigurationError(msg)
-
-
-def span_of(start: int | None, stop: int | None) -> tuple[int, int]:
-    """Return the first log time, and that before which to stop [ns]; None means no limit.
-
-    Raises:
-        ConfigurationError: One is no whole number.
-
-    """
-    begin = 0 if start is None else max(whole('start', start), 0)
-    return begin, FOREVER if stop is None else max(whole('stop', stop), 0)
 
 
 def _overlapping(files: list[Storage]) -> Iterator[list[Storage]]:

@@ -6,8 +6,7 @@ from math import isfinite
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from agv_motion.errors import ConfigurationError
-from agv_motion.files import text
+from agv_motion.errors import ConfigurationError, place
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,7 +51,7 @@ class Marked:
     @property
     def where(self) -> str:
         """File, line and column, counted from 1 as editors do."""
-        return text.place(self.path, self.line, self.column)
+        return place(self.path, self.line, self.column)
 
     def refuse(
         self,
@@ -61,7 +60,7 @@ class Marked:
         kind: type[AgvMotionError] = ConfigurationError,
     ) -> NoReturn:
         """Raise an error that says where; ``unquoted`` is what may be said over the network."""
-        text.refuse((self.path, self.line, self.column), reason, unquoted, kind)
+        raise kind.at((self.path, self.line, self.column), reason, unquoted)
 
     def mapping(self, what: str) -> dict[str, tuple[Marked, Marked]]:
         """Return the keys of a mapping, each with itself and its value.

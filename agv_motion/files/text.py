@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import os
 import stat
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from agv_motion.errors import ConfigurationError
 
@@ -56,35 +56,10 @@ def as_kind(error: AgvMotionError, kind: type[E]) -> E:
     return other
 
 
-def place(path: Path | str, line: int, column: int) -> str:
-    """Return file, line and column, counted from 1 as editors do."""
-    return f'{path}, line {line}, column {column}'
-
-
-def refuse(
-    where: tuple[Path | str, int, int],
-    reason: str,
-    unquoted: str,
-    kind: type[AgvMotionError] = ConfigurationError,
-) -> NoReturn:
-    """Raise what is wrong with a file.
-
-    Args:
-        where: File, line and column.
-        reason: May quote the file: for who can read it anyway.
-        unquoted: The same without a word of the file: for who asks over the network.
-        kind: Class of the error.
-
-    """
-    error = kind(f'{place(*where)}: {reason}')
-    error.unquoted, error.file = f'{place(*where)}: {unquoted}', str(where[0])
-    raise error
-
-
 def _decoded(path: Path, data: bytes) -> str:
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         reason = 'it is UTF-16: save it as UTF-8'
-        refuse((path, 1, 1), reason, reason)
+        raise ConfigurationError.at((path, 1, 1), reason, reason)
     data = data.removeprefix(codecs.BOM_UTF8)
     try:
         text = data.decode()
@@ -92,5 +67,6 @@ def _decoded(path: Path, data: bytes) -> str:
         lines = data[: error.start].split(b'\n')
         where = path, len(lines), len(lines[-1].decode(errors='replace')) + 1
         reason = 'no UTF-8: save the file as UTF-8'
-        refuse(where, f'byte 0x{data[error.start]:02x} is {reason}', reason)
+        finding = f'byte 0x{data[error.start]:02x} is {reason}'
+        raise ConfigurationError.at(where, finding, reason) from error
     return text.replace('\r\n', '\n').replace('\r', '\n')

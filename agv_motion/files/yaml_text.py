@@ -69,7 +69,7 @@ def parse(text: str, path: Path | str, values: int = VALUES) -> Marked | None:
         before = text[: wrong.start()].split('\n')
         where = path, len(before), len(before[-1]) + 1
         reason = f'no YAML: a control character (0x{ord(wrong[0]):02x})'
-        files.refuse(where, reason, reason)
+        raise ConfigurationError.at(where, reason, reason)
     try:
         return _Tree(path, values).built(yaml.parse(text, Loader=_LOADER))
     except yaml.MarkedYAMLError as error:
@@ -81,7 +81,7 @@ def parse(text: str, path: Path | str, values: int = VALUES) -> Marked | None:
             and text.split('\n')[line][column : column + 1] == '\t'
         ):
             reason = 'no YAML: a tab stands here; indent by blanks'
-        files.refuse((path, line + 1, column + 1), reason, 'no YAML')
+        raise ConfigurationError.at((path, line + 1, column + 1), reason, 'no YAML') from error
 
 
 class _Open:

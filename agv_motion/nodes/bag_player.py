@@ -22,9 +22,9 @@ from agv_motion.parameters import Spec
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.endpoints import message_class, offering
 from agv_motion.ros.messages import stamp_of
-from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.run import run
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 
 def available() -> list[str]:

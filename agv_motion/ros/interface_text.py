@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.cdr.definitions import PRIMITIVES, interface_file, search_path
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,7 +6,6 @@ of another name is passed over without a word.
 
 from __future__ import annotations
 
-import difflib
 import re
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 from agv_motion.files.text import read
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,12 +22,6 @@ if TYPE_CHECKING:
 VALUES = 'ros__parameters'
 SINGLE = '-p', '--param'
 FILE = ('--params-file',)
-
-
-def meant(name: str, choices: Sequence[str]) -> str:
-    """Return a question for what may have been meant, or nothing."""
-    close = difflib.get_close_matches(name, choices, n=1)
-    return f"; did you mean '{close[0]}'?" if close else ''
 
 
 def check_arguments(arguments: Sequence[str]) -> None:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from agv_motion.errors import ConfigurationError
 from agv_motion.files.marked import quoted
 from agv_motion.parameters import moved, nested, rows
-from agv_motion.ros.parameter_arguments import meant, sections
+from agv_motion.ros.parameter_arguments import sections
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from pathlib import Path

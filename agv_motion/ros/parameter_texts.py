@@ -9,7 +9,8 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.parameter import get_parameter_value, parameter_value_to_python
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import VALUES, is_for, meant, sections
+from agv_motion.ros.parameter_arguments import VALUES, is_for, sections
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -17,10 +17,10 @@ from agv_motion.kinematics.differential_platform import DifferentialBaseParamete
 from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.parameters import moved, nested, rows
-from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.parameter_changes import empty_array
 from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

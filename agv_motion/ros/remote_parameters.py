@@ -8,8 +8,8 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
 from agv_motion.ros.remote_services import PATIENCE, call
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

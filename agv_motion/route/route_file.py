@@ -6,7 +6,7 @@ import re
 from math import isfinite, nan
 from pathlib import Path
 
-from agv_motion.errors import GeometryError
+from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.files import text, yaml_text
 from agv_motion.files.marked import quoted
 from agv_motion.route.route import Route
@@ -40,7 +40,7 @@ def load_route(path: str | Path, laps: int = 1) -> Route:
     try:
         return Route(points, laps)
     except GeometryError as error:
-        text.refuse((path, 1, 1), str(error), str(error))
+        raise ConfigurationError.at((path, 1, 1), str(error), str(error)) from error
 
 
 def _from_yaml(path: Path, laps: int) -> tuple[list[tuple[float, float]], int]:
@@ -72,7 +72,7 @@ def _from_csv(path: Path, content: str) -> list[tuple[float, float]]:
         if columns is None and len(fields) != 2:
             reason = 'no pair; name the columns x and y'
             where = (path, number, fields[-1][1])
-            text.refuse(where, f'{quoted(line.strip())} is {reason}', reason)
+            raise ConfigurationError.at(where, f'{quoted(line.strip())} is {reason}', reason)
         columns = columns or (0, 1)
         points.append(_point(path, number, line, fields, columns))
     return points
@@ -93,7 +93,8 @@ def _point(
         value = float(word) if _NUMBER.fullmatch(word) else nan
         if not isfinite(value):
             reason = 'gives no x and y in metres: both must be finite numbers'
-            text.refuse((path, number, at), f'{quoted(line.strip())} {reason}', reason)
+            finding = f'{quoted(line.strip())} {reason}'
+            raise ConfigurationError.at((path, number, at), finding, reason)
         values.append(value)
     return values[0], values[1]
 

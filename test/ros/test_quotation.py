@@ -7,15 +7,12 @@ import pytest
 pytest.importorskip('rclpy')
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.files import text
 from agv_motion.ros.config import config_folders
 from agv_motion.ros.quotation import told
 
 
 def refused(path):
-    with pytest.raises(ConfigurationError) as caught:
-        text.refuse((path, 1, 2), "'secret' is no pair", 'no pair')
-    return caught.value
+    return ConfigurationError.at((path, 1, 2), "'secret' is no pair", 'no pair')
 
 
 def test_a_file_is_quoted_only_to_who_named_it_at_the_start(tmp_path):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.bag.reader import listed
+from agv_motion.bag.request import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -17,7 +17,7 @@ import numpy as np
 from agv_motion.bag.columns import tables
 from agv_motion.bag.columns.column import Column, Ragged, Texts
 from agv_motion.bag.columns.topic_decoder import TopicDecoder
-from agv_motion.bag.reader import listed, span_of, whole
+from agv_motion.bag.request import listed, span_of, whole
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.cli.graph.discovery import DISCOVERY, settle
 from agv_motion.cli.graph.session import joined
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

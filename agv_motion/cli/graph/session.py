@@ -12,7 +12,7 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY, settle
 from agv_motion.cli.graph.participants import missing
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -11,7 +11,7 @@ from agv_motion.cli.graph.nodes import joined_to, lifecycle_nodes
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime
 from agv_motion.cli.graph.session import joined
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -12,8 +12,9 @@ import yaml
 
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import VALUES, meant
+from agv_motion.ros.parameter_arguments import VALUES
 from agv_motion.ros.robot_graphs import ROBOTS, GraphNode, RobotGraph
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

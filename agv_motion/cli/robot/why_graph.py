@@ -11,7 +11,7 @@ from agv_motion.errors import SourceError
 from agv_motion.explanation import Evidence, Explainer
 from agv_motion.explanation.decision import DECIDERS
 from agv_motion.explanation.wheels import DRIVERS
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from agv_motion.explanation import Chain

@@ -13,7 +13,7 @@ from agv_motion.cli.graph.session import full_name, interface_class, joined, ser
 from agv_motion.cli.topic.message_text import fill
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 
 def call(

@@ -11,7 +11,7 @@ from agv_motion.cli.graph.options import HiddenServices, NoDaemon, SimTime, Spin
 from agv_motion.cli.graph.session import joined, services
 from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 Service = Annotated[str, typer.Argument(help="Name of the service, such as '/sequence/start'.")]
 Count = Annotated[bool, typer.Option('-c', '--count-services', help='Only their number.')]

@@ -12,7 +12,7 @@ import yaml
 
 from agv_motion.cli.graph.session import interface_class
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import meant
+from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Callable

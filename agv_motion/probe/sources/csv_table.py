@@ -53,7 +53,7 @@ class _LeftOut:
             msg = f'{self._path} has no row with a time: give at least one'
             raise SourceError(msg)
         line, column, reason, unquoted = self._faults[0]
-        text.refuse((self._path, line, column), reason, unquoted, SourceError)
+        raise SourceError.at((self._path, line, column), reason, unquoted)
 
     def told(self) -> str:
         """Return how many there are, and the first few lines, without a word of the file."""
@@ -94,7 +94,7 @@ def read_table(path: Path, time_column: str, names: Sequence[str]) -> CsvTable:
     other = second_reading(row.cells[time_index].strip() for row in kept)
     if other:
         wrong = f"column '{time_column}' may be {other}"
-        text.refuse((path, kept[0].line, 1), wrong, f'the times may be {other}', SourceError)
+        raise SourceError.at((path, kept[0].line, 1), wrong, f'the times may be {other}')
     columns, unreadable = {}, 0
     for name in set(names):
         index = header.index(name)
@@ -142,10 +142,10 @@ def _header(path: Path, row: Row, names: Sequence[str]) -> list[str]:
         if name not in header:
             missing = f"no column '{name}'"
             has = f'{missing}: it has {", ".join(header):.200}'
-            text.refuse((path, row.line, 1), has, missing)
+            raise ConfigurationError.at((path, row.line, 1), has, missing)
         if header.count(name) > 1:
             twice = f"column '{name}' is there {header.count(name)} times: give each its own name"
-            text.refuse((path, row.line, 1), twice, twice)
+            raise ConfigurationError.at((path, row.line, 1), twice, twice)
     return header
 
 
