@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[1] / 'agv_motion'
 CORE = (
     'probe', 'motion', 'kinematics', 'odometry', 'trajectory', 'route', 'sequence', 'simulation',
-    'bag', 'files', 'arbitration', 'explanation',
+    'bag', 'files', 'arbitration', 'explanation', 'model',
 )  # fmt: skip
 ROS = ('rclpy', 'rcl_interfaces', 'lifecycle_msgs', '_msgs', 'ament', 'std_srvs')
 LAYERS = {
@@ -19,7 +19,7 @@ LAYERS = {
     'clock_watch': 1, 'activity': 1, 'twist_limits': 2, 'blocked': 2,
     'files': 1, 'arbitration': 2,
     'kinematics': 2, 'probe': 2, 'odometry': 3, 'trajectory': 3, 'route': 3, 'motion': 3,
-    'sequence': 4, 'simulation': 4, 'explanation': 4,
+    'model': 3, 'sequence': 4, 'simulation': 4, 'explanation': 4,
     'bag': 4, 'dashboard': 5, 'ros': 5, 'nodes': 6, 'report': 6,
     'reprocess': 7, 'demo': 7, 'cli': 8,
 }  # fmt: skip

@@ -22,6 +22,13 @@ PRIMITIVES = {
     *('bool', 'byte', 'char', 'float32', 'float64', 'string', 'wstring'),
     *('int8', 'uint8', 'int16', 'uint16', 'int32', 'uint32', 'int64', 'uint64'),
 }
+WITHOUT_PACKAGE = {
+    'tf2_msgs/TFMessage': (
+        'geometry_msgs/TransformStamped[] transforms\n',
+        'RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087',
+    ),
+}
+"""Types that are written though their package has no wheel: text and hash, as Jazzy has them."""
 _FIELD_TYPE = re.compile(r'[ \t]*([A-Za-z][\w/]*)(?:<=\d+)?(?:\[[^\]]*\])?[ \t]+[A-Za-z]')
 _HEADER_FIRST = re.compile(r'(?:[ \t]*(?:#.*)?\n)*[ \t]*std_msgs/(?:msg/)?Header[ \t]+header\b')
 _TYPE_NAME = re.compile(r'([A-Za-z]\w*)/(?:(?:msg|srv|action)/)?([A-Za-z]\w*)')
@@ -103,6 +110,8 @@ def _text(package: str, name: str, *, for_type: str) -> str:
         parts = dict(sections(f'{package}/{owner}', text.splitlines()))
         lines = parts[full] if full in parts else following(full).splitlines()
         return '\n'.join([*lines, ''])
+    if full in WITHOUT_PACKAGE:
+        return WITHOUT_PACKAGE[full][0]
     prefixes = ', '.join(map(str, search_path()))
     msg = (
         f'no {package}/msg/{name}.msg (for {for_type}) under {prefixes}: install {package}, or '
@@ -122,6 +131,8 @@ def _hash(message_type: str) -> str:
     folders = (('msg', name), *((folder, base(name)) for folder in SECTIONS))
     found = (interface_file(package, folder, f'{file}.json') for folder, file in folders)
     path = next(filter(None, found), None)
+    if path is None and f'{package}/{name}' in WITHOUT_PACKAGE:
+        return WITHOUT_PACKAGE[f'{package}/{name}'][1]
     if path is None:
         return ''  # older distributions install no hash; rosbag2 writes '' as well
     try:
