@@ -27,6 +27,11 @@ SOON = 1e-3
 GEAR = 10.0
 """[-] A clock whose speed seems to rise by more than that at one look is taken to have leapt."""
 
+WAITING = 'no time has come on /clock yet'
+"""The one fault that is none yet: a simulation takes its time to begin"""
+
+WENT_BACK = 'the clock went back to zero'
+
 
 class ClockWatch:
     """Looks at a clock several times a second, and tells what is wrong with it.
@@ -46,6 +51,7 @@ class ClockWatch:
         """What is wrong with the clock, in words; empty if it can be believed"""
         self.speed = 1.0
         """[-] Seconds of the clock per second, and no less than 1"""
+        self._begun = False
         self._time: float | None = None
         self._moved_at = 0.0
         self._calm_from = self._told_until = -inf
@@ -62,9 +68,9 @@ class ClockWatch:
         if time <= 0.0:
             self._time = None
             self._speeds.clear()
-            self.fault, self._calm_from = 'no time has come on /clock yet', inf
+            self.fault, self._calm_from = WENT_BACK if self._begun else WAITING, inf
         elif self._time is None:
-            self._time, self._moved_at = time, steady
+            self._begun, self._time, self._moved_at = True, time, steady
             if self._calm_from == inf:  # how fast it runs, the next look will tell
                 self._calm_from = steady + SOON
         else:

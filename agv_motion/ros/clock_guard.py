@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Any, Protocol
 
-from agv_motion.clock_watch import STANDS_AFTER, ClockWatch
+from agv_motion.clock_watch import STANDS_AFTER, WAITING, ClockWatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,8 +25,9 @@ CLOCK_TOPIC = '/clock'
 SELDOM = 5.0
 """[s] between two words in the log on what is wrong with the clock."""
 
-PATIENCE = 2.0
-"""[s] for which a node that has just begun waits for the first /clock without a word."""
+WAITS = 100
+"""Number of looks for which a node waits for the first /clock without a word: 10 s, and longer where
+it does not come to look, since then others may not come to publish either."""
 
 
 class Timed(Protocol):
@@ -45,8 +46,12 @@ class Timed(Protocol):
         """What logs that all is well again."""
 
     @property
+    def warning(self) -> Callable[..., Any]:
+        """What logs that it may be waited for in vain."""
+
+    @property
     def error(self) -> Callable[..., Any]:
-        """What logs that something is not."""
+        """What logs that something is not well."""
 
 
 class ClockGuard:
@@ -59,7 +64,7 @@ class ClockGuard:
         self._inputs: list[Watchdog] = []
         self._acts: list[Callable[[], None]] = []
         self._ran_at, self._longest_nap = port.steady_seconds(), inf
-        self._told, self._told_at = False, port.steady_seconds() + PATIENCE - SELDOM
+        self._told, self._told_at, self._waited = False, -inf, 0
 
     def add(self, watchdog: Watchdog) -> None:
         """Take an input for lost until it comes again, whenever the clock has a fault.
@@ -109,9 +114,14 @@ class ClockGuard:
             act()
 
     def _tell(self, steady: float) -> None:
-        """Log that a fault has begun or ended."""
+        """Log that a fault has begun or ended; to wait for the first time is none."""
         fault, port = self.watch.fault, self._port
-        if fault and not self._told and steady - self._told_at >= SELDOM:
+        if fault == WAITING:
+            self._waited += 1
+            if self._waited == WAITS:
+                self._told = True
+                port.warning(f'{fault}: waiting for it; does nobody simulate? use_sim_time:=false')
+        elif fault and not self._told and steady - self._told_at >= SELDOM:
             self._told = True
             port.error(f'{fault}: standing still until it runs well')
         elif self._told and not fault:
