@@ -67,6 +67,4 @@ def test_a_simulation_that_ran_and_stands_or_begins_anew_at_zero_is_an_error():
     looked(node, guard, 80, speed=1.0)
     node.time = 0.0
     told = looked(node, guard, 5)
-    assert told[2:] == [
-        ('error', 'the clock went back to zero: standing still until it runs well')
-    ]
+    assert told[2:] == [('error', 'the clock went back to zero: standing still until it runs well')]

@@ -7,14 +7,21 @@ says how many there are before any of them has been heard.
 
 from __future__ import annotations
 
+import os
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 PORT_BASE, DOMAIN_GAIN, UNICAST_OFFSET = 7400, 250, 10
 TABLES = '/proc/net/udp', '/proc/net/udp6'
 PREFIX = 12
 """Bytes of an endpoint's identity that name its participant"""
+
+GRAPH_TOPIC = 'ros_discovery_info'
+"""Of every participant of ROS 2: which ends belong to which of its nodes"""
+
+Ends: TypeAlias = frozenset[tuple[str, bytes, bool, str]]
+"""Of each the topic of DDS, the identity, whether it writes, and the name of its node"""
 
 
 def on_this_machine(domain: int) -> int:
@@ -36,17 +43,31 @@ def _ports(table: Path) -> list[int]:
     return []
 
 
-def heard(node: Any) -> int:
-    """Return from how many participants a node knows at least one endpoint, its own among them."""
-    ends = (
-        end
-        for topic, _ in node.get_topic_names_and_types()
-        for known in (node.get_publishers_info_by_topic, node.get_subscriptions_info_by_topic)
-        for end in known(topic)
+def are_all_on_this_machine(domain: int) -> bool:
+    """Return whether whoever can be heard holds a port here, so that all can be counted."""
+    narrow = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() in {'LOCALHOST', 'OFF'}
+    return narrow and not os.environ.get('ROS_STATIC_PEERS') and bool(on_this_machine(domain))
+
+
+def ends_of(node: Any) -> Ends:
+    """Return all ends that a node knows."""
+    return frozenset(
+        (topic, bytes(end.endpoint_gid), writes, end.node_name)
+        for topic, _ in node.get_topic_names_and_types(no_demangle=True)
+        for writes, ends in (
+            (True, node.get_publishers_info_by_topic(topic, no_mangle=True)),
+            (False, node.get_subscriptions_info_by_topic(topic, no_mangle=True)),
+        )
+        for end in ends
     )
-    return len({bytes(end.endpoint_gid[:PREFIX]) for end in ends})
 
 
-def missing(node: Any) -> int:
+def heard(ends: Ends) -> int:
+    """Return of how many participants more is known than that they look at the graph."""
+    return len({identity[:PREFIX] for topic, identity, *_ in ends if topic != GRAPH_TOPIC})
+
+
+def missing(node: Any, ends: Ends | None = None) -> int:
     """Return how many participants on this machine have not been heard yet."""
-    return max(on_this_machine(node.context.get_domain_id()) - heard(node), 0)
+    known = heard(ends_of(node) if ends is None else ends)
+    return max(on_this_machine(node.context.get_domain_id()) - known, 0)

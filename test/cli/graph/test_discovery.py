@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+from unittest.mock import MagicMock
+
 import pytest
 
 from agv_motion.cli.graph import discovery
-from agv_motion.cli.graph.discovery import GRAPH_TOPIC, STRANGE, whole
+from agv_motion.cli.graph.discovery import STRANGE, is_gapless, whole
+from agv_motion.cli.graph.participants import GRAPH_TOPIC
 
 OWN, OTHER = b'a' * 12, b'b' * 12
 
 
 def participant(prefix, name, *, server='', client='', topic=''):
-    """Return all ends of a participant of ROS with one node."""
-    found = {(GRAPH_TOPIC, prefix + b'0001', True, ''), (GRAPH_TOPIC, prefix + b'0002', False, '')}
+    """Return all ends of a participant of ROS with one node, numbered as Fast DDS does."""
+    ends = [(GRAPH_TOPIC, True, ''), (GRAPH_TOPIC, False, '')]
     if server:
-        found |= {
-            (f'rq/{server}Request', prefix + b'0003', False, name),
-            (f'rr/{server}Reply', prefix + b'0004', True, name),
-        }
+        ends += [(f'rq/{server}Request', False, name), (f'rr/{server}Reply', True, name)]
     if client:
-        found |= {
-            (f'rq/{client}Request', prefix + b'0005', True, name),
-            (f'rr/{client}Reply', prefix + b'0006', False, name),
-        }
+        ends += [(f'rq/{client}Request', True, name), (f'rr/{client}Reply', False, name)]
     if topic:
-        found.add((f'rt/{topic}', prefix + b'0007', True, name))
-    return frozenset(found)
+        ends.append((f'rt/{topic}', True, name))
+    return frozenset(
+        (topic, prefix + number.to_bytes(3, 'big') + b'\x03', writes, node)
+        for number, (topic, writes, node) in enumerate(ends, 1)
+    )
 
 
 ALL = participant(OWN, 'own', topic='rosout') | participant(
@@ -68,13 +68,16 @@ def settled_after(monkeypatch):
         nonlocal now
         now += timeout_sec
 
-    def run(ends, missing=lambda _: 0, *, nobody=False, spin_time=discovery.DISCOVERY):
+    def run(
+        ends, missing=lambda _: 0, *, nobody=False, counted=False, spin_time=discovery.DISCOVERY
+    ):
         nonlocal now
         now = 0.0
         monkeypatch.setattr(discovery, 'ends_of', lambda _: ends(now))
-        monkeypatch.setattr(discovery, 'missing', lambda _: missing(now))
+        monkeypatch.setattr(discovery, 'missing', lambda *_: missing(now))
+        monkeypatch.setattr(discovery, 'are_all_on_this_machine', lambda _: counted)
         monkeypatch.setattr(discovery, 'is_alone', lambda _: nobody)
-        discovery.settle(None, spin_time)
+        discovery.settle(MagicMock(), spin_time)
         return now
 
     rclpy = pytest.importorskip('rclpy')
@@ -102,4 +105,35 @@ def test_how_long_is_listened(settled_after, ends, missing, nobody, seconds):
 
 
 def test_who_asks_for_longer_has_longer(settled_after):
-    assert settled_after(lambda _: ALL, spin_time=3.0) == pytest.approx(3.0, abs=0.21)
+    for counted in (False, True):
+        found = settled_after(lambda _: ALL, counted=counted, spin_time=3.0)
+        assert found == pytest.approx(3.0, abs=0.06)
+
+
+GAPPED = ALL - {next(end for end in ALL if end[0] == 'rt/cmd_vel')} | {
+    ('rt/cmd_vel', OTHER + b'\x00\x00\x09\x03', True, 'other')
+}
+
+
+@pytest.mark.parametrize(
+    ('ends', 'missing', 'seconds'),
+    [
+        (lambda _: ALL, lambda _: 0, discovery.BRIEF),
+        (lambda _: GAPPED, lambda _: 0, discovery.SETTLED),  # an end was closed, or is to come
+        (lambda now: ALL if now > 0.15 else GAPPED, lambda _: 0, 0.15 + discovery.BRIEF),
+        (lambda _: ALL, lambda now: now < 0.4, 0.4),  # one was heard late
+        (lambda now: ALL if now > 0.4 else HALF, lambda _: 0, 0.4 + discovery.BRIEF),
+    ],
+)
+def test_where_all_are_counted_is_listened_until_all_were_heard(
+    settled_after, ends, missing, seconds
+):
+    found = settled_after(ends, missing, counted=True)
+    assert seconds <= found <= seconds + 2.0 * discovery.EXAMINE + discovery.LOOK
+
+
+def test_a_number_that_is_left_out_is_a_gap():
+    assert is_gapless(ALL)
+    assert is_gapless(frozenset())
+    assert not is_gapless(GAPPED)
+    assert not is_gapless(frozenset(end for end in ALL if end[1][-2] != 1))
