@@ -26,8 +26,8 @@ SELDOM = 5.0
 """[s] between two words in the log on what is wrong with the clock."""
 
 WAITS = 100
-"""Number of looks for which a node waits for the first /clock without a word: 10 s, and longer where
-it does not come to look, since then others may not come to publish either."""
+"""Number of looks for which a node waits for the first /clock without a word: 10 s, and longer
+where it does not come to look, since then others may not come to publish either."""
 
 
 class Timed(Protocol):
