@@ -132,7 +132,7 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
     def _on_stamped_twist(self, source: TwistSource, twist: Twist, frame: str, stamp: int) -> None:
         if twist == REST and self._arbiter.rest(source):  # obeyed however old it is
             self._pass_on(source)
-        require_frame(frame, self.parameters.base_frame)
+        require_frame(self.parameters.own(frame), self.parameters.base_frame)
         watch, port = self._watches[source], self.port
         if watch.is_new(stamp):
             age = (port.nanoseconds() - watch.newest) * 1e-9 / port.clock.speed

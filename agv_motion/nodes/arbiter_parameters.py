@@ -7,6 +7,7 @@ from typing import Annotated
 
 from agv_motion.arbitration.chassis_limits import ChassisLimitParameters
 from agv_motion.arbitration.source import DRIVERS, TwistSource
+from agv_motion.model.frames import FrameParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.ros.input_watch import Freshness
 
@@ -38,7 +39,7 @@ class TimeoutParameters:
 
 
 @dataclass(frozen=True)
-class ArbiterParameters:
+class ArbiterParameters(FrameParameters):
     """Who counts for how long, and how fast the robot may move at all."""
 
     rate: Annotated[
@@ -52,7 +53,6 @@ class ArbiterParameters:
              's', (0.01, 1e10)),
     ] = 1.0  # fmt: skip
     stamped: Annotated[bool, Spec('cmd_vel and what comes in are TwistStamped (else Twist)')] = True
-    base_frame: Annotated[str, Spec('frame of the robot, and of its twists')] = 'base_link'
     state_file: Annotated[
         str, Spec('where to keep STOP and locks over a restart; empty: nowhere')
     ] = ''

@@ -80,7 +80,7 @@ class CommandGuard:
         """The last that was taken; None: none was"""
         self.standstill = False
         """Whether the wheels stand for STOP, or because the arbiter lets them"""
-        self._port, self._wheels, self._frame = port, wheels, given.base_frame
+        self._port, self._wheels, self._given = port, wheels, given
         self._lost = f'{encoders} is lost'
         if given.stamped:
             rows = TwistRows(given.base_frame)
@@ -135,7 +135,7 @@ class CommandGuard:
         if twist == REST:
             self.twist = twist
             self._wheels.aim_at_rest()
-        require_frame(frame, self._frame)
+        require_frame(self._given.own(frame), self._given.base_frame)
         if self.command.is_new(stamp):
             self._take(twist)
 

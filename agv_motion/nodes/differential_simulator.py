@@ -87,13 +87,13 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
     def show(self, stamp: Any) -> None:
         """Publish what the encoders tell, and at its rate what the camera sees."""
         message = self._joints.message(self._drive.rates(self._robot.speeds))
-        message.header.stamp, message.header.frame_id = stamp, 'base_link'
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
         message.position = self._robot.angles()
         self._state.publish(message)
         given = self.parameters
         if self.steps % max(round(given.rate / given.fixes.rate), 1) == 0:
             seen = PoseWithCovarianceStamped()
-            seen.header.stamp, seen.header.frame_id = stamp, 'map'
+            seen.header.stamp, seen.header.frame_id = stamp, given.map_frame
             fill_pose(seen.pose.pose, self._camera.measure(self._robot.pose))
             seen.pose.covariance = self._camera.covariance()
             self._fix.publish(seen)

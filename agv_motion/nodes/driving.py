@@ -65,12 +65,35 @@ class DrivingParameters(CommandParameters, TrackParameters):
             choices=tuple(each.value for each in PoseTopic),
         ),
     ] = PoseTopic.ODOM.value
-    frame: Annotated[str, Spec('frame of the pose, and of all that is to be driven')] = 'odom'
+    frame: Annotated[
+        str,
+        Spec(
+            'frame of the pose, and of all that is to be driven; that of odom gets the prefix, '
+            'that of pose does not'
+        ),
+    ] = 'odom'
     blocked: BlockedParameters = field(default_factory=BlockedParameters)
 
     def __post_init__(self) -> None:
         """Check every row."""
         check(self)
+
+    @property
+    def drives_by_odom(self) -> bool:
+        """Whether `frame` is that of the robot's own odometry, rather than one of all robots."""
+        return PoseTopic(self.position) is PoseTopic.ODOM
+
+    def named(self, frame: str) -> str:
+        """Return a frame that was told as `frame` is on the graph."""
+        return self.own(frame) if self.drives_by_odom else frame.lstrip('/')
+
+    def own_names(self) -> tuple[str, ...]:
+        """Return which parameters name frames of the robot itself."""
+        return (*super().own_names(), *(['frame'] * self.drives_by_odom))
+
+    def shared_names(self) -> tuple[str, ...]:
+        """Return which parameters name frames of all robots."""
+        return (*super().shared_names(), *(['frame'] * (not self.drives_by_odom)))
 
 
 P = TypeVar('P', bound=DrivingParameters)
@@ -111,7 +134,7 @@ class DrivingNode(PlainNode[P]):
         """Watches that the robot moves when told to"""
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._state = port.publisher(String, self.state_topic, LATCHED, sole=True)
-        if PoseTopic(given.position) is PoseTopic.ODOM:
+        if given.drives_by_odom:
             port.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
         else:
             port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
@@ -215,7 +238,7 @@ class DrivingNode(PlainNode[P]):
             ConfigurationError: It is another.
 
         """
-        if frame not in {'', self.parameters.frame}:
+        if self.parameters.named(frame) not in {'', self.parameters.frame}:
             msg = (
                 f"frame '{frame}': this node drives in '{self.parameters.frame}'; transform it "
                 'first, or set the parameter frame'

@@ -11,6 +11,7 @@ from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.model.frames import FrameParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
 from agv_motion.probe.condition import ProbeConditions
@@ -35,7 +36,7 @@ SAVE_PERIOD = 30.0
 
 
 @dataclass(frozen=True)
-class GranierProbeParameters(SourceParameters):
+class GranierProbeParameters(SourceParameters, FrameParameters):
     """Where the readings come from and what is made of them."""
 
     rate: Annotated[
@@ -52,7 +53,6 @@ class GranierProbeParameters(SourceParameters):
             (0, 1e6),
         ),
     ] = 0.0
-    base_frame: Annotated[str, Spec('frame of the sap flow')] = 'base_link'
     state_file: Annotated[
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
     ] = ''
@@ -176,7 +176,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             if value == value:  # noqa: PLR0124 - not NaN
                 message = Temperature(temperature=value)
                 message.header.stamp = self._message.header.stamp
-                message.header.frame_id = f'probe_{i + 1}'
+                message.header.frame_id = self.parameters.own(f'probe_{i + 1}')
                 self._raw[i].publish(message)
         self._conditions.update(now, self._readings)
         self._doubt = ''

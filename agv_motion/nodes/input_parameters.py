@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+from agv_motion.model.frames import FrameParameters
 from agv_motion.parameters import Spec
 from agv_motion.ros.input_watch import Freshness
 
@@ -29,11 +30,10 @@ class InputParameters:
 
 
 @dataclass(frozen=True)
-class CommandParameters(InputParameters):
+class CommandParameters(InputParameters, FrameParameters):
     """What `cmd_vel` is like, beside what the inputs are."""
 
     stamped: Annotated[bool, Spec('cmd_vel is TwistStamped (else Twist)')] = True
-    base_frame: Annotated[str, Spec('frame of the robot, and of its twists')] = 'base_link'
 
 
 @dataclass(frozen=True)

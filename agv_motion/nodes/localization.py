@@ -120,8 +120,8 @@ class Localization(PlainNode[LocalizationParameters]):
 
     def _on_odometry(self, message: Odometry) -> None:
         given = self.parameters
-        require_frame(message.header.frame_id, given.odom_frame)
-        require_frame(message.child_frame_id, given.base_frame)
+        require_frame(given.own(message.header.frame_id), given.odom_frame)
+        require_frame(given.own(message.child_frame_id), given.base_frame)
         pose, twist = pose_of(message.pose.pose), twist_of(message.twist.twist)
         news = self._odom_watch.is_news(message.header.stamp)
         limits = given.fusion
@@ -206,8 +206,7 @@ class Localization(PlainNode[LocalizationParameters]):
 
     def _on_imu(self, message: Imu) -> None:
         given = self.parameters
-        if message.header.frame_id != given.base_frame:
-            require_frame(message.header.frame_id, given.imu_frame)
+        require_frame(given.own(message.header.frame_id), given.imu_frame, given.base_frame)
         rate = message.angular_velocity.z
         if not self._imu_watch.is_news(message.header.stamp):
             return

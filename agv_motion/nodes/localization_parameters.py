@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Annotated
 
+from agv_motion.model.frames import FrameParameters
 from agv_motion.odometry.assumed_noise import AssumedNoiseParameters
 from agv_motion.odometry.fusion_parameters import FusionParameters
 from agv_motion.odometry.yaw_rate import YawRateParameters
@@ -32,7 +33,7 @@ class ToldTransforms(Enum):
 
 
 @dataclass(frozen=True)
-class LocalizationParameters:
+class LocalizationParameters(FrameParameters):
     """Frames, how far odometry is trusted, and when the pose is no longer told."""
 
     odom_covariance: Annotated[
@@ -66,7 +67,6 @@ class LocalizationParameters:
     ] = ToldTransforms.BOTH.value  # fmt: skip
     map_frame: Annotated[str, Spec('frame of fixes and pose')] = 'map'
     odom_frame: Annotated[str, Spec('frame of the odometry')] = 'odom'
-    base_frame: Annotated[str, Spec('frame of the robot')] = 'base_link'
     imu_frame: Annotated[str, Spec('frame of the gyroscope, its z axis upright')] = 'imu_link'
     odom_noise: AssumedNoiseParameters = field(default_factory=AssumedNoiseParameters)
     gyro: YawRateParameters = field(default_factory=YawRateParameters)

@@ -164,7 +164,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
     def _on_sap_flow(self, message: Vector3Stamped) -> None:
         vector = message.vector
         flow = checked_sap_flow(SapFlow(vector.x, vector.y, vector.z))
-        require_frame(message.header.frame_id, self.parameters.base_frame)
+        require_frame(self.parameters.own(message.header.frame_id), self.parameters.base_frame)
         if not self._inputs[FLOW].is_news(message.header.stamp):
             return
         self._inputs.note(FLOW)

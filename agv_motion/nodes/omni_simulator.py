@@ -45,6 +45,7 @@ class OmniSimulatorParameters(SimulatedParameters, OmniBaseParameters):
     faulty_gain: Annotated[
         float, Spec('what it measures of its motion; 0: dead', '1', (-10.0, 10.0), dynamic=True)
     ] = 0.0
+    imu_frame: Annotated[str, Spec('frame of the gyroscope, its z axis upright')] = 'imu_link'
     robot: OmniRobotParameters = field(default_factory=OmniRobotParameters)
     uwb: UwbParameters = field(default_factory=UwbParameters)
     gyro: GyroParameters = field(default_factory=GyroParameters)
@@ -147,13 +148,13 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         radii = self.parameters.real_radii
         rates = [speed / r for speed, r in zip(self._robot.speeds, radii, strict=True)]
         message = self._joints.message(rates)
-        message.header.stamp, message.header.frame_id = stamp, 'base_link'
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
         message.position = self._robot.angles()
         self._state.publish(message)
 
     def _publish_imu(self, stamp: Any) -> None:
         message = Imu()
-        message.header.stamp, message.header.frame_id = stamp, 'imu_link'
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.imu_frame
         message.angular_velocity.z = self._gyro.measure(
             self._robot.twist.wz, 1.0 / self.parameters.rate
         )
@@ -164,7 +165,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
     def _publish_fix(self, fix: Any) -> None:
         message = PoseWithCovarianceStamped()
         message.header.stamp = stamp_of(round(fix.stamp * 1e9))
-        message.header.frame_id = 'map'
+        message.header.frame_id = self.parameters.map_frame
         fill_pose(message.pose.pose, Pose(fix.x, fix.y, fix.heading or 0.0))
         fill_covariance(message.pose.covariance, fix.covariance)
         self._fix.publish(message)

@@ -15,6 +15,7 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError, SignalError
+from agv_motion.model.frames import FrameParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
@@ -47,7 +48,7 @@ class ClockRole(Enum):
 
 
 @dataclass(frozen=True)
-class SimulatedParameters:
+class SimulatedParameters(FrameParameters):
     """Where the robot starts, and how fast time passes."""
 
     rate: Annotated[float, Spec('steps per simulated second', 'Hz', (1.0, 1000.0))] = 50.0
@@ -78,6 +79,7 @@ class SimulatedParameters:
     start_x: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
     start_y: Annotated[float, Spec('where the robot starts', 'm', (-1e4, 1e4))] = 0.0
     start_heading: Annotated[float, Spec('where it looks', 'rad', (-7.0, 7.0))] = 0.0
+    map_frame: Annotated[str, Spec('frame of fixes and of the truth')] = 'map'
 
     def __post_init__(self) -> None:
         """Check every row, and the start time."""
@@ -268,8 +270,8 @@ class SimulatedNode(PlainNode[P]):
         self.steps += 1
         stamp = stamp_of(self._nanoseconds(self.steps))
         self.show(stamp)
-        message = Odometry(child_frame_id='base_link')
-        message.header.stamp, message.header.frame_id = stamp, 'map'
+        message = Odometry(child_frame_id=self.parameters.base_frame)
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.map_frame
         fill_pose(message.pose.pose, self._body.pose)
         fill_twist(message.twist.twist, self._body.twist)
         self._truth.publish(message)

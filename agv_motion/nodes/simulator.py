@@ -118,14 +118,14 @@ class Simulator(SimulatedNode[SimulatorParameters]):
 
     def _publish_state(self, stamp: Any) -> None:
         message = self._joints.message()
-        message.header.stamp, message.header.frame_id = stamp, 'base_link'
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
         rates = [speed / self.parameters.wheel_radius for speed in self._platform.speeds]
         self._joints.fill(message, self._platform.angles, rates)
         self._state.publish(message)
 
     def _publish_fix(self, stamp: Any) -> None:
         message = PoseWithCovarianceStamped()
-        message.header.stamp, message.header.frame_id = stamp, 'map'
+        message.header.stamp, message.header.frame_id = stamp, self.parameters.map_frame
         fill_pose(message.pose.pose, self._fix_sensor.measure(self._platform.pose))
         message.pose.covariance = self._fix_sensor.covariance()
         self._fix.publish(message)
@@ -134,7 +134,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         given, pose = self.parameters, self._platform.pose
         direction = sun(self.time, given.latitude, given.longitude)
         message = Illuminance()
-        message.header.stamp, message.header.frame_id = stamp, 'base_link'
+        message.header.stamp, message.header.frame_id = stamp, given.base_frame
         message.illuminance = LUX_PER_WATT * irradiance(pose.x, pose.y, direction, self._obstacles)
         self._sunlight.publish(message)
 

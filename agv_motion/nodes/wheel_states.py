@@ -128,7 +128,7 @@ class WheelStates:
 
     def _go_on(self, asked: PoseWithCovarianceStamped) -> str:
         """Go on from the pose that is ``asked`` for."""
-        require_frame(asked.header.frame_id, self._given.odom_frame)
+        require_frame(self._given.own(asked.header.frame_id), self._given.odom_frame)
         pose, covariance = pose_of(asked.pose.pose), covariance_of(asked.pose.covariance)
         if covariance != CERTAIN and not is_positive_definite(covariance):
             msg = (

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.model.frames import in_namespace
 from agv_motion.ros.in_process_port import InProcessPort, Place
 from agv_motion.ros.parameters import changed, filled, texts
 from agv_motion.ros.plain_node import PlainNode
@@ -51,7 +52,9 @@ class InProcessNode(Generic[N]):
             partial(told, given=frozenset(texts(values))),
             is_simulated=bool(parameters.get('use_sim_time', False)),
         )
-        self.plain: N = self._attempt('configure', lambda: kind(self.port, values))
+        self.plain: N = self._attempt(
+            'configure', lambda: kind(self.port, in_namespace(values, namespace))
+        )
         graph.nodes.append(self)
 
     def activate(self) -> None:
@@ -80,7 +83,7 @@ class InProcessNode(Generic[N]):
             AgvMotionError: A value is wrong, or the node does not accept it.
 
         """
-        candidate = changed(self.plain.parameters, changes)
+        candidate = changed(self.plain.parameters, changes)  # its frames are placed already
         self.plain.accept(candidate)
         self.plain.parameters = candidate
 

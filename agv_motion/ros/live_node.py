@@ -16,6 +16,7 @@ from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 
 from agv_motion.errors import AgvMotionError, shortened
+from agv_motion.model.frames import in_namespace
 from agv_motion.ros.clock_guard import CLOCK_TOPIC, LOOK_PERIOD, if_possible
 from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.diagnostics import Diagnostics
@@ -185,7 +186,7 @@ class LiveNode(LifecycleNode, Generic[N]):
     # Plumbing
 
     def _make(self) -> None:
-        self._made = self._kind(self.port, self.declared.values)
+        self._made = self._kind(self.port, self._placed(self.declared.values))
 
     def _start_watch(self, diagnostics: Diagnostics) -> None:
         """Look at clock and graph and publish diagnostics from now on, by the steady clock."""
@@ -226,5 +227,10 @@ class LiveNode(LifecycleNode, Generic[N]):
 
     def _accept(self, parameters: Any) -> None:
         if self.port.ends and self._made is not None:
-            self._made.accept(parameters)
-            self._made.parameters = parameters
+            placed = self._placed(parameters)
+            self._made.accept(placed)
+            self._made.parameters = placed
+
+    def _placed(self, parameters: Any) -> Any:
+        """Return parameters with the names of frames as they are in the node's namespace."""
+        return in_namespace(parameters, self.port.namespace)

@@ -39,7 +39,7 @@ def require_frame(frame: str, *expected: str) -> None:
         SignalError: It is another.
 
     """
-    if frame and frame not in expected:
+    if frame and frame.removeprefix('/') not in expected:
         names = ' or '.join(f"'{name}'" for name in expected)
         msg = f"frame '{frame}': expected {names}; transform it first, or set the frame parameter"
         raise SignalError(msg)

@@ -16,6 +16,7 @@ from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.kinematics.omni_platform import OmniBaseParameters
 from agv_motion.kinematics.platform import PlatformParameters
+from agv_motion.model.frames import OWN, SHARED, FrameParameters
 from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_changes import empty_array
 from agv_motion.ros.parameter_types import wrong_type
@@ -36,9 +37,14 @@ OF_EVERY_NODE = 'use_sim_time', 'start_type_description_service', 'autostart', '
 
 OF_THE_PLATFORM = frozenset(
     name
-    for kind in (PlatformParameters, OmniBaseParameters, DifferentialBaseParameters)
+    for kind in (
+        PlatformParameters,
+        OmniBaseParameters,
+        DifferentialBaseParameters,
+        FrameParameters,
+    )
     for name, _, _ in rows(kind)
-)
+) | {*OWN, *SHARED}
 """Parameters that a file tells once for all nodes, under ``/**``; not every node needs them."""
 
 T = TypeVar('T', bound='DataclassInstance')
