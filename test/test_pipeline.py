@@ -16,7 +16,7 @@ from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
-from agv_motion.probe.sources.recorded_time import parse_time
+from agv_motion.probe.tables.time_format import parse_time
 from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.qos import COMMAND

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
-from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe.sources.csv_file import CsvParameters, load, start_of
-from agv_motion.probe.sources.csv_table import rows_of
-from agv_motion.probe.sources.recorded_time import iso
+from agv_motion.probe.tables.inspection import inspect
+from agv_motion.probe.tables.time_format import iso
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
     from agv_motion.probe.sources.csv_file import CsvRecording
 
 DAY = 86400.0
-PROBE_WORDS = ('probe', 'delta', 'dt', 'granier', 'sap', 'mv', 'volt')
-TIME_WORDS = ('time', 'date', 'stamp')
 
 
 class Excerpt(NamedTuple):
@@ -48,18 +45,21 @@ def recorded(path: Path, columns: list[str], unit: str, excerpt: Excerpt) -> dic
         ConfigurationError: No column can be taken for a probe.
 
     """
-    header = [name.strip() for row in islice(rows_of(path), 1) for name in row.cells]
-    time_column = next((n for n in header if any(w in n.lower() for w in TIME_WORDS)), '')
-    columns = columns or [
-        n for n in header if n != time_column and any(w in n.lower() for w in PROBE_WORDS)
-    ]
-    if not time_column or not columns:
-        msg = f'{path} has the columns {", ".join(header)}: name those of the probes by --columns'
+    seen = inspect(str(path))
+    columns = columns or seen.probes()
+    if len(seen.time_formats) != 1 or not columns:
+        names = ', '.join(column.name for column in seen.columns)
+        msg = f'{path} has the columns {names}: name those of the probes by --columns'
+        if len(seen.time_formats) != 1:
+            formats = ' or '.join(seen.time_formats) or 'no format that is known'
+            msg = f'the times of {path} read as {formats}: give ISO 8601, in a column named time'
         raise ConfigurationError(msg)
     chosen = (columns * 3)[:3]
     given = CsvParameters(
         file=str(path),
-        time_column=time_column,
+        time_column=seen.time_column,
+        time_format=seen.time_formats[0],
+        delimiter=seen.delimiter,
         columns=tuple(chosen),
         unit=unit or _unit(chosen[0]),
         day_offsets=tuple(float(i) if len(columns) < 3 else 0.0 for i in range(3)),

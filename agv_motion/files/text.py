@@ -32,10 +32,17 @@ def read(path: Path, what: str = 'the file', limit: int = LIMIT) -> str:
         ConfigurationError: It cannot be read, is too large, or is no UTF-8.
 
     """
+    return _decoded(path, read_bytes(path, what, limit))
+
+
+def read_bytes(path: Path, what: str = 'the file', limit: int = LIMIT, begin: int = 0) -> bytes:
+    """Return the content of a file from byte ``begin`` on; else as :func:`read`."""
     try:
         # without waiting for the other end of a pipe
         with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), 'rb') as file:
             regular = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+            if regular and begin:
+                file.seek(begin)
             data = file.read(limit + 1) if regular else b''
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         msg = f"cannot read {what} '{path}': {error}"
@@ -46,7 +53,7 @@ def read(path: Path, what: str = 'the file', limit: int = LIMIT) -> str:
     if len(data) > limit:
         msg = f"cannot read {what} '{path}': it is larger than {limit} bytes; is it the right file?"
         raise ConfigurationError(msg)
-    return _decoded(path, data)
+    return data
 
 
 def as_kind(error: AgvMotionError, kind: type[E]) -> E:

@@ -1,19 +1,16 @@
-"""Recorded probes: any column and unit of a CSV file, played at any speed."""
+"""Recorded probes: any column and unit of a logger's files, played at any speed or as they grow."""
 
 from __future__ import annotations
 
 from bisect import bisect_left
 from dataclasses import dataclass
 from math import inf, nan
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.csv_table import read_table
-from agv_motion.probe.sources.recorded_time import iso, parse_time
+from agv_motion.errors import AgvMotionError, ConfigurationError, SourceError
+from agv_motion.parameters import Spec
 from agv_motion.probe.sources.source import (
     KELVIN_PER_MILLIVOLT,
     MOST,
@@ -21,6 +18,9 @@ from agv_motion.probe.sources.source import (
     ProbeSample,
     kelvin_per,
 )
+from agv_motion.probe.tables.table import LoggerTable, LoggerTables
+from agv_motion.probe.tables.table_parameters import TableParameters
+from agv_motion.probe.tables.time_format import iso, parse_time
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,16 +33,9 @@ ROUNDED = 1e-3
 
 
 @dataclass(frozen=True)
-class CsvParameters:
+class CsvParameters(TableParameters):
     """Which file, which columns, and how fast."""
 
-    file: Annotated[str, Spec('path of the CSV file')] = ''
-    time_column: Annotated[
-        str, Spec('column of ISO 8601 times (UTC unless they say otherwise) or of epoch seconds')
-    ] = 'time'
-    columns: Annotated[tuple[str, ...], Spec('column of each probe')] = (
-        'probe_1', 'probe_2', 'probe_3',
-    )  # fmt: skip
     day_offsets: Annotated[
         tuple[float, ...],
         Spec(
@@ -57,15 +50,21 @@ class CsvParameters:
     )
     start: Annotated[str, Spec('ISO 8601 time at which to start; empty: the first row')] = ''
     speed: Annotated[float, Spec('seconds of the file per second', '1', (1e-3, 1e6))] = 1.0
+    follow: Annotated[
+        bool, Spec('tell each row when a logger has written it, in place of playing the file')
+    ] = False
 
     def __post_init__(self) -> None:
         """Check every row, and that each probe has column and offset."""
-        check(self)
-        if len(self.day_offsets) != len(self.columns) or not self.columns:
+        super().__post_init__()
+        if len(self.day_offsets) != len(self.columns):
             msg = (
                 f'{len(self.columns)} columns and {len(self.day_offsets)} day_offsets: '
                 'give one of each for every probe'
             )
+            raise ConfigurationError(msg)
+        if self.follow and (any(self.day_offsets) or self.start or self.speed != 1.0):
+            msg = 'follow = true takes rows as they come: leave out start, speed and day_offsets'
             raise ConfigurationError(msg)
 
 
@@ -91,8 +90,7 @@ class CsvSource:
         self._problem = recording.problem
         self._start = start_of(parameters.start, recording, parameters.file)
         self._row = bisect_left(self._times, self._start)
-        steps = np.diff(self._times)
-        self.period = float(np.median(steps)) / parameters.speed if len(steps) else inf
+        self.period = recording.step / parameters.speed
         self._began: float | None = None
 
     def history(self, now: float) -> Iterator[ProbeSample]:  # noqa: ARG002 - the file has its own time
@@ -125,17 +123,68 @@ class CsvSource:
         return ProbeSample(self._times[row], tuple(self._values[row].tolist()))
 
 
+class GrowingSource:
+    """Tells what a logger adds to its files, each row once it is written."""
+
+    def __init__(self, parameters: CsvParameters, warm_up_days: float) -> None:
+        """Read what is there already, which is history: it may be of long ago.
+
+        Raises:
+            SourceError: The files cannot be read, or hold no row that can.
+            ConfigurationError: A column is not in a file.
+
+        """
+        self._given, self._warm_up = parameters, warm_up_days * DAY
+        self._tables = LoggerTables(parameters)
+        self._past = _in_kelvin(self._tables.read(growing=True), parameters)
+        self._last = self._past.times[-1] if self._past.times else -inf
+        self._problem = self._past.problem
+        self.period = self._past.step
+
+    def history(self, now: float) -> Iterator[ProbeSample]:  # noqa: ARG002 - rows have their own time
+        """Yield the rows that were there at the start, as far back as the warm-up reaches."""
+        first = bisect_left(self._past.times, self._last - self._warm_up)
+        yield from _samples(self._past, first)
+
+    def read(self, now: float) -> list[ProbeSample]:  # noqa: ARG002 - a row is due once it is written
+        """Return the rows that were added since the last call."""
+        try:
+            new = _in_kelvin(self._tables.read(growing=True), self._given)
+        except (AgvMotionError, OSError) as error:
+            self._problem = str(error)  # the disk of a logger comes and goes
+            return []
+        first = bisect_left(new.times, np.nextafter(self._last, inf))
+        if first:
+            late = f'{first} rows are older than what was read before: left out'
+            self._problem = '; '.join(filter(None, (self._problem, late)))
+        self._problem = '; '.join(filter(None, (self._problem, new.problem)))
+        samples = list(_samples(new, first))
+        if samples:
+            self._last = samples[-1].time
+        return samples
+
+    def complaint(self) -> str:
+        """Return what was wrong with rows or files since the last call."""
+        problem, self._problem = self._problem, ''
+        return problem
+
+    def close(self) -> None:
+        """Hold nothing: each look opens and closes the files."""
+
+
 class CsvRecording(NamedTuple):
-    """What a file tells, in the order of time."""
+    """What files tell, in the order of time."""
 
     times: list[float]
     """[s] since 1970"""
-    lines: list[int]
-    """of the file, counted from 1, from which each comes"""
     values: NDArray[np.float64]
     """(n, probes) [K]"""
+    step: float
+    """[s] usual time between rows; infinite where there is one"""
     problem: str
-    """what was wrong with the file; empty if nothing"""
+    """what was wrong with the files; empty if nothing"""
+    table: LoggerTable
+    """as it was read"""
 
 
 def start_of(start: str, recording: CsvRecording, file: str) -> float:
@@ -145,7 +194,7 @@ def start_of(start: str, recording: CsvRecording, file: str) -> float:
         SourceError: It is no time, or not in the file.
 
     """
-    times, lines = recording.times, recording.lines
+    times = recording.times
     if not start:
         return times[0]
     time = parse_time(start)
@@ -156,44 +205,54 @@ def start_of(start: str, recording: CsvRecording, file: str) -> float:
         if outside:
             side = 'after' if when == 'begins' else 'before'
             msg = (
-                f'{file} {when} at {iso(times[row])} (line {lines[row]}), {side} the start '
-                f"'{start}': choose one from {iso(times[0])} to {iso(times[-1])}"
+                f'{file} {when} at {iso(times[row])} ({recording.table.place(row)}), {side} the '
+                f"start '{start}': choose one from {iso(times[0])} to {iso(times[-1])}"
             )
             raise SourceError(msg)
     return min(max(time, times[0]), times[-1])
 
 
 def load(parameters: CsvParameters) -> CsvRecording:
-    """Return what a file tells.
+    """Return what files tell.
 
     A probe read with an offset takes the row nearest to its shifted time, and NaN where that is
     further away than half the usual step.
     """
-    path = Path(parameters.file)
-    times, lines, columns, problem = read_table(path, parameters.time_column, parameters.columns)
-    order = np.argsort(times, kind='stable')
-    last_of_repeated = np.append(np.diff(times[order]) > 0.0, True)
-    keep = order[last_of_repeated]
-    if len(keep) < len(times) or not np.array_equal(order, np.arange(len(times))):
-        problem = f'{problem}; rows were put into order, {len(times) - len(keep)} repeated dropped'
-    times = times[keep]
-    step = float(np.median(np.diff(times))) if len(times) > 1 else 1.0
-    factor = kelvin_per(parameters.unit, parameters.kelvin_per_millivolt)
-    values = np.empty((len(times), len(parameters.columns)))
-    for i, (name, offset) in enumerate(
-        zip(parameters.columns, parameters.day_offsets, strict=True)
-    ):
-        wanted = times + offset * DAY
-        after = np.clip(np.searchsorted(times, wanted), 1, max(len(times) - 1, 1))
-        nearest = np.minimum(after, len(times) - 1)
-        before = np.maximum(after - 1, 0)
-        nearest = np.where(
-            np.abs(times[before] - wanted) <= np.abs(times[nearest] - wanted), before, nearest
-        )
-        found = np.abs(times[nearest] - wanted) <= step / 2.0
-        values[:, i] = np.where(found, columns[name][keep][nearest], nan)
-    wild = np.abs(values) > MOST / factor
+    return _in_kelvin(LoggerTables(parameters).read(), parameters)
+
+
+def _in_kelvin(table: LoggerTable, given: CsvParameters) -> CsvRecording:
+    times, columns = table.times, table.values.copy()
+    step = float(np.median(np.diff(times))) if len(times) > 1 else inf
+    for i, offset in enumerate(given.day_offsets):
+        if offset:
+            reach = step / 2.0 if len(times) > 1 else 0.5
+            columns[:, i] = _shifted(times, columns[:, i], offset * DAY, reach)
+    factor = kelvin_per(given.unit, given.kelvin_per_millivolt)
+    wild = np.abs(columns) > MOST / factor
+    problem = table.problem
     if wild.any():
-        problem = f'{problem}; {wild.sum()} values of more than {MOST:g} K are no temperature'
-    values = np.where(wild, nan, values) * factor
-    return CsvRecording(times.tolist(), lines[keep].tolist(), values, problem.lstrip('; '))
+        told = f'{wild.sum()} values of more than {MOST:g} K are no temperature'
+        problem = '; '.join(filter(None, (problem, told)))
+    values = np.where(wild, nan, columns) * factor
+    return CsvRecording(times.tolist(), values, step, problem, table)
+
+
+def _shifted(
+    times: NDArray[np.float64], column: NDArray[np.float64], offset: float, reach: float
+) -> NDArray[np.float64]:
+    """Return what a column tells ``offset`` [s] later, or at most ``reach`` [s] from that."""
+    wanted = times + offset
+    after = np.clip(np.searchsorted(times, wanted), 1, max(len(times) - 1, 1))
+    nearest = np.minimum(after, len(times) - 1)
+    before = np.maximum(after - 1, 0)
+    nearest = np.where(
+        np.abs(times[before] - wanted) <= np.abs(times[nearest] - wanted), before, nearest
+    )
+    found = np.abs(times[nearest] - wanted) <= reach
+    return np.where(found, column[nearest], nan)
+
+
+def _samples(recording: CsvRecording, first: int) -> Iterator[ProbeSample]:
+    for row in range(first, len(recording.times)):
+        yield ProbeSample(recording.times[row], tuple(recording.values[row].tolist()))

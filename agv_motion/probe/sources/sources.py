@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from agv_motion.parameters import Spec
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
+from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, GrowingSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 
@@ -27,7 +27,10 @@ class SourceKind(NamedTuple):
 
 SOURCES = {
     'simulated': SourceKind(SimulatedSource, lambda given: given.probes),
-    'csv': SourceKind(CsvSource, lambda given: len(given.columns)),
+    'csv': SourceKind(
+        lambda given, days: (GrowingSource if given.follow else CsvSource)(given, days),
+        lambda given: len(given.columns),
+    ),
     'serial': SourceKind(lambda given, _: SerialSource(given), lambda given: len(given.fields)),
 }
 """A source is added here, as a group of its name in `SourceParameters`, and in its own file."""

@@ -8,7 +8,7 @@ from math import isnan
 import pytest
 
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, load
+from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, GrowingSource, load
 
 DAY = 86400.0
 DAWN = 1_370_822_400.0
@@ -63,7 +63,7 @@ def test_one_column_serves_several_probes_at_other_days(tmp_path):
 
 def test_rows_out_of_order_and_repeated_are_mended_and_told(tmp_path):
     played = source(tmp_path, seconds((20, 2, 2), (10, 1, 1), (20, 3, 3), (30, 4, 4)))
-    assert '1 repeated dropped' in played.complaint()
+    assert '1 rows of a time that comes again dropped' in played.complaint()
     samples = played.read(0.0) + played.read(15.0)
     assert [s.values for s in samples] == [(1.0, 1.0), (3.0, 3.0)]
 
@@ -112,7 +112,7 @@ def test_times_in_seconds_and_with_zones(tmp_path):
     )
     found = load(CsvParameters(file=str(path), columns=('a',), day_offsets=(0.0,)))
     assert found.times == [DAWN, DAWN + 1000.5, DAWN + 7200.0]
-    assert found.lines == [3, 2, 4]
+    assert found.table.places[:, 1].tolist() == [3, 2, 4]
     assert 'put into order' in found.problem
 
 
@@ -131,19 +131,16 @@ def two_rows(first, second='2013-06-10 01:00'):
 @pytest.mark.parametrize(
     ('word', 'reason'),
     [
-        ('201306101200', 'no time from 1990 to 2100'),
-        ('20130610', '1970-08-21'),
+        ('201306101200', 'csv.time_format: YYYYMMDDHHMM reads 2013-06-10T12:00'),
+        ('20130610', 'csv.time_format: YYYYMMDD reads 2013-06-10'),
         ('2013161', 'no time from 1990 to 2100'),
-        ('41435.5', '1970-01-01'),
-        ('735395.5', '1970-01-09'),
-        ('1370863800000', 'never for .* milliseconds'),
-        ('1.3708224E9', 'no time: give ISO 8601'),
-        ('9' * 400, 'no time from 1990 to 2100'),
+        ('41435.5', 'csv.time_format: excel reads 2013-06-10T12:00'),
+        ('735395.5', 'csv.time_format: matlab reads 2013-06-10T12:00'),
+        ('1370863800000', 'csv.time_format: epoch_ms reads 2013-06-10T11:30'),
+        ('9' * 400, 'no time: give ISO 8601'),
         ('1989-12-31T23:59:59', 'no time from 1990 to 2100'),
         ('2100-01-01', 'no time from 1990 to 2100'),
-        ('10/06/2013 00:00', 'no time: give ISO 8601'),
-        ('6/10/2013 12:30:00 AM', 'no time'),
-        ('00:30', 'no time'),
+        ('00:30', 'no time: give ISO 8601'),
     ],
 )
 def test_what_is_no_time_is_never_guessed_into_one(tmp_path, word, reason):
@@ -159,10 +156,12 @@ def test_what_is_no_time_is_never_guessed_into_one(tmp_path, word, reason):
 @pytest.mark.parametrize(
     ('words', 'form'),
     [
-        (('2013061000', '2013061001'), 'YYYYMMDDHH'),
-        (('1306101200', '1306101230'), 'YYMMDDHHMM'),
-        (('1706202412', '1706202413'), 'DDMMYYYYHH'),
+        (('2013061000', '2013061001'), '%Y%m%d%H'),
+        (('1306101200', '1306101230'), '%y%m%d%H%M'),
+        (('1706202412', '1706202413'), '%d%m%Y%H'),
         (('2013-06-10', '2013-06-10'), 'days alone'),
+        (('10/06/2013 00:00', '10/06/2013 00:30'), 'day_first.*month_first'),
+        (('6/10/2013 12:30 AM', '6/10/2013 1:30 AM'), 'day_first.*month_first'),
     ],
 )
 def test_times_with_two_readings_are_refused(tmp_path, words, form):
@@ -183,8 +182,8 @@ def test_days_alone_are_midnights_where_each_is_there_once(tmp_path):
         ('2013-06-10 00:30,3', '2 cells under 3 columns'),
         ('2013-06-10 00:30,0,41,0,52', '5 cells under 3 columns: a comma in it may be decimal'),
         ('2013-06-10 00:30,"3,4', 'no CSV'),
-        ('\0' * 20, '1 cells under 3 columns'),
-        ('2013-06-10 24:00,3,4', 'no time'),
+        ('\0' * 20, 'only NUL bytes'),
+        ('2013-06-10 24:01,3,4', 'no time'),
     ],
 )
 def test_one_bad_row_costs_one_row_and_is_told(tmp_path, row, reason):
@@ -198,7 +197,7 @@ def test_one_bad_row_costs_one_row_and_is_told(tmp_path, row, reason):
 def test_many_bad_rows_are_counted_and_the_first_told(tmp_path):
     played = source(tmp_path, two_rows('2013-06-10') + 'end,,\n' * 9)
     assert 'left out: 9 (line 4: no time' in (told := played.complaint())
-    assert told.endswith('line 6: no time: give ISO 8601 such as 2013-06-10T00:00:00Z; and 6 more)')
+    assert told.endswith('; and 6 more)')
 
 
 def test_a_column_that_is_there_twice_is_refused(tmp_path):
@@ -215,3 +214,46 @@ def test_what_loggers_write_for_a_missing_value_is_missing_in_every_unit(tmp_pat
 def test_a_start_outside_the_file_is_refused_with_line_and_remedy(tmp_path, start, line):
     with pytest.raises(SourceError, match=rf'\(line {line}\).*choose one from 2013-06-10T'):
         source(tmp_path, TABLE, start=start)
+
+
+def follow(path, **given):
+    given = {'columns': ('a', 'b'), 'day_offsets': (0.0, 0.0), 'unit': 'K'} | given
+    return GrowingSource(CsvParameters(file=str(path), follow=True, **given), 1.0)
+
+
+def test_rows_are_told_as_a_logger_writes_them_and_never_what_was_there_before(tmp_path):
+    file = tmp_path / 'live.csv'
+    file.write_text(seconds((0, 1, 2), (900, 3, 4)))
+    source = follow(file)
+    assert source.period == 900.0
+    assert [s.values for s in source.history(0.0)] == [(1.0, 2.0), (3.0, 4.0)]
+    assert source.read(1e9) == []
+    with file.open('a') as written:
+        written.write(f'{DAWN + 1800:.0f},5,6\n{DAWN + 2700:.0f},7')
+    assert [(s.time - DAWN, s.values) for s in source.read(1e9)] == [(1800.0, (5.0, 6.0))]
+    with file.open('a') as written:
+        written.write(f',8\nend,,\n{DAWN + 60:.0f},9,9\n')
+    assert [s.values for s in source.read(1e9)] == [(7.0, 8.0)]
+    told = source.complaint()
+    assert '1 rows are older than what was read before' in told
+    assert 'left out: 1 (line 6: no time' in told
+    assert source.complaint() == ''
+
+
+def test_a_disk_that_goes_away_is_told_and_comes_back(tmp_path):
+    file = tmp_path / 'live.csv'
+    file.write_text(seconds((0, 1, 2)))
+    source = follow(file)
+    file.rename(tmp_path / 'away')
+    assert source.read(0.0) == []
+    assert 'live.csv' in source.complaint()
+    (tmp_path / 'away').rename(file)
+    with file.open('a') as written:
+        written.write(f'{DAWN + 900:.0f},3,4\n')
+    assert [s.values for s in source.read(0.0)] == [(3.0, 4.0)]
+
+
+@pytest.mark.parametrize('given', [{'start': '2013-06-10'}, {'speed': 2.0}])
+def test_a_file_that_is_followed_is_not_played(given):
+    with pytest.raises(ConfigurationError, match=r'follow = true.*leave out start, speed'):
+        CsvParameters(follow=True, **given)

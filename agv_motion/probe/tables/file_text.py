@@ -1,0 +1,82 @@
+"""The text of a table: whatever the encoding, and with what a power cut leaves in it."""
+
+from __future__ import annotations
+
+import codecs
+from typing import NamedTuple
+
+from agv_motion.errors import SourceError
+
+POWER_CUT = 'only NUL bytes, as a power cut leaves them'
+LOOKED_AT = 4096
+"""[bytes] by which UTF-16 without a mark is known"""
+
+
+class FileLine(NamedTuple):
+    """A line that has anything in it."""
+
+    number: int
+    """counted from 1"""
+    text: str
+    fault: str = ''
+    """why it cannot be read; empty if it can"""
+
+
+def encoding_of(data: bytes, given: str, file: str) -> str:
+    """Return the codec of a file, by its mark, by what it holds, or as it is given.
+
+    Raises:
+        SourceError: It is not what is given.
+
+    """
+    marks = (codecs.BOM_UTF16_LE, 'utf-16-le'), (codecs.BOM_UTF16_BE, 'utf-16-be')
+    found = next((name for mark, name in marks if data.startswith(mark)), '')
+    found = found or _unmarked_utf16(data[:LOOKED_AT])
+    if given == 'latin-1' or (given != 'utf-8' and found):
+        return found if given != 'latin-1' else given
+    try:
+        data.decode(given if given == 'utf-8' else 'utf-8')
+    except UnicodeDecodeError as error:
+        if given == 'auto':
+            return 'latin-1'
+        reason = str(error)
+    else:
+        if given != 'utf-16':
+            return 'utf-8'
+        reason = 'it has no mark of UTF-16, and not every second byte is 0'
+    msg = f'{file} is not {given} ({reason}): choose csv.encoding auto, or what it was saved as'
+    raise SourceError(msg)
+
+
+def whole_lines(data: bytes, encoding: str) -> bytes:
+    """Return the lines that have their end."""
+    newline = '\n'.encode(encoding)
+    end = data.rfind(newline)
+    while end > 0 and end % len(newline):
+        end = data.rfind(newline, 0, end + len(newline) - 1)
+    return data[: end + len(newline)] if end >= 0 and not end % len(newline) else b''
+
+
+def _unmarked_utf16(head: bytes) -> str:
+    """Return the name of UTF-16 if every second byte is none, as of Latin letters in it."""
+    even, odd = head[0::2], head[1::2]
+    if len(head) < 4:
+        return ''
+    if odd.count(0) > 0.9 * len(odd) and even.count(0) < 0.1 * len(even):
+        return 'utf-16-le'
+    if even.count(0) > 0.9 * len(even) and odd.count(0) < 0.1 * len(odd):
+        return 'utf-16-be'
+    return ''
+
+
+def lines_of(text: str, first: int = 1) -> list[FileLine]:
+    """Return the lines that are not empty, the first of them counted as ``first``."""
+    lines = []
+    plain = text.removeprefix('\ufeff').replace('\r\n', '\n').replace('\r', '\n')
+    for number, line in enumerate(plain.split('\n'), first):
+        kept = line.replace('\0', '')
+        if kept.strip():
+            lines.append(FileLine(number, kept))
+        elif '\0' in line:
+            lines.append(FileLine(number, '', POWER_CUT))
+    return lines

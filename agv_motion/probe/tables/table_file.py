@@ -1,0 +1,181 @@
+"""One file of a logger, read as far as it is written, and further when more has been."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.files import text
+from agv_motion.probe.tables import file_text
+from agv_motion.probe.tables.cell_numbers import CellNumbers
+from agv_motion.probe.tables.left_out import LeftOut
+from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, zone_of
+from agv_motion.probe.tables.table_form import find_form
+from agv_motion.probe.tables.table_rows import rows_of
+from agv_motion.probe.tables.time_format import choose, named, second_reading
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from agv_motion.probe.tables.file_text import FileLine
+    from agv_motion.probe.tables.table_form import TableForm
+    from agv_motion.probe.tables.table_parameters import TableParameters
+    from agv_motion.probe.tables.table_rows import Row
+    from agv_motion.probe.tables.time_format import TimeFormat
+    from agv_motion.probe.tables.time_readers import Instant
+
+LARGEST = 256 << 20
+"""[bytes] of a recording: a year of three probes every second"""
+
+
+class FileRows(NamedTuple):
+    """Rows that can be read, in the order of the file."""
+
+    times: NDArray[np.float64]
+    """[s] since 1970, UTC"""
+    lines: NDArray[np.int64]
+    """of the file, counted from 1, from which each row comes"""
+    values: NDArray[np.float64]
+    """(n, columns); NaN where a cell is empty, stands for no value, or is no number"""
+    problem: str
+    """what was wrong; empty if nothing"""
+
+
+class FileForm(NamedTuple):
+    """How one file is written, found out from its first rows."""
+
+    table: TableForm
+    time: TimeFormat
+    numbers: CellNumbers
+
+
+class TableFile:
+    """Knows how a file is written, and how much of it has been read."""
+
+    def __init__(self, path: Path, given: TableParameters) -> None:
+        """Read nothing yet.
+
+        Args:
+            path: The file.
+            given: What is known of it.
+
+        """
+        self.path, self._given = path, given
+        self.bytes_read, self._line, self._encoding = 0, 1, ''
+        self.form: FileForm | None = None
+        self._clock = LocalClock(zone_of(given.time_zone), DoubledHour(given.doubled_hour))
+
+    def read(self, *, growing: bool = False) -> FileRows:
+        """Return the rows that were not read before.
+
+        Args:
+            growing: Whether a logger may be writing: its last line is left until it has its end.
+
+        Raises:
+            SourceError: The file cannot be read, no row can, or its times have two readings.
+            ConfigurationError: A column is not in the file, or twice.
+
+        """
+        lines, left_out = self._lines(growing=growing), LeftOut(self.path)
+        if growing and not lines:
+            return _nothing(len(self._given.columns))
+        form = self.form.table if self.form else find_form(lines, self._given, self.path)
+        rows = rows_of(lines, form, self._given.comment, left_out)
+        if self.form is None:
+            self.form = FileForm(form, self._time_format(rows, form), self._numbers(rows, form))
+        instants, kept = _timed(rows, self.form, left_out)
+        if not kept and not growing:
+            raise left_out.error()
+        self._require_one_reading(instants, kept)
+        times = self._in_utc(instants, kept)
+        cells = [[row.cells[i] for i in form.columns] for row in kept]
+        values = [[self.form.numbers.number(cell) for cell in row] for row in cells]
+        unreadable = sum(value is None for row in values for value in row)
+        told = f'{unreadable} cells of {self.path} are no numbers' if unreadable else ''
+        return FileRows(
+            np.array(times, float),
+            np.array([row.line for row in kept], np.int64),
+            np.array(values, float).reshape(-1, len(form.columns)),  # None becomes NaN
+            '; '.join(filter(None, (left_out.told(), told))),
+        )
+
+    def _lines(self, *, growing: bool) -> list[FileLine]:
+        """Return the lines that were not read before."""
+        try:
+            data = text.read_bytes(self.path, 'the probe file', LARGEST, self.bytes_read)
+        except ConfigurationError as error:
+            raise text.as_kind(error, SourceError) from error
+        if not self._encoding:
+            known = data[: data.rfind(b'\n') + 1] or data  # a letter at the end may be half written
+            self._encoding = file_text.encoding_of(known, self._given.encoding, str(self.path))
+        if growing:
+            data = file_text.whole_lines(data, self._encoding)
+        self.bytes_read += len(data)
+        content = data.decode(self._encoding, errors='replace')
+        first, self._line = self._line, self._line + content.count('\n')
+        return file_text.lines_of(content, first)
+
+    def _time_format(self, rows: Sequence[Row], form: TableForm) -> TimeFormat:
+        if self._given.time_format != 'auto':
+            return named(self._given.time_format)
+        try:
+            return choose([row.word for row in rows], joined=len(form.time) > 1)
+        except SourceError as error:
+            raise self._error(rows[0], str(error), error.unquoted) from error
+
+    def _numbers(self, rows: Sequence[Row], form: TableForm) -> CellNumbers:
+        cells = (row.cells[i] for row in rows for i in form.columns)
+        try:
+            return CellNumbers.of(cells, self._given)
+        except SourceError as error:
+            raise self._error(
+                rows[0], str(error), 'its commas may be decimal or between thousands'
+            ) from error
+
+    def _require_one_reading(self, instants: Sequence[Instant], rows: Sequence[Row]) -> None:
+        if self._given.time_format == 'auto' and rows:
+            words, times = [row.word for row in rows], [instant.seconds for instant in instants]
+            if other := second_reading(words, times):
+                column = f"column '{self._given.time_column}' may be {other}"
+                raise self._error(rows[0], column, f'the times may be {other}')
+
+    def _in_utc(self, instants: Sequence[Instant], rows: Sequence[Row]) -> list[float]:
+        """Return the times in UTC [s since 1970]; a file may have its newest row on top."""
+        falls = sum(b.seconds < a.seconds for a, b in pairwise(instants))
+        order = slice(None, None, -1 if falls > len(rows) / 2 else 1)
+        times: list[float] = []
+        try:
+            times.extend(map(self._clock.utc, instants[order]))
+        except SourceError as error:
+            raise self._error(rows[order][len(times)], str(error), str(error)) from error
+        return times[order]
+
+    def _error(self, row: Row, reason: str, unquoted: str) -> SourceError:
+        return SourceError.at((self.path, row.line, 1), reason, unquoted)
+
+
+def _nothing(columns: int) -> FileRows:
+    return FileRows(np.empty(0), np.empty(0, np.int64), np.empty((0, columns)), '')
+
+
+def _timed(
+    rows: Sequence[Row], form: FileForm, left_out: LeftOut
+) -> tuple[list[Instant], list[Row]]:
+    """Return the times of the rows that have one, and those rows; note the others."""
+    instants, kept, instant_of = [], [], form.time.instant
+    for row in rows:
+        before = row.cells[: form.table.time[0]]
+        try:
+            instants.append(instant_of(row.word))
+        except SourceError as error:
+            column = sum(len(cell) + 1 for cell in before) + 1
+            left_out.add(row.line, column, str(error), error.unquoted)
+        else:
+            kept.append(row)
+    return instants, kept
