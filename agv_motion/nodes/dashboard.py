@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 LOOK_PERIOD = 1.0
 """[s] between two looks at the graph, and for what has come while nobody looks at the page"""
-ACT_PERIOD = 0.05
-"""[s] within which an act of a person goes out"""
+ACT_PERIOD = 0.06
+"""[s] within which an act of a person goes out: half of that between two frames of the page"""
 TAKE_EVERY = 2
 """periods of these after which is taken what has come, while somebody looks at the page"""
 

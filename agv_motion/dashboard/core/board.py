@@ -43,8 +43,8 @@ class Cell(NamedTuple):
     """greater than that of any cell before it"""
     at: float
     """when that was so [s]"""
-    text: str
-    """its value, as JSON"""
+    update: str
+    """robot, topic, time and value as JSON, as it goes to every client"""
 
 
 class Board:
@@ -68,6 +68,8 @@ class Board:
         self._heard_clock = 0.0
         self._held: dict[str, Any] = {}
         """newest reservation of each tree"""
+        self._values: dict[tuple[str, str], Any] = {}
+        """what was put in each cell that is made elsewhere"""
         self._made: dict[tuple[str, str], int] = {}
         self._version = 0
         self._slowly = 0.0
@@ -112,11 +114,10 @@ class Board:
 
     def put(self, robot: str, slot: str, at: float, value: Any, *, renew: bool = False) -> None:
         """Set a cell that is made elsewhere; the same again changes nothing unless to ``renew``."""
-        text = as_json(value)
-        before = self.cells.get((robot, slot))
-        if renew or before is None or before.text != text:
-            self._version += 1
-            self.cells[robot, slot] = Cell(self._version, at, text)
+        key = robot, slot
+        if renew or key not in self.cells or self._values[key] != value:
+            self._values[key] = value
+            self._set(key, at, value)
 
     def refresh(self, now: float, wanted: Iterable[tuple[str, str]] = ()) -> None:
         """Make the cells of what has come, as of ``now`` [s].
@@ -180,8 +181,17 @@ class Board:
         except Exception:  # noqa: BLE001 - a message of a stranger under a name that we know
             value = None
         if value is not None:
-            self._version += 1
-            self.cells[key] = Cell(self._version, min(entries[0].at, now), as_json(value))
+            self._set(key, min(entries[0].at, now), value)
+
+    def _set(self, key: tuple[str, str], at: float, value: Any) -> None:
+        """Make a new cell, once for all clients."""
+        robot, slot = key
+        self._version += 1
+        update = (
+            f'{{"robot":{as_json(robot)},"topic":{as_json(slot)},"at":{at:.3f},'
+            f'"value":{as_json(value)}}}'
+        )
+        self.cells[key] = Cell(self._version, at, update)
 
     def _refresh_robot(self, robot: RobotState, now: float, *, slowly: bool) -> None:
         """Make what is told of a robot as a whole."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
+from functools import lru_cache
 from math import hypot
 from typing import TYPE_CHECKING, Any
 
@@ -87,13 +88,18 @@ def turrets(message: Any, radius: float | None) -> Value:
         radius: Of the wheels [m]; None where nobody has told: then there are no speeds.
 
     """
-    rows = _joints(message)
-    count = min(sum(name.endswith(STEERING) for name in rows), MOST_JOINTS)
-    angles, rates = [], []
-    for i in range(count):
-        angles.append(rows.get(f'turret_{i}{STEERING}', (None, None))[0])
-        rates.append(rows.get(f'turret_{i}{WHEEL}', (None, None))[1])
-    return {'angles': angles, 'speeds': _speeds(rates, [radius] * count)}
+    steering, _ = _turret_places(tuple(message.name[: 2 * MOST_JOINTS]))
+    rates = turret_rates(message)
+    return {
+        'angles': _picked(message.position, steering),
+        'speeds': _speeds(rates, [radius] * len(rates)),
+    }
+
+
+def turret_rates(message: Any) -> list[float | None]:
+    """Return the rates of the wheels of turrets [rad/s], as :func:`turrets` has their speeds."""
+    _, wheels = _turret_places(tuple(message.name[: 2 * MOST_JOINTS]))
+    return _picked(message.velocity, wheels)
 
 
 def wheels(message: Any, radii: Sequence[float | None]) -> Value:
@@ -104,16 +110,19 @@ def wheels(message: Any, radii: Sequence[float | None]) -> Value:
             'speeds': _speeds(rates, given)}  # fmt: skip
 
 
-def _joints(message: Any) -> dict[str, tuple[float | None, float | None]]:
-    """Return position and velocity of each joint, by name."""
-    names = list(message.name)[: 2 * MOST_JOINTS]
-    positions = listed(message.position, len(names))
-    velocities = listed(message.velocity, len(names))
-    gap: list[float | None] = [None] * len(names)
-    return {
-        str(name): (place, rate)
-        for name, place, rate in zip(names, positions + gap, velocities + gap, strict=False)
-    }
+@lru_cache(maxsize=100)
+def _turret_places(names: tuple[str, ...]) -> tuple[list[int], list[int]]:
+    """Return where among ``names`` are the steering joints, and where the wheels; -1: nowhere."""
+    index = {name: i for i, name in enumerate(names)}
+    count = min(sum(name.endswith(STEERING) for name in index), MOST_JOINTS)
+    steering = [index.get(f'turret_{i}{STEERING}', -1) for i in range(count)]
+    return steering, [index.get(f'turret_{i}{WHEEL}', -1) for i in range(count)]
+
+
+def _picked(values: Sequence[Any], places: Sequence[int]) -> list[float | None]:
+    """Return the values at some places, None where there are not so many."""
+    count = len(values)
+    return [finite(values[i]) if 0 <= i < count else None for i in places]
 
 
 def _speeds(rates: Sequence[float | None], radii: Sequence[float | None]) -> list[float | None]:

@@ -15,7 +15,9 @@ _NOTHING: Any = object()
 class Entry:
     """A message, as it came: bytes with what decodes them, or an object."""
 
-    __slots__ = ('_data', '_decode', '_message', '_needs', 'at', 'number')
+    __slots__ = (
+        '_convert', '_converted', '_data', '_decode', '_message', '_needs', 'at', 'number',
+    )  # fmt: skip
 
     def __init__(
         self, at: float, data: Any, decode: Callable[[Any], Any] | None = None,
@@ -34,6 +36,8 @@ class Entry:
         self.number = next(_numbers)
         """greater than that of every message that came before"""
         self._message: Any = _NOTHING
+        self._convert: Callable[[Any], Any] | None = None
+        self._converted: Any = None
 
     @property
     def message(self) -> Any:
@@ -44,6 +48,15 @@ class Entry:
             self._message = found if whole else None
             self._data = self._decode = None
         return self._message
+
+    def converted(self, convert: Callable[[Any], Any]) -> Any:
+        """Return what ``convert`` makes of the message, which there must be; made only once.
+
+        Whoever gets it leaves it as it is: others get the same.
+        """
+        if self._convert is not convert:
+            self._converted, self._convert = convert(self.message), convert
+        return self._converted
 
     def _decoded(self) -> Any:
         if self._decode is None:

@@ -8,6 +8,8 @@ from agv_motion.dashboard.core import conversions
 from agv_motion.dashboard.core.trail import DayChart, Trail
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from agv_motion.dashboard.core.entry import Entry
 
 MEASURED = ('turrets/state', 'wheels/state', 'odom', 'pose')
@@ -62,6 +64,11 @@ class RobotState:
         entry = self.latest.get(topic)
         return None if entry is None else entry.message
 
+    def converted(self, topic: str, convert: Callable[[Any], Any]) -> Any:
+        """Return what ``convert`` makes of the newest message, once each; None without one."""
+        entry = self.latest.get(topic)
+        return None if entry is None or entry.message is None else entry.converted(convert)
+
     def age(self, topic: str, now: float) -> float | None:
         """Return how long ago a topic spoke [s]; None if it never did."""
         entry = self.latest.get(topic)
@@ -104,10 +111,9 @@ class RobotState:
         if told is not None and self.radius is not None:
             known: list[float | None] = told['speeds']
             return known
-        joints = self.message('turrets/state')
-        if joints is not None:
-            speeds: list[float | None] = conversions.turrets(joints, 1.0)['speeds']
-            return speeds
+        if told is not None:
+            rates: list[float | None] = conversions.turret_rates(self.message('turrets/state'))
+            return rates
         joints = self.message('wheels/state')
         if joints is None:
             return []

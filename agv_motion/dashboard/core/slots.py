@@ -37,8 +37,8 @@ def _pose(robot: RobotState) -> Value | None:
 
 
 def _made(robot: RobotState, topic: str, convert: Callable[[Any], Value]) -> Value | None:
-    message = robot.message(topic)
-    return None if message is None else convert(message)
+    made: Value | None = robot.converted(topic, convert)
+    return made
 
 
 def _turrets(robot: RobotState) -> Value | None:

@@ -25,6 +25,8 @@ COLOURS = {
 }  # fmt: skip
 """of each activity; of one that is not known: yellow"""
 BY_HAND = ('manual',)
+NOBODY = {'driver': '', 'stop': False, 'sentence': '', 'lost': '', 'level': 'OK'}
+"""what `driver` tells of a robot that has none"""
 STATES = ('state', 'sequence/state', 'sequence/status', 'route/state', 'ghost/state')
 
 
@@ -54,10 +56,8 @@ def summary(robot: RobotState, now: float) -> dict[str, Any]:
 
 
 def _driver(robot: RobotState) -> dict[str, Any]:
-    message = robot.message('driver')
-    if message is None:
-        return {'driver': '', 'stop': False, 'sentence': '', 'lost': '', 'level': 'OK'}
-    return conversions.driver(message)
+    told: dict[str, Any] | None = robot.converted('driver', conversions.driver)
+    return NOBODY if told is None else told
 
 
 def _found(robot: RobotState, driver: dict[str, Any], now: float) -> _Found:
@@ -106,10 +106,9 @@ def activity(robot: RobotState, now: float) -> str:
 
 def said(robot: RobotState) -> str:
     """Return the sentence of a robot: the head of its reasons, or its state."""
-    chain = robot.message('why')
+    chain = robot.converted('why', conversions.why)
     if chain is not None:
-        links = conversions.why(chain)['links']
-        for one in links:
+        for one in chain['links']:
             if one['name'] in {'headline', 'why'} and one['sentence']:
                 return str(one['sentence'])
     for topic in STATES:

@@ -129,11 +129,7 @@ class Client:
             if self.sent.get(key, 0) >= cell.version or not self._sees(key, board):
                 continue
             self.sent[key] = cell.version
-            robot, topic = key
-            updates.append(
-                f'{{"robot":{as_json(robot)},"topic":{as_json(topic)},"at":{cell.at:.3f},'
-                f'"value":{cell.text}}}'
-            )
+            updates.append(cell.update)
         if not updates:
             return ''
         self.number += 1

@@ -14,7 +14,7 @@ from agv_motion.dashboard.core.names import ALONE, MOST_ROBOTS, namespace_of, ro
 
 
 def value(board, robot, slot):
-    return json.loads(board.cells[robot, slot].text)
+    return json.loads(board.cells[robot, slot].update)['value']
 
 
 def test_the_newest_message_counts(messages):
@@ -93,7 +93,7 @@ def test_no_number_of_a_robot_makes_what_is_no_json(numbers):
     board.receive('oak', 'granier/sap_flow', 1.0, messages.sap_flow(x, y, z))
     board.refresh(1.0)
     for cell in board.cells.values():
-        json.loads(cell.text, parse_constant=pytest.fail)
+        json.loads(cell.update, parse_constant=pytest.fail)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_there_is_an_end_to_robots_nodes_and_texts(messages):
     board.receive('', 'diagnostics', 1.0, messages.diagnostics(*statuses))
     board.refresh(1.0)
     assert len(board.robots['robot_0'].nodes) <= 60
-    assert len(board.cells['robot_0', 'health'].text) < 100_000
+    assert len(board.cells['robot_0', 'health'].update) < 100_000
 
 
 def test_a_day_at_ten_hertz_grows_nothing(messages):
@@ -136,7 +136,7 @@ def test_a_day_at_ten_hertz_grows_nothing(messages):
         board.look(now)
         if step % 2160 == 2159:
             board.refresh(now + 2.0)
-            sizes.append(sum(len(cell.text) for cell in board.cells.values()))
+            sizes.append(sum(len(cell.update) for cell in board.cells.values()))
     assert len(value(board, 'oak', 'day')['times']) <= 301
     assert len(value(board, 'oak', 'trail')['points']) <= 300
     assert sizes[-1] < 2 * sizes[1]
