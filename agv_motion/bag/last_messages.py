@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import deque
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from agv_motion.bag.connection import Message
     from agv_motion.bag.reader import BagReader
@@ -33,13 +35,37 @@ def last_before(
         SourceError: The bag is damaged.
 
     """
-    wanted, found = set(topics), {}
-    bag.require(wanted)
+    found = latest_before(bag, dict.fromkeys(topics, 1), stamp, enough)
+    return {message.connection.topic: message for message in found}
+
+
+def latest_before(
+    bag: BagReader, counts: Mapping[str, int], stamp: int,
+    enough: Callable[[], bool] = lambda: False,
+) -> list[Message]:  # fmt: skip
+    """Return the last messages of each topic before a moment, in the order of time.
+
+    Args:
+        bag: The bag.
+        counts: Number of messages of each topic, at most.
+        stamp: The moment [ns]; a message of just then is not before it.
+        enough: Asked between two stretches; whether to be content with what was found.
+
+    Raises:
+        ConfigurationError: A topic is not in the bag.
+        SourceError: The bag is damaged.
+
+    """
+    bag.require(counts)
+    left = {topic: count for topic, count in counts.items() if count > 0}
+    found: list[Message] = []
     stop, span = stamp, FIRST
-    while wanted and stop > bag.start and not enough():
+    while left and stop > bag.start and not enough():
         start = max(stop - span, bag.start)
-        for message in bag.messages(wanted, start, stop):
-            found[message.connection.topic] = message
-        wanted -= found.keys()
+        latest: dict[str, deque[Message]] = {t: deque(maxlen=count) for t, count in left.items()}
+        for message in bag.messages(left, start, stop):
+            latest[message.connection.topic].append(message)
+        found += (message for messages in latest.values() for message in messages)
+        left = {t: count - len(latest[t]) for t, count in left.items() if count > len(latest[t])}
         stop, span = start, 4 * span
-    return found
+    return sorted(found, key=attrgetter('stamp'))

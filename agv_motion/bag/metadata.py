@@ -56,7 +56,10 @@ class FileSummary(NamedTuple):
 
 
 def describe(
-    files: Sequence[FileSummary], topics: Iterable[tuple[Topic, int]], ros_distro: str
+    files: Sequence[FileSummary],
+    topics: Iterable[tuple[Topic, int]],
+    ros_distro: str = 'jazzy',
+    storage: str = 'mcap',
 ) -> str:
     """Return the metadata of a bag, for its folder or for inside an MCAP file.
 
@@ -64,6 +67,7 @@ def describe(
         files: The files, in the order of time.
         topics: Each topic with the number of its messages.
         ros_distro: Name of the ROS distribution, such as ``jazzy``.
+        storage: Format of the files.
 
     """
     filled = [file for file in files if file.messages]
@@ -71,7 +75,7 @@ def describe(
     end = max((file.end for file in filled), default=NEVER)
     entries = {
         'version': 9,
-        'storage_identifier': 'mcap',
+        'storage_identifier': storage,
         **_span(start, end),
         'message_count': sum(file.messages for file in files),
         'topics_with_message_count': [_topic(*topic) for topic in topics],

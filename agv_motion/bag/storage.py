@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from agv_motion.bag.columns.batch import Batch
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.damage import DamagedBagError
+    from agv_motion.bag.mcap.chunked_file import ChunkedFile
     from agv_motion.bag.mcap.records import Attachment, Metadata
     from agv_motion.errors import SourceError
 
@@ -93,6 +94,17 @@ class Storage(Protocol):
 
     def extras(self) -> Iterator[Attachment | Metadata | DamagedBagError]:
         """Yield attachments and named strings, and what is wrong with others."""
+
+    def as_chunks(self) -> ChunkedFile | None:
+        """Return the file as chunks that can be copied whole; None where it has no such things."""
+
+    def require_whole(self) -> None:
+        """Compare all bytes with a checksum of the whole file, where it has one.
+
+        Raises:
+            DamagedBagError: One of them is wrong.
+
+        """
 
     def damage(self) -> Iterator[str]:
         """Yield what is wrong with the file, by reading all of it."""

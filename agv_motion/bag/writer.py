@@ -114,7 +114,7 @@ class BagWriter:
         if (topic.name, topic.type) in ((t.name, t.type) for t in self._finished.topics):
             msg = f'topic {topic.name} is in bag {self.path} already: add it once, keep the handle'
             raise ConfigurationError(msg)
-        handle = self._file.add_channel(topic)
+        handle = self._file.add_topic(topic)
         self._finished.add_topic(topic)
         return handle
 
@@ -239,7 +239,7 @@ class BagWriter:
         self._finish()
         self._file = self._open_next()
         for topic in self._finished.topics:
-            self._file.add_channel(topic)
+            self._file.add_topic(topic)
         self._finished.save(self._file)
 
     def drop_oldest(self) -> bool:

@@ -22,7 +22,7 @@ class Bag:
     def begin(self, number, stamp):
         writer = McapWriter(self.folder / f'x_{number}.mcap', '')
         for topic in self.files.topics:
-            channel = writer.add_channel(topic)
+            channel = writer.add_topic(topic)
             writer.write(channel, stamp, b'\0\1\0\0\1', stamp, 0)
         writer.flush()
         return writer

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 from agv_motion.bag.bag_files import find
 from agv_motion.bag.columns.message_batches import unpack_message
 from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.file_kind import SQLITE, kind
 from agv_motion.bag.mcap.records import Attachment
-from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.sqlite.recovery import copy_readable
 from agv_motion.errors import SourceError
@@ -112,17 +112,9 @@ class Recovery:
         key = connection.topic, connection.encoding, *kind
         if key not in self._handles:
             before = sum(topic == connection.topic for topic, *_ in self._handles)
-            foreign = connection.encoding != 'cdr'
-            topic = Topic(
-                f'{connection.topic}_{before + 1}' if before else connection.topic,
-                connection.type,
-                connection.definition,
-                connection.hash,
-                connection.qos,
-                connection.definition_encoding or ('' if foreign else 'ros2msg'),
-                connection.encoding,
-                connection.notes,
-            )
+            topic = topic_of(connection)
+            if before:
+                topic = topic._replace(name=f'{connection.topic}_{before + 1}')
             self._handles[key] = self._writer.add(topic)
         return self._handles[key]
 

@@ -102,23 +102,9 @@ def content(
     end = chunk.offset + chunk.length
     if chunk.bare:
         return data[chunk.offset : end]
-    body = chunk.offset + records.PREFIX.size
-    head = parsing.chunk_head(parsing.Body(data[body:end], path, body), body)
-    ratio = RATIOS.get(head.compression, 1)
-    if head.size > min(LARGEST, head.stored * ratio):
-        finding = (
-            f'a chunk of {head.size} bytes out of {head.stored}, expected at most {LARGEST}, '
-            f'and {ratio} times as many as are stored'
-        )
-        remedy = 'a machine with more memory may read it' if head.size > LARGEST else ''
-        if not chunk.torn or remedy:
-            raise DamagedBagError(path, chunk.offset, finding, remedy)
-    stored = data[head.content : head.content + head.stored]
+    head, stored = stored_content(data, chunk, path)
     if chunk.torn:
         return salvage(head.compression, stored, head.size)
-    if head.content + head.stored != end:
-        finding = f'a chunk that ends at byte {head.content + head.stored}, expected {end}'
-        raise DamagedBagError(path, chunk.offset, finding)
     try:
         if target is None or head.size != chunk.size:
             unpacked = decompress(head.compression, stored, head.size)
@@ -131,6 +117,33 @@ def content(
         finding = f'a chunk with CRC {crc32(unpacked):08x}, expected {head.crc:08x}'
         raise DamagedBagError(path, chunk.offset, finding)
     return unpacked
+
+
+def stored_content(
+    data: memoryview, chunk: Chunk, path: Path
+) -> tuple[parsing.ChunkHead, memoryview]:
+    """Return what stands before the content of a chunk, and the content as it is stored.
+
+    Raises:
+        DamagedBagError: It cannot be as large as it says, or ends elsewhere.
+
+    """
+    end = chunk.offset + chunk.length
+    body = chunk.offset + records.PREFIX.size
+    head = parsing.chunk_head(parsing.Body(data[body:end], path, body), body)
+    ratio = RATIOS.get(head.compression, 1)
+    if head.size > min(LARGEST, head.stored * ratio):
+        finding = (
+            f'a chunk of {head.size} bytes out of {head.stored}, expected at most {LARGEST}, '
+            f'and {ratio} times as many as are stored'
+        )
+        remedy = 'a machine with more memory may read it' if head.size > LARGEST else ''
+        if not chunk.torn or remedy:
+            raise DamagedBagError(path, chunk.offset, finding, remedy)
+    if head.content + head.stored != end and not chunk.torn:
+        finding = f'a chunk that ends at byte {head.content + head.stored}, expected {end}'
+        raise DamagedBagError(path, chunk.offset, finding)
+    return head, data[head.content : head.content + head.stored]
 
 
 def message_offsets(unpacked: Buffer) -> NDArray[np.int64]:

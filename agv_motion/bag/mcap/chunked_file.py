@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.mcap.record_parsing import Buffer
 
-CACHE = 1 << 28
+CACHE = 1 << 27
 """[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
 
 
@@ -67,16 +67,16 @@ class ChunkedFile:
         self._cache: OrderedDict[int, Buffer] = OrderedDict()
         self._cached = 0
         found, problems = mcap_scan.look(self.data, path, believe=not scan)
-        self._summary = found
-        self.problems = [*problems, *self._summary.problems]
+        self.summary = found
+        self.problems = [*problems, *self.summary.problems]
         """what is amiss in the file, though it can be read"""
-        self.indexed = self._summary.indexed
+        self.indexed = self.summary.indexed
         """whether the summary at its end was there to be used"""
-        self.statistics = self._summary.statistics
-        self.chunks = self._summary.chunks
+        self.statistics = self.summary.statistics
+        self.chunks = self.summary.chunks
         self.channels: Mapping[int, Connection] = {
-            number: connections.from_channel(channel, self._summary.schemas)
-            for number, channel in self._summary.channels.items()
+            number: connections.from_channel(channel, self.summary.schemas)
+            for number, channel in self.summary.channels.items()
         }
 
     @property

@@ -100,9 +100,7 @@ class McapFile(ChunkedFile):
 
     def extras(self) -> Iterator[records.Attachment | records.Metadata | DamagedBagError]:
         """Yield the attachments and named strings that are whole, and what is wrong with others."""
-        for opcode, at, end in record_parsing.walk(self.data, len(records.MAGIC), len(self.data)):
-            if opcode == records.DATA_END:
-                return
+        for opcode, at, end in self._between_chunks():
             body = record_parsing.Body(self.data[at:end], self.path, at)
             try:
                 if opcode == records.ATTACHMENT:
@@ -111,6 +109,24 @@ class McapFile(ChunkedFile):
                     yield record_parsing.metadata(body)
             except DamagedBagError as error:
                 yield error
+
+    def _between_chunks(self) -> Iterator[tuple[int, int, int]]:
+        """Yield opcode, body and end of the records before the end of the data.
+
+        What the summary tells of, chunks and their indexes, is passed over: a large file has many.
+        """
+        known = [c for c in self.chunks if self.indexed and not c.bare]
+        begins = [len(records.MAGIC), *(c.offset + c.length + c.index_length for c in known)]
+        ends = [*(c.offset for c in known), len(self.data)]
+        for begin, end in zip(begins, ends, strict=True):
+            for record in record_parsing.walk(self.data, begin, end):
+                yield record
+                if record[0] == records.DATA_END:
+                    return
+
+    def as_chunks(self) -> ChunkedFile:
+        """Return the file as chunks that can be copied whole."""
+        return self
 
     def damage(self) -> Iterator[str]:
         """Yield what is wrong with chunks, their CRCs and the totals; reads the whole file."""
@@ -133,8 +149,18 @@ class McapFile(ChunkedFile):
 
     def _unlike_crc(self) -> DamagedBagError | None:
         """Return what is wrong where the data do not match the CRC at their end."""
-        begin, size = len(records.MAGIC), records.PREFIX.size
-        for opcode, at, _ in record_parsing.walk(self.data, begin, len(self.data)):
+        for opcode, at, _ in self._between_chunks():
             if opcode == records.DATA_END:
-                return scan.unlike_crc(self.data, self.path, at - size)
+                return scan.unlike_crc(self.data, self.path, at - records.PREFIX.size)
         return None
+
+    def require_whole(self) -> None:
+        """Compare all bytes with the CRC at the end of the data, where the file has one.
+
+        Raises:
+            DamagedBagError: One of them is wrong.
+
+        """
+        wrong = self._unlike_crc()
+        if wrong is not None:
+            raise wrong

@@ -36,6 +36,6 @@ def mapped(path: Path, place: Path) -> memoryview:
 
 def release(data: memoryview, begin: int, end: int) -> None:
     """Take a part of a file [bytes] out of the memory of this process; it stays readable."""
-    source, first = data.obj, -(-begin // mmap.PAGESIZE) * mmap.PAGESIZE
+    source, first, end = data.obj, -(-begin // mmap.PAGESIZE) * mmap.PAGESIZE, min(end, len(data))
     if isinstance(source, mmap.mmap) and hasattr(mmap, 'MADV_DONTNEED') and first < end:
         source.madvise(mmap.MADV_DONTNEED, first, end - first)

@@ -133,6 +133,13 @@ def walk(data: Buffer, position: int, end: int) -> Iterator[tuple[int, int, int]
         yield opcode, body, position
 
 
+def profile(data: Buffer, path: Path) -> str:
+    """Return what the first record of a file says that its messages are; '' if it says nothing."""
+    begin = len(records.MAGIC)
+    opcode, at, end = next(walk(data, begin, len(data)), (0, begin, begin))
+    return Body(data[at:end], path, at).text() if opcode == records.HEADER else ''
+
+
 def schema(body: Body) -> records.Schema:
     """Return a schema."""
     number = body.number(U16)

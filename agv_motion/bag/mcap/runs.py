@@ -39,7 +39,11 @@ def runs(
 
     """
     start, stop = span.start, span.stop
-    chunks = [c for c in file.chunks if c.filled and c.end >= start and c.start < stop]
+    chunks = [
+        c for c in file.chunks
+        if c.filled and c.end >= start and c.start < stop
+        and (c.indexes is None or not wanted.isdisjoint(c.indexes))
+    ]  # fmt: skip
     for group in successive(chunks):
         run = _together(file, group, wanted, span) if group[1:] else None
         if run is not None:

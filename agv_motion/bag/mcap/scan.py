@@ -17,6 +17,7 @@ from agv_motion.bag.mcap.chunk import (
     heads,
     message_offsets,
 )
+from agv_motion.bag.mcap.mapped import release
 from agv_motion.bag.mcap.summary import Summary, complete, read
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ STRETCH = 1 << 22
 """[bytes] Messages outside chunks are taken together up to this size."""
 _SHORTEST_MESSAGE = HEAD.itemsize - records.PREFIX.size
 _U16_SIZE = parsing.U16.size
+_PIECE = 1 << 24
+"""[bytes] whose CRC is computed at a time"""
 
 
 def look(
@@ -116,7 +119,10 @@ def unlike_crc(data: memoryview, path: Path, end: int) -> DamagedBagError | None
     _, length = records.PREFIX.unpack_from(data, end)
     body = end + records.PREFIX.size
     crc = int.from_bytes(data[body : body + 4], 'little') if length >= 4 else 0
-    found = crc32(data[:end]) if crc else 0
+    found = 0
+    for begin in range(0, end if crc else 0, _PIECE):
+        found = crc32(data[begin : min(begin + _PIECE, end)], found)
+        release(data, begin, begin + _PIECE)
     if crc == found:
         return None
     finding = f'all bytes before have CRC {found:08x}, expected {crc:08x}: one of them is wrong'

@@ -7,10 +7,9 @@ and :meth:`McapWriter.drop_chunk` makes room for the summary.
 
 from __future__ import annotations
 
-import os
 from array import array
 from struct import error as StructError  # noqa: N812 - the module names it in lower case
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from agv_motion.bag.compression import compressor
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
 from agv_motion.bag.mcap.chunk import HEAD
+from agv_motion.bag.mcap.output import McapOutput, NewChunk
 from agv_motion.bag.quality_of_service import as_yaml
 from agv_motion.errors import SignalError
 
@@ -33,17 +33,8 @@ _MESSAGE_BODY = records.MESSAGE_HEAD.size - records.PREFIX.size
 _MESSAGE_PREFIX = records.MESSAGE_HEAD.pack
 
 
-class _Extra(NamedTuple):
-    """An attachment, or named strings, in the file."""
-
-    offset: int
-    attached: bool
-    entry: bytes
-    """its record in the summary"""
-
-
-class McapWriter:
-    """Writes messages of several channels into one new file."""
+class McapWriter(McapOutput):
+    """Writes messages of several channels into one new file, chunk by chunk."""
 
     def __init__(self, path: Path, compression: str, library: str = 'agv_motion') -> None:
         """Create the file.
@@ -54,63 +45,40 @@ class McapWriter:
             library: Who writes.
 
         """
-        self.path = path
-        self.start, self.end = 2**64 - 1, 0
-        self.counts: list[int] = []
-        """number of messages of each channel; the first one has the id 1"""
+        compress = compressor(compression)
+        super().__init__(path, library=library)
         self.chunk_size = 0
         """[bytes] of the chunk being filled, uncompressed"""
         self.chunk_start = 0
         """[ns] log time of the first message in it"""
-        self._compression, self._compress = compression, compressor(compression)
-        self._file = path.open('xb', buffering=0)
-        self._schemas: dict[tuple[str, str, str], records.Schema] = {}
-        self._extras: list[_Extra] = []
-        self._channels: list[records.Channel] = []
-        self._chunks: list[records.ChunkIndex] = []
-        self._chunk_counts: list[dict[int, int]] = []
+        self._compression, self._compress = compression, compress
+        self._schema_ids: dict[tuple[str, str, str], int] = {}
         self._parts: list[bytes] = []
         self._indexes: list[array[int]] = []
-        self.size = 0
-        """[bytes] in the file so far"""
-        self._put(records.MAGIC + records.header('ros2', library))
 
-    def add_channel(self, topic: Topic) -> int:
+    @property
+    def counts(self) -> list[int]:
+        """Number of messages of each channel; the first one has the id 1."""
+        return list(self.channel_counts.values())
+
+    def add_topic(self, topic: Topic) -> int:
         """Return the id of a new channel for ``topic``."""
-        number = len(self._channels) + 1
-        notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
-        notes = dict(topic.notes) or notes
-        channel = records.Channel(number, self._schema(topic), topic.name, topic.encoding, notes)
-        self._put(records.channel(channel))
-        self._channels.append(channel)
+        number = len(self.channels) + 1
+        schema = self._schema(topic)
+        self.add_channel(channel_of(topic, number, schema))
         self._indexes.append(array('Q'))
-        self.counts.append(0)
         return number
 
     def _schema(self, topic: Topic) -> int:
         """Return the id of the schema of a topic; 0 for a topic without type."""
-        key = topic.type, topic.definition, topic.definition_encoding
         if not (topic.type or topic.definition):
             return 0
-        if key not in self._schemas:
-            number = len(self._schemas) + 1
-            definition = topic.definition.encode(errors='surrogateescape')
-            schema = records.Schema(number, topic.type, topic.definition_encoding, definition)
-            self._put(records.schema(schema))
-            self._schemas[key] = schema
-        return self._schemas[key].id
-
-    def keep(self, extra: records.Attachment | records.Metadata) -> None:
-        """Append an attachment or named strings."""
-        offset = self.size
-        if isinstance(extra, records.Attachment):
-            data = records.attachment(extra)
-            entry = records.attachment_index(extra, offset, len(data))
-        else:
-            data = records.metadata(extra)
-            entry = records.metadata_index(offset, len(data), extra.name)
-        self._put(data)
-        self._extras.append(_Extra(offset, isinstance(extra, records.Attachment), entry))
+        key = topic.type, topic.definition, topic.definition_encoding
+        if key not in self._schema_ids:
+            schema = schema_of(topic, len(self._schema_ids) + 1)
+            self.add_schema(schema)
+            self._schema_ids[key] = schema.id
+        return self._schema_ids[key]
 
     def write(self, channel: int, stamp: int, data: bytes, publish: int, sequence: int) -> None:
         """Append a message to the chunk being filled.
@@ -167,116 +135,37 @@ class McapWriter:
         if not self.chunk_size:
             return
         chunk = b''.join(self._parts)
-        stored = self._compress(chunk)
-        filled = [(i, index) for i, index in enumerate(self._indexes, 1) if index]
-        start, end = min(min(i[::2]) for _, i in filled), max(max(i[::2]) for _, i in filled)
-        sizes = len(stored), len(chunk)
-        head = records.chunk_head((start, end), sizes, crc32(chunk), self._compression)
-        length, pieces, offsets = len(head) + len(stored), [head, stored], {}
-        position = self.size + length
-        for channel, index in filled:
-            offsets[channel] = position
-            pieces.append(records.message_index(channel, index.tobytes()))
-            position += len(pieces[-1])
-        where = self.size, length, offsets, position - self.size - length
-        self._put(b''.join(pieces))
-        self._chunks.append(records.ChunkIndex(start, end, *where, self._compression, *sizes))
-        self.start, self.end = min(self.start, start), max(self.end, end)
-        counts = {channel: len(index) // 2 for channel, index in filled}
-        self._chunk_counts.append(counts)
-        for channel, count in counts.items():
-            self.counts[channel - 1] += count
+        filled = {i: index for i, index in enumerate(self._indexes, 1) if index}
+        times = (
+            min(min(index[::2]) for index in filled.values()),
+            max(max(index[::2]) for index in filled.values()),
+        )
+        entries = {channel: index.tobytes() for channel, index in filled.items()}
+        packed = self._compress(chunk)
+        self.put_chunk(
+            NewChunk(times, len(chunk), crc32(chunk), self._compression, packed, entries)
+        )
         self.discard()
 
     def discard(self) -> None:
         """Forget the chunk being filled."""
         self._parts, self.chunk_size = [], 0
-        self._indexes = [array('Q') for _ in self._channels]
-
-    def drop_chunk(self) -> bool:
-        """Cut the last chunk off the file; return whether there was one."""
-        if not self._chunks:
-            return False
-        self.size = self._chunks.pop().offset
-        for channel, count in self._chunk_counts.pop().items():
-            self.counts[channel - 1] -= count
-        self.start = min((chunk.start_time for chunk in self._chunks), default=2**64 - 1)
-        self.end = max((chunk.end_time for chunk in self._chunks), default=0)
-        self._extras = [extra for extra in self._extras if extra.offset < self.size]
-        self._cut()
-        return True
+        self._indexes = [array('Q') for _ in self.channels]
 
     @property
     def waiting(self) -> int:
         """Number of messages in the chunk being filled."""
         return len(self._parts) // 2
 
-    @property
-    def closed(self) -> bool:
-        """Whether the file is finished or abandoned."""
-        return self._file.closed
 
-    def sync(self) -> None:
-        """Wait until the disk has what was flushed."""
-        os.fdatasync(self._file.fileno())
+def schema_of(topic: Topic, number: int) -> records.Schema:
+    """Return what describes the type of a topic."""
+    definition = topic.definition.encode(errors='surrogateescape')
+    return records.Schema(number, topic.type, topic.definition_encoding, definition)
 
-    def close(self, notes: dict[str, str]) -> None:
-        """Write ``notes`` as metadata ``rosbag2`` and the summary behind the last chunk; close.
 
-        Raises:
-            OSError: The disk is full or failed; the file is as it was before, and still open.
-
-        """
-        noted = records.metadata(records.Metadata('rosbag2', notes))
-        index = records.metadata_index(self.size, len(noted), 'rosbag2')
-        own = _Extra(self.size, attached=False, entry=index)
-        data = noted + records.data_end()
-        self._put(data + self._summary([*self._extras, own], self.size + len(data)))
-        self.sync()
-        self._file.close()
-
-    def abandon(self) -> None:
-        """Close without a summary: what was flushed stays, and can be recovered."""
-        self._file.close()
-
-    def _summary(self, extras: Sequence[_Extra], begin: int) -> bytes:
-        """Return the summary, its offsets and the footer; ``begin`` is where it will stand."""
-        counts = {i: count for i, count in enumerate(self.counts, 1) if count}
-        start, end = (self.start, self.end) if counts else (0, 0)
-        attached = [extra.entry for extra in extras if extra.attached]
-        noted = [extra.entry for extra in extras if not extra.attached]
-        messages, schemas, channels = sum(self.counts), len(self._schemas), len(self._channels)
-        numbers = messages, schemas, channels, len(attached), len(noted)
-        totals = records.Statistics(*numbers, len(self._chunks), start, end, counts)
-        groups = {
-            records.SCHEMA: b''.join(map(records.schema, self._schemas.values())),
-            records.CHANNEL: b''.join(map(records.channel, self._channels)),
-            records.STATISTICS: records.statistics(totals),
-            records.CHUNK_INDEX: b''.join(map(records.chunk_index, self._chunks)),
-            records.ATTACHMENT_INDEX: b''.join(attached),
-            records.METADATA_INDEX: b''.join(noted),
-        }
-        offsets, position = [], begin
-        for opcode, group in groups.items():
-            if group:
-                offsets.append(records.summary_offset(opcode, position, len(group)))
-            position += len(group)
-        foot = records.footer_head(begin, position)
-        summary = b''.join((*groups.values(), *offsets, foot))
-        return summary + records.checksum(crc32(summary)) + records.MAGIC
-
-    def _put(self, data: bytes) -> None:
-        """Append bytes; a failure leaves the file as it was before."""
-        view = memoryview(data)
-        try:
-            while view:
-                view = view[self._file.write(view) :]
-        except OSError:
-            self._cut()
-            raise
-        self.size += len(data)
-
-    def _cut(self) -> None:
-        """End the file where ``size`` says."""
-        os.ftruncate(self._file.fileno(), self.size)
-        os.lseek(self._file.fileno(), self.size, os.SEEK_SET)
+def channel_of(topic: Topic, number: int, schema: int) -> records.Channel:
+    """Return what describes a topic; ``schema`` is the id of its type, 0 without."""
+    notes = {'offered_qos_profiles': as_yaml(topic.qos), 'topic_type_hash': topic.hash}
+    notes = dict(topic.notes) or notes
+    return records.Channel(number, schema, topic.name, topic.encoding, notes)

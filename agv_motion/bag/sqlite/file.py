@@ -131,6 +131,12 @@ class SqliteFile:
         """Yield nothing: such a file has no room for more than messages."""
         return iter(())
 
+    def as_chunks(self) -> None:
+        """Return nothing: its messages lie one by one."""
+
+    def require_whole(self) -> None:
+        """Do nothing: it has no checksum."""
+
     def damage(self) -> Iterator[str]:
         """Yield nothing: it has no CRC, and what is no message is among ``problems``."""
         return iter(())

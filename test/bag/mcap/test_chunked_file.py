@@ -19,7 +19,7 @@ def path(tmp_path):
     """Chunks of times 5 to 7 (two of /a, one of /b) and 10 (one of /b)."""
     writer = McapWriter(tmp_path / 'x.mcap', 'zstd')
     for topic in TOPICS:
-        writer.add_channel(topic)
+        writer.add_topic(topic)
     for channel, stamp in ((1, 5), (2, 6), (1, 7)):
         writer.write(channel, stamp, b'\0\1\0\0%d' % stamp, stamp + 1, stamp)
     writer.flush()

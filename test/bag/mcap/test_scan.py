@@ -20,7 +20,7 @@ def file(tmp_path):
     """Three chunks of two messages, at 0 and 1, 10 and 11, 20 and 21."""
     writer = McapWriter(tmp_path / 'x.mcap', '')
     for topic in TOPICS:
-        writer.add_channel(topic)
+        writer.add_topic(topic)
     for k in (0, 10, 20):
         writer.write(1, k, b'\0\1\0\0\1', k, 0)
         writer.write(2, k + 1, b'\0\1\0\0\2', k + 1, 0)

@@ -17,7 +17,7 @@ A, B = (Topic(name, 'a/msg/A', 'int8 x', '', ()) for name in ('/a', '/b'))
 def written(path, fill, compression=''):
     writer = McapWriter(path, compression)
     for topic in (A, B):
-        writer.add_channel(topic)
+        writer.add_topic(topic)
     fill(writer)
     writer.close({'note': 'done'})
     return writer
@@ -109,7 +109,7 @@ def test_a_number_without_room_is_refused_and_nothing_is_lost(tmp_path, numbers)
 
 def test_a_full_disk_leaves_the_file_as_it_was(tmp_path, monkeypatch):
     writer = McapWriter(tmp_path / 'x.mcap', '')
-    writer.add_channel(A)
+    writer.add_topic(A)
     writer.write(1, 5, b'\0\1\0\0a', 5, 0)
     writer.flush()
     before = writer.path.read_bytes()
