@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.bag.columns.columns import read_topic
+from agv_motion.bag.columns.field_name import topic_and_field
 from agv_motion.errors import ConfigurationError
 from agv_motion.report import style
 from agv_motion.report.figure import figure
@@ -54,7 +55,7 @@ def read_panel(
     """
     panel: list[FieldLine] = []
     for name in names.split(','):
-        topic, field = _split(bag, name)
+        topic, field = topic_and_field(bag, name)
         columns = read_topic(bag, topic, [field] if field else None, start, stop)
         time = (columns.stamps - bag.start) * 1e-9
         panel += [FieldLine(f'{topic} {path}', time, y) for path, y in _lines(columns)]
@@ -85,16 +86,6 @@ def draw(panels: Sequence[Sequence[FieldLine]], path: Path) -> None:
             axes[str(i)].legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), ncols=2)
             axes[str(i)].grid()
         axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
-
-
-def _split(bag: BagReader, name: str) -> tuple[str, str]:
-    """Return the topic at the beginning of a name, and the path of the field after it."""
-    fits = [topic for topic in bag.topics if name == topic or name.startswith(f'{topic}/')]
-    if not fits:
-        msg = f"'{name}' is in no topic of bag {bag.path}; it has {', '.join(sorted(bag.topics))}"
-        raise ConfigurationError(msg)
-    topic = max(fits, key=len)
-    return topic, name[len(topic) :].strip('/').replace('/', '.')
 
 
 def _lines(columns: Columns) -> Iterator[tuple[str, Any]]:

@@ -48,6 +48,16 @@ class Plan(NamedTuple):
         """Return the remapping by full names."""
         return {full_name(a, self.namespace): full_name(b, self.namespace) for a, b in self.remap}
 
+    def run(
+        self, source: Path, target: Path, tell: Callable[[float], None] | None = None
+    ) -> ReprocessOutcome:
+        """Run the nodes over a bag: :func:`reprocess`, as `agv_motion.ros.many_bags` calls it."""
+        return reprocess(source, target, self, tell)
+
+    def lost(self, source: Path, reason: str) -> ReprocessOutcome:
+        """Return the outcome of a bag whose worker died."""
+        return ReprocessOutcome(str(source), failure=reason)
+
 
 class ReprocessOutcome(NamedTuple):
     """What came of one bag."""
@@ -73,10 +83,6 @@ class ReprocessOutcome(NamedTuple):
     """what is amiss in the bag"""
     lossy: bool = False
     """whether something that the bag should hold could not be read"""
-
-
-class Abandoned(BaseException):
-    """Nobody waits for the result any more; like KeyboardInterrupt, no error of the bag."""
 
 
 def reprocess(

@@ -23,7 +23,7 @@ from agv_motion.bag.editing.latched import latched_before
 from agv_motion.bag.editing.new_bag import NewBag
 from agv_motion.bag.editing.new_channels import NewChannels
 from agv_motion.bag.editing.picking import Picked, Wanted, joined
-from agv_motion.bag.editing.steps import CHUNK, Source, Step, ids_of, plan, stream
+from agv_motion.bag.editing.steps import CHUNK, EditSource, Step, ids_of, plan, stream
 from agv_motion.bag.mcap import record_parsing
 from agv_motion.bag.mcap.chunk import stored_content
 from agv_motion.bag.mcap.records import Attachment
@@ -161,7 +161,7 @@ def extras(bags: Iterable[BagReader]) -> Iterator[Attachment | Metadata]:
         kept |= mine
 
 
-def fill_of(sources: Iterable[Source], what: Edit) -> str:
+def fill_of(sources: Iterable[EditSource], what: Edit) -> str:
     """Return the compression of new chunks: what is asked for, or that of the first chunk."""
     if what.compression is not None:
         return what.compression
@@ -236,16 +236,19 @@ class _Work:
             self._new.next_file()
 
 
-def _sources(bag: BagReader, what: Edit, channels: NewChannels) -> Iterator[Source]:
+def _sources(bag: BagReader, what: Edit, channels: NewChannels) -> Iterator[EditSource]:
     for file in bag.files:
         wanted = [n for n, c in file.channels.items() if what.topics.takes(c.topic)]
         ids = channels.add(file, wanted)
         taken = Wanted(ids.ids, what.spans, what.compression, what.ordered, ids.foreign)
-        yield Source(file, taken, bag.messages_compressed)
+        yield EditSource(file, taken, bag.messages_compressed)
 
 
 def _steps(
-    bags: Sequence[BagReader], sources: Sequence[Source], spans: tuple[Span, ...] | None, what: Edit
+    bags: Sequence[BagReader],
+    sources: Sequence[EditSource],
+    spans: tuple[Span, ...] | None,
+    what: Edit,
 ) -> Iterator[Step]:
     """Yield the steps for one file of the new bag."""
     if spans is None or not what.latched:
@@ -259,7 +262,7 @@ def _steps(
         known = stop
 
 
-def _within(sources: Iterable[Source], spans: tuple[Span, ...] | None) -> list[Source]:
+def _within(sources: Iterable[EditSource], spans: tuple[Span, ...] | None) -> list[EditSource]:
     return [source._replace(wanted=source.wanted._replace(spans=spans)) for source in sources]
 
 

@@ -36,7 +36,7 @@ _ALL = (0, 2**64)
 _HEAD_BODY = records.MESSAGE_HEAD.size - records.PREFIX.size
 
 
-class Source(NamedTuple):
+class EditSource(NamedTuple):
     """A file, and what is wanted of it."""
 
     file: Storage
@@ -64,7 +64,7 @@ class Step(NamedTuple):
     """to be called when it was written"""
 
 
-def plan(sources: Sequence[Source], *, ordered: bool = False) -> Iterator[Step]:
+def plan(sources: Sequence[EditSource], *, ordered: bool = False) -> Iterator[Step]:
     """Yield the steps of all sources, in the order of time as far as chunks allow.
 
     Args:
@@ -77,7 +77,7 @@ def plan(sources: Sequence[Source], *, ordered: bool = False) -> Iterator[Step]:
     return merge(*map(_steps, sources), key=attrgetter('start'))
 
 
-def _steps(source: Source) -> Iterator[Step]:
+def _steps(source: EditSource) -> Iterator[Step]:
     """Yield the steps of a file as it lies there."""
     if source.chunks is None:
         yield from stream(_messages(source), ids_of([source]))
@@ -95,7 +95,7 @@ def _chunk_step(file: ChunkedFile, chunk: Chunk, wanted: Wanted, start: int) -> 
     return Step(start, chunk.size + chunk.length, chunk.length, work, done)
 
 
-def _ordered(sources: Sequence[Source]) -> Iterator[Step]:
+def _ordered(sources: Sequence[EditSource]) -> Iterator[Step]:
     """Yield steps that put messages in order: a chunk that overlaps no other stays a chunk."""
     if any(source.chunks is None for source in sources):
         yield from _merged(sources, _ALL)
@@ -122,13 +122,13 @@ def _ordered(sources: Sequence[Source]) -> Iterator[Step]:
         first = last
 
 
-def _merged(sources: Sequence[Source], span: Span) -> Iterator[Step]:
+def _merged(sources: Sequence[EditSource], span: Span) -> Iterator[Step]:
     """Yield steps for the messages of all sources in a span, in the order of time."""
     streams = [_messages(source, span) for source in sources]
     yield from stream(merge(*streams, key=attrgetter('stamp')), ids_of(sources))
 
 
-def _messages(source: Source, limits: Span = _ALL) -> Iterator[Message]:
+def _messages(source: EditSource, limits: Span = _ALL) -> Iterator[Message]:
     """Yield the wanted messages of a file in the order of time."""
     for start, stop in source.wanted.spans or (_ALL,):
         span = max(start, limits[0]), min(stop, limits[1])
@@ -136,7 +136,7 @@ def _messages(source: Source, limits: Span = _ALL) -> Iterator[Message]:
             yield unpack_message(message, source.file.path) if source.packed else message
 
 
-def ids_of(sources: Iterable[Source]) -> dict[Connection, int]:
+def ids_of(sources: Iterable[EditSource]) -> dict[Connection, int]:
     """Return the ids in the new file of all channels of some sources."""
     return {
         source.file.channels[old]: new

@@ -1,4 +1,4 @@
-"""`agv bag`: look into bags."""
+"""`agv bag`: look into bags, and make bags out of bags."""
 
 from __future__ import annotations
 
@@ -18,6 +18,12 @@ app = typer.Typer(
             'export': 'bag.export:export',
             'recover': 'bag.recover:recover',
             'diff': 'bag.diff:diff',
+            'cut': 'bag.cut:cut',
+            'filter': 'bag.rewrite:choose',
+            'merge': 'bag.merge:merge',
+            'split': 'bag.rewrite:split',
+            'compress': 'bag.rewrite:compress',
+            'sort': 'bag.rewrite:sort',
         }
     ),
     no_args_is_help=True,
@@ -26,4 +32,4 @@ app = typer.Typer(
 
 @app.callback()
 def bag() -> None:
-    """Look into bags."""
+    """Look into bags, and make bags out of bags."""

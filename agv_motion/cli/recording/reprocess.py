@@ -10,6 +10,7 @@ import typer
 from rich.progress import Progress
 from rich.table import Table
 
+from agv_motion.cli.bag.many import jobs
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.recording.storage_options import Compression
 from agv_motion.cli.terminal import terminal
@@ -73,7 +74,7 @@ def reprocess(
         raise ConfigurationError(msg)
     pairs = tuple(_pair(one) for one in remap or ())
     plan = _plan(config, chosen, pairs, compression, '/' + namespace.strip('/'))
-    found = _outcomes(_jobs(sources, target), plan, workers, scheduler)
+    found = _outcomes(jobs(sources, target), plan, workers, scheduler)
     _tell(found)
     if any(one.failure or one.lossy for one in found):
         raise typer.Exit(1)
@@ -99,19 +100,19 @@ def _plan(
 
 
 def _outcomes(
-    jobs: list[tuple[Path, Path]], plan: Plan, workers: int, scheduler: str
+    pairs: list[tuple[Path, Path]], plan: Plan, workers: int, scheduler: str
 ) -> list[ReprocessOutcome]:
     """Reprocess every bag, under a bar that shows how far it is."""
-    from agv_motion.reprocess.many_bags import outcomes
+    from agv_motion.ros.many_bags import outcomes
 
     found: list[ReprocessOutcome] = []
     with Progress(console=terminal(stderr=True), transient=True) as progress:
-        bar = progress.add_task('Reprocessing', total=len(jobs))
+        bar = progress.add_task('Reprocessing', total=len(pairs))
 
         def show(share: float) -> None:
             progress.update(bar, completed=len(found) + share)
 
-        with closing(outcomes(jobs, plan, workers, scheduler, show)) as coming:
+        with closing(outcomes(pairs, plan, workers, scheduler, show)) as coming:
             for outcome in coming:
                 found.append(outcome)
                 show(0.0)
@@ -125,34 +126,6 @@ def _pair(remap: str) -> tuple[str, str]:
         msg = f"remap '{remap}': give NAME:=OTHER, such as pose:=fix"
         raise ConfigurationError(msg)
     return name, other
-
-
-def _jobs(sources: list[Path], target: Path) -> list[tuple[Path, Path]]:
-    """Return each bag with where its result goes: in ``target``, or there itself if it is one.
-
-    Raises:
-        ConfigurationError: There is no bag, or two of the same name.
-
-    """
-    if len(sources) == 1 and (_is_bag(sources[0]) or not sources[0].is_dir()):
-        return [(sources[0], target)]
-    found = [
-        bag
-        for source in sources
-        for bag in ([source] if _is_bag(source) else sorted(filter(_is_bag, source.iterdir())))
-    ]
-    results = {target / bag.stem for bag in found}
-    if not found or len(results) < len(found):
-        what = 'two bags of the same name' if found else 'no bag'
-        msg = f'{what} in {", ".join(map(str, sources))}: give bags, or folders of bags'
-        raise ConfigurationError(msg)
-    return [(bag, target / bag.stem) for bag in found]
-
-
-def _is_bag(path: Path) -> bool:
-    if path.is_dir():
-        return any(path.glob('*.mcap*')) or any(path.glob('*.db3*'))
-    return path.suffix in {'.mcap', '.db3'}
 
 
 def _tell(found: list[ReprocessOutcome]) -> None:

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.mcap import records
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.selection import Selection
 from agv_motion.bag.writer import BagWriter
 
 SUITE = 'mcap_conformance.tar.gz'
@@ -84,6 +86,42 @@ def test_every_file_is_read_as_the_suite_says(suite):
         if not sound or span != (times[0], times[-1]):
             wrong[file.stem] = (len(found), count, len(expected), span, problems)
     assert not wrong
+
+
+def _content(path):
+    """Return all that a bag holds but for what rosbag2 says of itself."""
+    with BagReader(path) as bag:
+        assert [str(problem) for problem in bag.problems] == []
+        extras = [e for f in bag.files for e in f.extras() if getattr(e, 'name', '') != 'rosbag2']
+        messages = [
+            (m.stamp, m.publish, m.sequence, m.data, m.connection.topic, m.connection.type,
+             m.connection.encoding, m.connection.definition, m.connection.notes)
+            for m in bag.messages()
+        ]  # fmt: skip
+        return messages, extras, set(bag.connections)
+
+
+def test_every_file_is_kept_by_filter_split_and_the_merge_of_its_halves(
+    suite, tmp_path, monkeypatch
+):
+    """Every eighth file, unless AGV_MOTION_LONG is set: then all, in a minute or two."""
+    monkeypatch.setattr(os, 'fsync', lambda _: None)  # the disk would be what takes time
+    for number, file in enumerate(suite if 'AGV_MOTION_LONG' in os.environ else suite[::8]):
+        expected = _content(file)
+        with BagReader(file) as bag:
+            begin, end = bag.start, bag.end + 1
+            middle = (begin + end) // 2
+            folder = tmp_path / str(number)
+            folder.mkdir()
+            halves = folder / 'first', folder / 'second'
+            edit([bag], folder / 'filter', Edit(topics=Selection(regex='.*', everything=True)))
+            edit([bag], folder / 'split', Edit(parts=((begin, middle), (middle, end))))
+            edit([bag], halves[0], Edit(spans=((begin, middle),)))
+            edit([bag], halves[1], Edit(spans=((middle, 2**64),)))
+        with BagReader(halves[0]) as one, BagReader(halves[1]) as other:
+            edit([one, other], folder / 'merge', Edit(compression='zstd'))
+        for name in ('filter', 'split', 'merge'):
+            assert _content(folder / name) == expected, (file.name, name)
 
 
 def _whole(data, first):

@@ -14,11 +14,10 @@ import threading
 from collections import deque
 from contextlib import suppress
 from multiprocessing.connection import wait
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.files.unfinished import sweep
-from agv_motion.reprocess.one_bag import Abandoned, Plan, ReprocessOutcome, reprocess
 from agv_motion.ros.stop import SIGNALS, end_no_more
 
 if TYPE_CHECKING:
@@ -29,20 +28,45 @@ if TYPE_CHECKING:
     Job = tuple[Path, Path]
 
 FRESH = multiprocessing.get_context('spawn')
+Outcome_co = TypeVar('Outcome_co', covariant=True)
+"""A NamedTuple whose ``source`` is the path of the bag."""
+
+
+class Work(Protocol[Outcome_co]):
+    """What is to be done with each bag; it is sent to other processes."""
+
+    def run(
+        self, source: Path, target: Path, tell: Callable[[float], None] | None = None
+    ) -> Outcome_co:
+        """Do it, and return what came of it, failures included.
+
+        Args:
+            source: The bag.
+            target: Where the result goes.
+            tell: Called now and then with the share that is done.
+
+        """
+
+    def lost(self, source: Path, reason: str) -> Outcome_co:
+        """Return what came of a bag whose worker died."""
+
+
+class Abandoned(BaseException):
+    """Nobody waits for the result any more; like KeyboardInterrupt, no error of the bag."""
 
 
 def outcomes(
     jobs: Sequence[Job],
-    plan: Plan,
+    work: Work[Outcome_co],
     workers: int,
     scheduler: str,
     tell: Callable[[float], None] | None = None,
-) -> Generator[ReprocessOutcome, None, None]:
+) -> Generator[Outcome_co, None, None]:
     """Yield what came of each bag, as soon as it is known; close it, so that all workers end.
 
     Args:
         jobs: Each bag, and where its result goes; a cluster must see the same paths.
-        plan: What to run.
+        work: What to do with each.
         workers: Number of processes.
         scheduler: Address of a Dask scheduler; empty: none.
         tell: Called with the share of the present bag that is done, where there is one at a time.
@@ -53,12 +77,12 @@ def outcomes(
 
     """
     if scheduler:
-        yield from _on_cluster(jobs, plan, scheduler)
+        yield from _on_cluster(jobs, work, scheduler)
     elif workers == 1 or len(jobs) == 1:
         for source, target in jobs:
-            yield reprocess(source, target, plan, tell)
+            yield work.run(source, target, tell)
     else:
-        yield from _in_processes(jobs, plan, min(workers, len(jobs)))
+        yield from _in_processes(jobs, work, min(workers, len(jobs)))
 
 
 class _Worker(NamedTuple):
@@ -68,7 +92,9 @@ class _Worker(NamedTuple):
     line: Connection
 
 
-def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[ReprocessOutcome]:
+def _in_processes(
+    jobs: Sequence[Job], work: Work[Outcome_co], workers: int
+) -> Iterator[Outcome_co]:
     waiting = deque(jobs)
     busy: dict[Any, tuple[_Worker, Job]] = {}
     free: list[_Worker] = []
@@ -76,7 +102,7 @@ def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Rep
     try:
         while waiting or busy:
             while waiting and len(busy) < workers:
-                worker = free.pop() if free else _start(plan, staff)
+                worker = free.pop() if free else _start(work, staff)
                 job = waiting.popleft()
                 busy[worker.line] = worker, job
                 with suppress(OSError):  # it is dead: found when it does not answer
@@ -88,7 +114,7 @@ def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Rep
                 except (EOFError, OSError):
                     worker.process.join()
                     sweep(job[1])
-                    outcome = _lost(job, f'exit status {worker.process.exitcode}')
+                    outcome = _lost(work, job[0], f'exit status {worker.process.exitcode}')
                 else:
                     free.append(worker)
                 yield outcome
@@ -104,10 +130,10 @@ def _in_processes(jobs: Sequence[Job], plan: Plan, workers: int) -> Iterator[Rep
             sweep(target)
 
 
-def _start(plan: Plan, staff: list[_Worker]) -> _Worker:
+def _start(work: Work[Any], staff: list[_Worker]) -> _Worker:
     """Start a process and add it to ``staff``, both or none, whatever signal comes meanwhile."""
     line, end = FRESH.Pipe()
-    process = FRESH.Process(target=_work, args=(end, plan), daemon=True)
+    process = FRESH.Process(target=_work, args=(end, work), daemon=True)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     try:
         process.start()
@@ -118,8 +144,8 @@ def _start(plan: Plan, staff: list[_Worker]) -> _Worker:
     return staff[-1]
 
 
-def _work(line: Connection, plan: Plan) -> None:
-    """Reprocess what comes on the line, until its other end is gone.
+def _work(line: Connection, work: Work[Any]) -> None:
+    """Do the work for what comes on the line, until its other end is gone.
 
     Born with all signals blocked: Ctrl-C reaches all processes of a terminal, and is the parent's
     to heed.
@@ -130,7 +156,7 @@ def _work(line: Connection, plan: Plan) -> None:
     with suppress(EOFError, OSError):
         while True:
             source, target = line.recv()
-            line.send(reprocess(source, target, plan))
+            line.send(work.run(source, target))
 
 
 def _end_with_parent() -> None:
@@ -140,7 +166,9 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[ReprocessOutcome]:
+def _on_cluster(
+    jobs: Sequence[Job], work: Work[Outcome_co], scheduler: str
+) -> Iterator[Outcome_co]:
     try:
         import distributed
     except ImportError as error:
@@ -153,7 +181,7 @@ def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Rep
         raise SourceError(msg) from error
     with client:
         waiting = {
-            client.submit(_on_worker, source.resolve(), target.absolute(), plan, pure=False): (
+            client.submit(_on_worker, source.resolve(), target.absolute(), work, pure=False): (
                 source,
                 target,
             )
@@ -163,34 +191,31 @@ def _on_cluster(jobs: Sequence[Job], plan: Plan, scheduler: str) -> Iterator[Rep
             for future in distributed.as_completed(waiting):
                 death = future.exception()
                 if death is None:
-                    outcome = future.result()
+                    outcome: Any = future.result()  # a NamedTuple, with the path as it is there
+                    yield outcome._replace(source=str(waiting[future][0]))
                 else:
-                    sweep(waiting[future][1])
-                    outcome = _lost(waiting[future], death)
-                yield outcome._replace(source=str(waiting[future][0]))
+                    source, target = waiting[future]
+                    sweep(target)
+                    yield _lost(work, source, f'{type(death).__name__} {death}')
         finally:
             client.cancel([future for future in waiting if not future.done()], force=True)
 
 
-def _on_worker(source: Path, target: Path, plan: Plan) -> ReprocessOutcome:
-    """Reprocess a bag on a worker of the cluster, as long as somebody waits for it."""
+def _on_worker(source: Path, target: Path, work: Work[Outcome_co]) -> Outcome_co:
+    """Do the work for a bag on a worker of the cluster, as long as somebody waits for it."""
     from distributed import get_worker
 
-    worker = get_worker()
-    key = worker.get_current_task()
+    here = get_worker()
+    key = here.get_current_task()
 
     def look(_: float) -> None:
-        task = worker.state.tasks.get(key)
+        task = here.state.tasks.get(key)
         if task is None or task.state == 'cancelled':
             raise Abandoned
 
-    return reprocess(source, target, plan, look)
+    return work.run(source, target, look)
 
 
-def _lost(job: Job, reason: object) -> ReprocessOutcome:
+def _lost(work: Work[Outcome_co], source: Path, reason: str) -> Outcome_co:
     """Return the outcome of a bag whose worker died."""
-    if isinstance(reason, BaseException):
-        reason = f'{type(reason).__name__} {reason}'
-    return ReprocessOutcome(
-        str(job[0]), failure=f'its worker ended: {reason}; run again to complete'
-    )
+    return work.lost(source, f'its worker ended: {reason}; run again to complete')

@@ -1,0 +1,52 @@
+"""The plan: which steps, in which order."""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.bag import BagReader, BagWriter
+from agv_motion.bag.connection import Message
+from agv_motion.bag.editing.picking import Wanted
+from agv_motion.bag.editing.steps import CHUNK, EditSource, ids_of, plan, stream, together
+from agv_motion.errors import SignalError
+
+
+@pytest.fixture
+def sources(tmp_path):
+    bags = []
+    for name, stamps in (('one', (0, 10, 20)), ('two', (5, 15, 12))):
+        with BagWriter(tmp_path / name, chunk_size=1) as bag:
+            topic = bag.add_topic('/a', 'a/msg/A', 'int8 x', type_hash='')
+            for stamp in stamps:
+                bag.write(topic, stamp, b'\0\1\0\0\1')
+        bags.append(BagReader(tmp_path / name))
+    yield [EditSource(bag.files[0], Wanted({1: 1}), packed=False) for bag in bags]
+    for bag in bags:
+        bag.close()
+
+
+def stamps(steps):
+    return [int(step.work().times[0]) for step in steps]
+
+
+def test_chunks_of_several_files_take_turns_and_those_of_one_stay_in_their_order(sources):
+    assert stamps(plan(sources)) == [0, 5, 10, 15, 12, 20]
+
+
+def test_in_order_chunks_that_overlap_no_other_are_sorted_as_they_are(sources):
+    assert stamps(plan(sources, ordered=True)) == [0, 5, 10, 12, 15, 20]
+
+
+def test_a_stream_makes_chunks_of_about_a_mebibyte(sources):
+    ids = ids_of(sources)
+    (connection,) = ids
+    messages = [Message(connection, i, bytes(CHUNK // 4), i, i) for i in range(10)]
+    steps = list(stream(messages, ids))
+    assert [step.start for step in steps] == [0, 4, 8]
+    assert [len(step.work().stamps) for step in steps] == [4, 4, 2]
+
+
+def test_a_time_that_no_file_can_hold_is_refused(sources):
+    ids = ids_of(sources)
+    with pytest.raises(SignalError, match=r'log time -1'):
+        together([Message(next(iter(ids)), -1, b'', 0, 0)], ids)
