@@ -60,12 +60,35 @@ settings.load_profile('agv_motion')
 
 
 LONG = (
-    'test_topic', 'test_reprocess', 'test_pipeline', 'test_season', 'test_graph_guard', 'test_tree',
-    'test_trees', 'test_reservation_exchange', 'test_wheel_kinematics', 'test_calibrate',
+    'test_robot', 'test_topic', 'test_tree', 'test_reprocess', 'test_pipeline', 'test_season',
+    'test_graph_guard', 'test_trees', 'test_reservation_exchange', 'test_wheel_kinematics',
+    'test_calibrate',
     'test_nodes_and_doctor', 'test_drive', 'test_freshness', 'test_driving', 'test_record',
     'test_kills', 'test_fusion', 'test_mutation',
 )  # fmt: skip
 """Files that take longest: first, so that no worker is left alone with one at the end"""
+
+
+ONE_WORKER = (
+    'test/dashboard/browser/', 'test/cli/demo/', 'test/cli/recording/', 'test/cli/',
+    'test/reprocess/',
+)  # fmt: skip
+"""Folders whose files share what takes seconds to make: a browser, a warm Python, recordings"""
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Give each worker a file after the other, as loadfile does, or a folder of `ONE_WORKER`."""
+    if config.getoption('dist') != 'loadfile':
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            file = super()._split_scope(nodeid)
+            return next(filter(file.startswith, ONE_WORKER), file)
+
+    return Scheduling(config, log)
 
 
 def pytest_collection_modifyitems(items):

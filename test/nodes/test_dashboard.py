@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import json
 import threading
 import urllib.request
@@ -176,20 +177,22 @@ def test_a_hand_drives_and_who_lets_go_stops_the_wheels(oak, open_page, graph):
     page.sees('oak', 'driver', lambda driver: driver['driver'] == '')
     page.graph.spin_until(lambda: page.node.count_subscribers('/oak/cmd_vel/manual') == 1)
 
+    driven = threading.Event()  # until then the hand goes on, however long that takes
+
     async def drive():
         url = page.url.replace('http', 'ws') + '/robots/oak/drive'
         async with websockets.connect(url) as hand:
             await hand.send(json.dumps({'csrf': page.hello['csrf']}))
-            for count in range(400):
+            for count in itertools.count():
                 told = {'n': count, 't': 50.0 * count, 'vx': 0.5, 'vy': 0.0, 'wz': 0.0}
                 await hand.send(json.dumps(told))
-                await asyncio.sleep(0.05)
-                if oak.speed:
+                if await asyncio.to_thread(driven.wait, 0.05):
                     break
             hand.transport.abort()  # the network is gone
 
     driving = page.run(drive())
     graph.spin_until(lambda: oak.speed == 0.5)
+    driven.set()
     graph.spin_until(driving.done)
     graph.spin_until(lambda: oak.speed == 0.0)
     page.sees('oak', 'driver', lambda driver: driver['lost'] == 'manual')

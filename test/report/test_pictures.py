@@ -84,11 +84,19 @@ def drawn(monkeypatch):
     def settled(each):
         settle(each)
         each.draw_without_rendering()
+        each.set_layout_engine('none')  # what is looked at here is what is written
         figures.append((each, texts_of(each)))
 
     settle = label_layout.settle
     monkeypatch.setattr(import_module('agv_motion.report.figure'), 'settle', settled)
     return figures
+
+
+@pytest.fixture
+def sketched(drawn, monkeypatch):
+    """Return the same of figures whose files nobody looks at: they are written coarsely."""
+    monkeypatch.setattr(import_module('agv_motion.report.figure'), 'DOTS_PER_INCH', 20)
+    return drawn
 
 
 def check(drawn):
@@ -174,10 +182,10 @@ def recorded_drive():
         )
 
 
-def test_the_drive_of_the_omni_robot(drawn, tmp_path):
+def test_the_drive_of_the_omni_robot(sketched, tmp_path):
     draw_localization(recorded_drive(), tmp_path / 'path.png')
-    check(drawn)
-    texts = [text for text, _ in drawn[-1][1]]
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
     events = {'carried away', 'found again after 11 s', 'start', 'end', 'set down', 'found again'}
     assert events <= set(texts)
     assert texts.count('carried away') == 2
@@ -206,66 +214,66 @@ def straight_run(planned=None, frames=frozenset({'map'})):
     return RunBag(planned, driven, {'/path': [way]}, frames)
 
 
-def test_a_run_beside_the_way_that_was_shown(drawn, tmp_path):
+def test_a_run_beside_the_way_that_was_shown(sketched, tmp_path):
     run = straight_run()
     draw_run(run, None, tmp_path / 'run.png')
-    check(drawn)
-    texts = [text for text, _ in drawn[-1][1]]
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
     assert {'10.0 m in 10 s, never more than 3 cm from the way', 'start', 'end'} <= set(texts)
     assert off_the_way(run) == pytest.approx(np.full(201, 0.03))
     assert off_the_way(straight_run(frames=frozenset({'odom'}))) is None
 
 
-def test_a_run_beside_its_ghost(drawn, tmp_path):
+def test_a_run_beside_its_ghost(sketched, tmp_path):
     """The Ghost is 4 cm ahead and the robot 3 cm left of it: 5 cm apart."""
     time = np.linspace(0.0, 10.0, 201)
     ghost = Poses('/ghost/pose', 'map', time, np.array([time + 0.04, 0.0 * time, 0.0 * time]).T)
     run = straight_run(ghost)
     draw_run(run, errors_between(ghost, run.driven), tmp_path / 'run.png', theme='dark')
-    check(drawn)
-    texts = [text for text, _ in drawn[-1][1]]
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
     assert '10.0 m in 10 s, 5.0 cm from the plan, at most 5.0 cm' in texts
     assert {'along', 'across', 'plan', 'driven'} <= set(texts)
 
 
-def test_a_sequence(drawn, tmp_path):
+def test_a_sequence(sketched, tmp_path):
     found = load_sequence(find_config('sequence_example.yaml'))
     start = Pose(0.0, 0.0, 0.0)
     predicted = predict_sequence(found, start, GhostParameters(), FollowParameters())
     draw_sequence(found.name, start, predicted, tmp_path / 'sequence.png')
-    check(drawn)
-    texts = [text for text, _ in drawn[-1][1]]
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
     assert any(t.startswith('Round trip: seven actions, ') for t in texts)
     assert {'2, 3', 'start, 7'} <= set(texts)
 
 
-def test_a_route(drawn, tmp_path):
+def test_a_route(sketched, tmp_path):
     found = load_route(find_config('route_example.yaml'), 1)
     run = predict_route(found, FollowParameters(), Pose(0.0, 0.0, 0.0), 0.05)
     draw_route(found, run, tmp_path / 'route.png')
-    check(drawn)
-    texts = [text for text, _ in drawn[-1][1]]
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
     assert {'start', 'end', 'at top speed', 'the end is near'} <= set(texts)
 
 
-def test_a_plan(drawn, tmp_path):
+def test_a_plan(sketched, tmp_path):
     limits = GhostParameters()
     ghost = Ghost(Pose(0.0, 0.0, 0.0), limits)
     trajectory = ghost.compute_trajectory(Pose(2.0, 1.0, np.pi / 2), 0.5, 0.4, 0.4)
     draw_plan(trajectory, limits, tmp_path / 'plan.png')
-    check(drawn)
-    texts = {text for text, _ in drawn[-1][1]}
+    check(sketched)
+    texts = {text for text, _ in sketched[-1][1]}
     assert {'start', 'end', 'left wheel', 'right wheel'} <= texts
 
 
-def test_labels_and_events_that_would_overlap_are_moved_apart(drawn, tmp_path):
+def test_labels_and_events_that_would_overlap_are_moved_apart(sketched, tmp_path):
     with figure(tmp_path / 'a.png', [['a']], figsize=(6, 3)) as axes:
         style.title(axes['a'], 'a name longer than any picture is wide ' * 3)
         axes['a'].set(xlim=(0.0, 10.0), ylim=(0.0, 1.0))
         for i in range(5):
             style.line_label(axes['a'], 0.5 + 0.001 * i, f'line {i}', 'k')
             style.event(axes['a'], 4.0 + 0.1 * i, f'event {i}')
-    check(drawn)
+    check(sketched)
 
 
 def test_a_long_line_is_thinned_and_keeps_its_spikes():

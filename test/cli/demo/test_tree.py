@@ -13,9 +13,7 @@ from rosbags.highlevel import AnyReader
 
 
 def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
-    status, out, errors = alone(
-        'demo', '--minutes', 2, '--no-page', '--output', tmp_path, cold=True
-    )
+    status, out, errors = alone('demo', '--minutes', 0.5, '--no-page', '--output', tmp_path)
     assert status == 0, errors
     for word in ('distance', 'inside the zone', '100.0 %', 'probe to turrets', 'p99'):
         assert word in out
@@ -23,16 +21,16 @@ def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
     (mcap,) = (tmp_path / 'bag').glob('*.mcap')
     with mcap.open('rb') as file:
         summary = make_reader(file, validate_crcs=True).get_summary()
-    assert summary.statistics.message_count > 1000
+    assert summary.statistics.message_count > 500
     with AnyReader([tmp_path / 'bag']) as reader:
         topics = {connection.topic for connection in reader.connections}
         assert {'/turrets/command', '/cmd_vel', '/granier/sap_flow', '/odom'} <= topics
-        assert reader.duration == pytest.approx(120e9, rel=0.1)
+        assert reader.duration == pytest.approx(30e9, rel=0.1)
 
 
 def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
     status, out, errors = alone(
-        'demo', '--minutes', 1, '--no-page', '--output', tmp_path, '--probes', spruce, '--days', 2
+        'demo', '--minutes', 0.5, '--no-page', '--output', tmp_path, '--probes', spruce, '--days', 2
     )
     assert status == 0, errors
     assert 'delta_v_mv' in out

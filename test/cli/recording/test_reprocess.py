@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import signal
@@ -29,17 +28,21 @@ def content(folder):
     return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob('*.mcap'))}
 
 
-def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_path):
+@pytest.fixture(scope='module')
+def results(recorded, tmp_path_factory):
+    """Return the folder of the whole bags' results, as this process makes them."""
+    folder = tmp_path_factory.mktemp('near') / 'out'
+    for name in ('a', 'c'):
+        reprocess(recorded / name, folder / name, PLAN)
+    return folder
+
+
+def test_the_same_bytes_from_one_process_and_from_two_workers(alone, recorded, results, tmp_path):
+    """Each worker is a new interpreter, with another order of what has no order."""
     for name, workers in (('one', 1), ('two', 2)):
+        out_folder = tmp_path / name / 'out'
         status, out, errors = alone(
-            'reprocess',
-            recorded,
-            tmp_path / name / 'out',
-            '-m',
-            'pose:=fix',
-            '-j',
-            workers,
-            cold=True,
+            'reprocess', recorded, out_folder, '-m', 'pose:=fix', '-j', workers
         )
         assert status == 1
         assert f'error: {recorded / "b"}' in errors
@@ -47,44 +50,43 @@ def test_the_same_bytes_from_two_runs_and_from_two_workers(alone, recorded, tmp_
         assert 'Traceback' not in errors
     found = content(tmp_path / 'one')
     assert len(found) == 2
-    assert found == content(tmp_path / 'two')
+    assert found == content(tmp_path / 'two') == content(results.parent)
+
+
+CLUSTER = """
+import sys, time
+from distributed import LocalCluster
+
+with LocalCluster(
+    n_workers=1, threads_per_worker=1, processes=False, host='127.0.0.1', protocol='tcp',
+    dashboard_address=None,
+) as cluster:
+    print(cluster.scheduler_address, flush=True)
+    sys.stdin.read()
+"""
 
 
 @pytest.fixture
-def cluster(tmp_path, wait_until):
-    """Return the address of a real scheduler with a worker process."""
+def cluster(tmp_path):
+    """Return the address of a real scheduler with a worker, in a process of their own."""
     pytest.importorskip('distributed')
-    dask = [sys.executable, '-m', 'distributed.cli.dask_scheduler']
-    address_file = tmp_path / 'scheduler.json'
-    options = ['--no-dashboard', '--host', '127.0.0.1', '--port', '0']
-    quiet = {'stdout': subprocess.DEVNULL, 'stderr': subprocess.DEVNULL, 'cwd': tmp_path}
-    quiet['env'] = os.environ | {'PYTHONPATH': str(Path(__file__).parents[3])}
-    scheduler = subprocess.Popen(  # noqa: S603 - our own interpreter
-        [*dask, *options, '--scheduler-file', str(address_file)], **quiet
-    )
-    worker = subprocess.Popen(  # noqa: S603
-        [sys.executable, '-m', 'distributed.cli.dask_worker', '--scheduler-file',
-         str(address_file), '--nthreads', '1', '--no-nanny', '--no-dashboard'], **quiet,
+    process = subprocess.Popen(  # noqa: S603 - our own interpreter
+        [sys.executable, '-c', CLUSTER], cwd=tmp_path, text=True, stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        env=os.environ | {'PYTHONPATH': str(Path(__file__).parents[3])},
     )  # fmt: skip
-    try:
-        wait_until(lambda: address_file.exists() and address_file.stat().st_size)
-        yield json.loads(address_file.read_text())['address']
-    finally:
-        for process in (worker, scheduler):
-            process.terminate()
-            process.wait(60)
+    yield process.stdout.readline().strip()
+    process.communicate(timeout=60.0)
 
 
-def test_a_cluster_gives_the_same_bytes(alone, recorded, tmp_path, cluster):
+def test_a_cluster_gives_the_same_bytes(alone, recorded, results, tmp_path, cluster):
     status, _, errors = alone(
         'reprocess', recorded, tmp_path / 'far' / 'out', '-m', 'pose:=fix', '--scheduler', cluster,
         timeout=120,
     )  # fmt: skip
     assert status == 1
     assert f'error: {recorded / "b"}' in errors
-    for name in ('a', 'c'):
-        reprocess(recorded / name, tmp_path / 'near' / 'out' / name, PLAN)
-    assert content(tmp_path / 'far') == content(tmp_path / 'near')
+    assert content(tmp_path / 'far') == content(results.parent)
 
 
 def finished(folder):
@@ -116,8 +118,8 @@ def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
     for name in 'abc':
         shutil.copytree(recorded / 'c', sources / name)
     out = tmp_path / 'out'
-    command = ('reprocess', sources, out, '-m', 'pose:=fix', '-j', 2)
-    process = alone.start(*command, start_new_session=True)
+    command = ('reprocess', sources, out, '-m', 'pose:=fix', '-j')
+    process = alone.start(*command, 2, start_new_session=True)
     wait_until(lambda: len(list(out.glob('.*.unfinished-*/*/*.mcap'))) == 2)
     started = descendants(process.pid)
     assert len(started) >= 2
@@ -132,7 +134,7 @@ def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
         assert not list(out.glob('.*'))
     if number in {signal.SIGTERM, signal.SIGHUP}:
         return  # as SIGINT
-    status, told, _ = alone(*command)
+    status, told, _ = alone(*command, 1)
     assert status == 0
     assert told.count('there already') == len(before)
     assert finished(out).keys() == set('abc')
@@ -189,12 +191,11 @@ def test_errors_and_warnings_are_told(alone, recorded, tmp_path):
     assert '/pose is not in the bag' in out
 
 
-def test_diff_tells_by_its_status(alone, recorded, tmp_path):
-    reprocess(recorded / 'a', tmp_path / 'out', PLAN)
+def test_diff_tells_by_its_status(alone, recorded, results):
     status, out, _ = alone('bag', 'diff', recorded / 'a', recorded / 'c', '--common')
     assert status == 1
     assert 'DIFFERENT' in out
     status, out, _ = alone(
-        'bag', 'diff', recorded / 'a', tmp_path / 'out', '--topics', '/odom', '-t', '1e-9'
+        'bag', 'diff', recorded / 'a', results / 'a', '--topics', '/odom', '-t', '1e-9'
     )
     assert status == 0

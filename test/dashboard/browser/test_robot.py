@@ -8,6 +8,7 @@ from __future__ import annotations
 import signal
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -28,33 +29,50 @@ def rig(chromium, tmp_path_factory):
         yield found
 
 
+@pytest.fixture(scope='module')
+def look(rig):
+    """Return what looks at the page: the one that is open, until that is closed."""
+    pages = []
+    with ExitStack() as stack:
+
+        def looked_at():
+            if not pages or pages[-1].is_closed():
+                pages.append(stack.enter_context(rig.page()))
+            return pages[-1]
+
+        yield looked_at
+
+
 @pytest.fixture
-def driving(rig):
+def driving(rig, look):
     """Return a page whose drive panel is open, and a tree that stands."""
     rig.wheels.walking = False
-    with rig.page() as page:
+    page = look()
+    if page.locator('.drive-surface').is_visible():
+        page.locator('.drive-state', has_text='hold to drive').wait_for()
+    else:
         rig.open_drive(page)
-        yield page
+    yield page
     rig.wheels.stood_after(time.time())
 
 
 @pytest.mark.parametrize('way', ['click', 'Escape'])
-def test_stop_makes_the_wheels_stand_and_release_lets_them_go(rig, way):
+def test_stop_makes_the_wheels_stand_and_release_lets_them_go(rig, look, way):
     import page_rig
 
     rig.wheels.walking = True
-    with rig.page() as page:
-        for _ in range(2):
-            rig.wheels.wait(rig.wheels.rolls)
-            if way == 'click':
-                page.click('#stop-button')
-            else:
-                page.keyboard.press(way)
-            assert rig.wheels.stood_after(page_rig.acted(page)) < 0.2 + BUSY
-            page.locator('#stop[data-state=stopped]').wait_for()
-            page.click('#stop-release')
-            page.locator('dialog .primary').click()
-            page.locator('#stop[data-state=ready]').wait_for()
+    page = look()
+    for _ in range(2):
+        rig.wheels.wait(rig.wheels.rolls)
+        if way == 'click':
+            page.click('#stop-button')
+        else:
+            page.keyboard.press(way)
+        assert rig.wheels.stood_after(page_rig.acted(page)) < 0.2 + BUSY
+        page.locator('#stop[data-state=stopped]').wait_for()
+        page.click('#stop-release')
+        page.locator('dialog .primary').click()
+        page.locator('#stop[data-state=ready]').wait_for()
     rig.wheels.wait(rig.wheels.rolls)
     rig.wheels.walking = False
 
@@ -78,6 +96,7 @@ def test_space_bar_let_go_stops(rig, driving):
     rig.wheels.wait(rig.wheels.rolls)
     driving.keyboard.up('Space')
     assert rig.wheels.stood_after(page_rig.acted(driving)) < 0.5 + BUSY
+    driving.keyboard.up('ArrowUp')
 
 
 def test_focus_that_goes_elsewhere_stops(rig, driving):
@@ -88,6 +107,8 @@ def test_focus_that_goes_elsewhere_stops(rig, driving):
     moment = time.time()
     driving.evaluate('document.activeElement.blur()')
     assert rig.wheels.stood_after(moment) < 0.5 + BUSY
+    driving.keyboard.up('ArrowUp')
+    driving.keyboard.up('Space')
 
 
 def test_closed_tab_stops(rig, driving):
