@@ -34,6 +34,7 @@ app = typer.Typer(
             'demo': 'demo.group:app',
             'dashboard': 'dashboard.group:app',
             'calibrate': 'robot.calibrate:calibrate',
+            'probes': 'probe.probes:probes',
             'record': 'recording.record:record',
             'plot': 'recording.plot:plot',
             'report': 'recording.report:report',

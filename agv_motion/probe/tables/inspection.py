@@ -207,6 +207,7 @@ def _clock_beside(column: Column, columns: Sequence[Column]) -> str:
     if len(set(column.cells)) == len(column.cells) or any(':' in cell for cell in column.cells):
         return ''
     for other in columns:
-        if other is not column and all(map(_CLOCK.fullmatch, other.cells)):
+        clocks = sum(bool(_CLOCK.fullmatch(cell)) for cell in other.cells)
+        if other is not column and clocks >= MOST * len(other.cells):
             return other.name
     return ''

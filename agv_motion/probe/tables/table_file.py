@@ -15,7 +15,7 @@ from agv_motion.probe.tables.left_out import LeftOut
 from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, zone_of
 from agv_motion.probe.tables.table_form import find_form
 from agv_motion.probe.tables.table_rows import rows_of
-from agv_motion.probe.tables.time_format import choose, named, second_reading
+from agv_motion.probe.tables.time_format import choose, named, second_reading, without_clock
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -139,11 +139,13 @@ class TableFile:
             ) from error
 
     def _require_one_reading(self, instants: Sequence[Instant], rows: Sequence[Row]) -> None:
+        words, times = [row.word for row in rows], [instant.seconds for instant in instants]
+        other = without_clock(words, times) if rows else ''
         if self._given.time_format == 'auto' and rows:
-            words, times = [row.word for row in rows], [instant.seconds for instant in instants]
-            if other := second_reading(words, times):
-                column = f"column '{self._given.time_column}' may be {other}"
-                raise self._error(rows[0], column, f'the times may be {other}')
+            other = other or second_reading(words)
+        if other:
+            column = f"column '{self._given.time_column}' may be {other}"
+            raise self._error(rows[0], column, f'the times may be {other}')
 
     def _in_utc(self, instants: Sequence[Instant], rows: Sequence[Row]) -> list[float]:
         """Return the times in UTC [s since 1970]; a file may have its newest row on top."""

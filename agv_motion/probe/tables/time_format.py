@@ -163,11 +163,16 @@ def _alone(these: Mapping[str, float], those: Mapping[str, float]) -> int:
     return sum(word not in those for word in these)
 
 
-def second_reading(words: Sequence[str], times: Sequence[float]) -> str:
-    """Return in what other way all times of a file can be read, empty where there is none."""
+def second_reading(words: Sequence[str]) -> str:
+    """Return in what other way the numbers of a file can be read, empty where there is none."""
     for name, form in _TEN_DIGITS.items():
         if all(form.fullmatch(word) for word in words):
             return f'seconds since 1970 or {name}: choose by csv.time_format'
+    return ''
+
+
+def without_clock(words: Sequence[str], times: Sequence[float]) -> str:
+    """Return what is missing where all times are days alone, and some have several rows."""
     if all(time % 86400.0 == 0.0 for time in times) and not any(':' in word for word in words):
         repeated = Counter(times).most_common(1)[0][1] > 1
         if repeated:

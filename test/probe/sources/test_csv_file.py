@@ -169,6 +169,14 @@ def test_times_with_two_readings_are_refused(tmp_path, words, form):
         source(tmp_path, two_rows(*words))
 
 
+@pytest.mark.parametrize(
+    ('word', 'time_format'), [('10.06.2013', 'day_first'), ('20130610', 'YYYYMMDD')]
+)
+def test_rows_of_one_day_without_a_clock_are_refused_in_every_format(tmp_path, word, time_format):
+    with pytest.raises(SourceError, match=r'line 2.*days alone.*date \+ clock'):
+        source(tmp_path, two_rows(word, word), time_format=time_format)
+
+
 def test_days_alone_are_midnights_where_each_is_there_once(tmp_path):
     played = source(tmp_path, two_rows('2013-06-10', '2013-06-11'))
     assert [s.time for s in played.read(0.0) + played.read(DAY)] == [DAWN, DAWN + DAY]

@@ -5,7 +5,13 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.probe.tables.time_format import choose, named, readings, second_reading
+from agv_motion.probe.tables.time_format import (
+    choose,
+    named,
+    readings,
+    second_reading,
+    without_clock,
+)
 
 DAYS = [f'{day:02}/06/2013 12:00' for day in range(1, 29)]
 
@@ -72,9 +78,11 @@ def test_what_a_word_may_be():
 
 
 def test_ten_digits_of_a_date_and_days_with_several_rows_are_refused():
-    assert '%Y%m%d%H' in second_reading(['2013061000', '2013061001'], [1e9, 1e9 + 1])
-    assert 'date + clock' in second_reading(['2013-06-10'] * 2, [0.0, 0.0])
-    assert not second_reading(['2013-06-10', '2013-06-11'], [0.0, 86400.0])
+    assert '%Y%m%d%H' in second_reading(['2013061000', '2013061001'])
+    assert not second_reading(['2013061000', '1370822400'])
+    assert 'date + clock' in without_clock(['2013-06-10'] * 2, [0.0, 0.0])
+    assert not without_clock(['2013-06-10', '2013-06-11'], [0.0, 86400.0])
+    assert not without_clock(['2013-06-10 00:00'] * 2, [0.0, 0.0])
 
 
 def test_names():

@@ -1,0 +1,1 @@
+"""`agv probes`: parsing and printing of what looks into the files of loggers."""

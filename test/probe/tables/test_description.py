@@ -1,0 +1,74 @@
+"""What is told of a file, and the parameters that read it."""
+
+from __future__ import annotations
+
+from math import isnan
+
+import pytest
+
+from agv_motion.errors import ConfigurationError
+from agv_motion.probe.tables import TableParameters, read_tables
+from agv_motion.probe.tables.description import asked_for, describe, parameters_for, unit_in
+from agv_motion.probe.tables.inspection import inspect
+
+
+def described(tmp_path, text, **known):
+    file = tmp_path / 'a.csv'
+    file.write_text(text)
+    seen = inspect(str(file))
+    given = parameters_for(seen, {'file': str(file)} | known, ())
+    return given, describe(read_tables(given), given.columns)
+
+
+def test_rows_gaps_and_columns(tmp_path):
+    rows = ''.join(f'2013-06-10 {hour:02}:00,{hour + 5.0},\n' for hour in (0, 1, 2, 5, 6, 7))
+    _, found = described(tmp_path, 'time,probe_1,probe_2\n' + rows)
+    assert found.step == 3600.0
+    assert [end - begin for begin, end in found.gaps] == [3 * 3600.0]
+    assert found.columns[0][1:] == (6, 0, 5.0, 12.0, 'K')
+
+
+def test_one_row_has_no_step(tmp_path):
+    _, found = described(tmp_path, 'time,probe_1\n2013-06-10 00:00,0.5\n')
+    assert isnan(found.step)
+    assert found.gaps == ()
+    assert found.columns[0].like == 'mV'
+
+
+@pytest.mark.parametrize(
+    ('name', 'unit'),
+    [('delta_v_mv', 'mV'), ('dT [K]', 'K'), ('T (°C)', 'K'), ('a_uV', 'uV'), ('probe', '')],
+)
+def test_units_in_names(name, unit):
+    assert unit_in(name) == unit
+
+
+def test_only_what_has_to_be_written_is_asked_for(tmp_path):
+    given, _ = described(tmp_path, 'time,probe_1\n2013-06-10 00:00,0.5\n')
+    assert asked_for(given) == {'file': given.file, 'columns': ('probe_1',)}
+    given, _ = described(tmp_path, '2013-06-10 00:00;0,5\n2013-06-10 01:00;0,6\n')
+    assert asked_for(given) | {'file': ''} == {
+        'file': '', 'time_column': '1', 'columns': ('2',), 'delimiter': 'semicolon',
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ('text', 'match'),
+    [
+        (
+            'time,probe_1\n06/10/2013,0.5\n',
+            r"'06/10/2013'.*day_first or month_first.*--time-format",
+        ),
+        ('a,b\nx,0.5\n', 'no column of time is seen'),
+        ('time,b\n2013-06-10,x\n', 'no column of numbers is seen'),
+    ],
+)
+def test_what_cannot_be_seen_is_asked_for(tmp_path, text, match):
+    with pytest.raises(ConfigurationError, match=match):
+        described(tmp_path, text)
+
+
+def test_what_is_known_better_counts(tmp_path):
+    given, _ = described(tmp_path, 'time,probe_1\n06/10/2013,0.5\n', time_format='month_first')
+    assert given.time_format == 'month_first'
+    assert isinstance(given, TableParameters)
