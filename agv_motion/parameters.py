@@ -98,10 +98,12 @@ def moved(name: str) -> str:
     return ''
 
 
-def nested(kind: type[DataclassInstance]) -> Iterator[tuple[str, type[DataclassInstance]]]:
-    """Yield the fields of ``kind`` that are groups of parameters, with the class of each."""
+@cache
+def nested(kind: type[DataclassInstance]) -> tuple[tuple[str, type[DataclassInstance]], ...]:
+    """Return the fields of ``kind`` that are groups of parameters, with the class of each."""
     hints = get_type_hints(kind)
-    for field in fields(kind):
-        group = hints[field.name]
-        if is_dataclass(group) and isinstance(group, type):
-            yield field.name, group
+    return tuple(
+        (field.name, hints[field.name])
+        for field in fields(kind)
+        if is_dataclass(hints[field.name]) and isinstance(hints[field.name], type)
+    )

@@ -61,7 +61,7 @@ def refused(path):
 
 
 def test_bags_damaged_at_random_are_read_or_refused(fuzz_bags):
-    assert fuzz_bags.fuzz(20.0, seed=7, rounds=45) > 10
+    assert fuzz_bags.fuzz(20.0, seed=7, rounds=30) > 10
 
 
 @pytest.mark.parametrize('length', [2**31, 2**32 - 1, 2**63 - 1, 2**63, 2**64 - 1])
@@ -69,7 +69,7 @@ def test_lengths_that_cannot_be_anywhere_in_a_file(fuzz_bags, tmp_path, length):
     data = fuzz_bags.sound(tmp_path, 'none')
     path = tmp_path / 'bag.mcap'
     size = 8 if length >= 2**32 else 4
-    for at in range(0, len(data) - size, 29):
+    for at in range(0, len(data) - size, 61):
         path.write_bytes(data[:at] + length.to_bytes(size, 'little') + data[at + size :])
         fuzz_bags.told(path, lambda: fuzz_bags.messages(path))
 
@@ -105,7 +105,7 @@ def large(path, size, compression='zstd'):
     return path
 
 
-@pytest.mark.parametrize(('size', 'compression'), [(100_000_000, 'lz4'), (300_000_000, 'zstd')])
+@pytest.mark.parametrize(('size', 'compression'), [(30_000_000, 'lz4'), (100_000_000, 'zstd')])
 def test_what_shrinks_well_or_is_large_is_read(tmp_path, size, compression):
     with BagReader(large(tmp_path / 'bag', size, compression)) as bag:
         (message,) = bag.messages()

@@ -41,12 +41,12 @@ def wandering(rng, steps):
 @pytest.mark.parametrize('base', BASES)
 def test_the_truth_lies_within_the_stated_interval_in_95_of_100_drives(base, heading, carried):
     """The long form is launch_scripts/trial_calibration.py."""
-    found = coverage(base, range(8), heading=heading, carried=carried)
-    assert found.told >= 8 * 3
-    assert found.held / found.told > 0.85
+    found = coverage(base, range(4), heading=heading, carried=carried)
+    assert found.told >= 4 * 3
+    assert found.held / found.told > 0.8
     assert found.deviation == pytest.approx(1.0, abs=0.35)
     assert found.misfit == pytest.approx(1.0, abs=0.1)
-    assert (found.cuts >= 8) == carried
+    assert (found.cuts >= 4) == carried
     assert carried or not found.cuts
 
 
@@ -84,7 +84,7 @@ def test_a_combination_that_is_known_is_kept_though_none_of_its_parts_is():
 def test_a_path_that_winds_makes_no_wheel_too_small():
     """Slip bends the path, and so shortens it: 2.5 deviations of bias, were it not followed."""
     errors = []
-    for seed in range(20):
+    for seed in range(10):
         model, truth, recording = simulate(OMNI, seed, Conditions(slip=0.02))
         found = calibrate(model, recording, 0.02)
         radii = zip(found.unknowns[:3], truth[:3], strict=True)

@@ -43,9 +43,6 @@ LATITUDE, LONGITUDE = 48.86, 2.35
 FIRST_OPENING = 1_430_438_400.0 + 10 * 3600.0
 """[s since 1970] 1 May 2015, 10:00 UTC."""
 
-OPEN = 8 * 3600.0
-"""[s] of a day"""
-
 DAY = 86400.0
 
 REMEMBERING = tuple(name for name, kind in STRATEGIES.items() if kind.remembers)
@@ -59,6 +56,7 @@ class SeasonParameters:
     kind: Annotated[str, Spec('of the zone', choices=tuple(MOST_TREES))] = 'garden'
     trees: Annotated[int, Spec('how many share it', '1', (1, 10))] = 2
     days: Annotated[int, Spec('how many opening days', '1', (1, 10000))] = 20
+    hours: Annotated[float, Spec('for which each day is open', 'h', (1.0, 12.0))] = 8.0
     seed: Annotated[int, Spec('of zone, weather, noise and network', '1', (0, 2**31))] = 1
     strategy: Annotated[str, Spec('of the goals', choices=REMEMBERING)] = 'memory'
     step: Annotated[float, Spec('time step while a tree moves', 's', (0.5, 60.0))] = 15.0
@@ -143,12 +141,13 @@ class Season:
 
     def _day(self, opening: float) -> None:
         given = self.parameters
+        closing = opening + 3600.0 * given.hours
         self._speak_all_night(opening - 3.0 * given.step)
         outage, lost = inf, self._chance.choice(self.trees).name
         if self._chance.random() < given.outages:
-            outage = opening + self._chance.uniform(0.0, OPEN - 3600.0)
+            outage = opening + self._chance.uniform(0.0, closing - 3600.0 - opening)
         now, reading, sky = opening, -inf, sun(opening, LATITUDE, LONGITUDE)
-        while now < opening + OPEN:
+        while now < closing:
             if now >= reading + PERIOD:
                 reading, sky = now, sun(now, LATITUDE, LONGITUDE)
             off = outage <= now < outage + 3600.0
