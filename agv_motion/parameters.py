@@ -98,9 +98,13 @@ def moved(name: str) -> str:
     return ''
 
 
+def nested(kind: type[DataclassInstance]) -> Iterator[tuple[str, type[DataclassInstance]]]:
+    """Yield the fields of ``kind`` that are groups of parameters, with the class of each."""
+    yield from _nested(kind)
+
+
 @cache
-def nested(kind: type[DataclassInstance]) -> tuple[tuple[str, type[DataclassInstance]], ...]:
-    """Return the fields of ``kind`` that are groups of parameters, with the class of each."""
+def _nested(kind: type[DataclassInstance]) -> tuple[tuple[str, type[DataclassInstance]], ...]:
     hints = get_type_hints(kind)
     return tuple(
         (field.name, hints[field.name])
