@@ -24,6 +24,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 from sensor_msgs.msg import JointState
+from turret_peer import LIMIT, POSITIONS, TWIST, wpilib_command
 from wpimath.geometry import Rotation2d, Translation2d
 from wpimath.kinematics import ChassisSpeeds, SwerveDrive3Kinematics
 
@@ -42,20 +43,10 @@ from agv_motion.ros.run import EXECUTORS, overrides, start
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-POSITIONS = [(1.18 * cos(a), 1.18 * sin(a)) for a in (-pi / 4, pi / 4, pi)]
-LIMIT = 2.0 / 60.0
-
 
 def turret_rows() -> list[Row]:
     """One command of three turrets, scalar and by columns, beside WPILib's kinematics."""
-    tree, twist, held = Turrets(POSITIONS), Twist(0.01, 0.004, 0.012), [0.0] * 3
-    peer = SwerveDrive3Kinematics(*(Translation2d(x, y) for x, y in POSITIONS))
-
-    def theirs() -> list[tuple[float, float]]:
-        states = peer.toSwerveModuleStates(ChassisSpeeds(*twist))
-        states = peer.desaturateWheelSpeeds(states, LIMIT)
-        return [(state.angle.radians(), state.speed) for state in states]
-
+    tree, twist, held = Turrets(POSITIONS), Twist(*TWIST), [0.0] * 3
     n = 200_000
     rng = np.random.default_rng(1)
     v, theta, wz = rng.random(n) / 60, rng.uniform(-pi, pi, n), rng.uniform(-0.014, 0.014, n)
@@ -64,7 +55,7 @@ def turret_rows() -> list[Row]:
     batch = per_call(lambda: command_columns(tree, columns, None, LIMIT, out), calls=1)
     fresh = per_call(lambda: command_columns(tree, columns, None, LIMIT), calls=1)
     scalar = per_call(lambda: tree.command(twist, held, LIMIT))
-    wpimath = per_call(theirs)
+    wpimath = per_call(wpilib_command)
     return [
         Row('turret command, 3 turrets', scalar, 'robotpy-wpimath', wpimath, '1.5 us'),
         Row('turret by columns, memory reused', batch / n / 3, 'scalar / 3', scalar / 3, '6 ns'),

@@ -22,12 +22,15 @@ class Row(NamedTuple):
     """whether ``ours`` is a number and no time"""
 
 
-def per_call(act: Callable[[], Any], calls: int = 2000, rounds: int = 15) -> float:
+def per_call(
+    act: Callable[[], Any], calls: int = 2000, rounds: int = 15,
+    clock: Callable[[], float] = time.perf_counter,
+) -> float:  # fmt: skip
     """Return the median time of one call [s]."""
     times = []
     for _ in range(rounds):
-        begin = time.perf_counter()
+        begin = clock()
         for _ in range(calls):
             act()
-        times.append((time.perf_counter() - begin) / calls)
+        times.append((clock() - begin) / calls)
     return statistics.median(times)

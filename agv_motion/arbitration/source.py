@@ -25,6 +25,8 @@ class TwistSource(Enum):
     AGENT = 'agent'
     """What drives the robot when nobody asks for anything, as the tree its own sap."""
 
+    __hash__ = object.__hash__  # each is there once; that of Enum hashes the name, in Python
+
 
 RANKED = tuple(TwistSource)
 """Highest first."""

@@ -24,9 +24,6 @@ SAVE_PERIOD = 15.0
 CHECK_PERIOD = 0.5
 """[s] within which a disk that does not take the memory is told."""
 
-FIRST_PERIOD = 0.1
-"""[s] at which the first map is tried until there is a time to stamp it with."""
-
 PATIENCE = 5.0
 """[s] How long a stopping node waits for the disk."""
 
@@ -54,7 +51,6 @@ class MemoryStore:
         self._visit = port.publisher(OccupancyGrid, 'memory/last_visit', LATCHED)
         self._shown = False
         port.every(given.map_period, self.publish, steady=True)
-        port.every(FIRST_PERIOD, self._publish_first, steady=True)
         self._writer: futures.ThreadPoolExecutor | None = None
         self._saved: float | None = None
         self._writing: futures.Future[None] | None = None
@@ -93,7 +89,8 @@ class MemoryStore:
         hours = (now - memory.visited_at) / 3600.0
         self._publish(self._visit, 100.0 * hours / self._span, memory.visited)
 
-    def _publish_first(self) -> None:
+    def publish_first(self) -> None:
+        """Show both maps once there is a time to stamp them with."""
         if not self._shown:
             self.publish()
 

@@ -66,13 +66,11 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         self._limits = CommandLimits.of(given.limits)
         self._sap_flow: SapFlow | None = None
         self._pose: Pose | None = None
-        self._valid = True
-        self._paused = False
+        self._valid, self._paused = True, False
         self._motion: MotionCommand | None = None
-        self._decided_at = 0.0
         self._limited_by: tuple[str, ...] = ()
         self._commanded_at = self._looked_at = port.seconds()
-        self._twist = REST
+        self._twist, self._decided_at = REST, 0.0
         self._guard = BlockedReport(port, given.blocked, self._rim, RELEASE)
         self._obstacle: Doing | None = None
         self._inputs = InputWatches(port, given.freshness(), (FLOW, POSE))
@@ -241,6 +239,8 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         """Judge the silence of both inputs; stop at once, as a clock that stands ticks no more."""
         if self._inputs.look():
             self._tick()
+        if self._store is not None:
+            self._store.publish_first()
 
     def _judge(self) -> None:
         """Find out whether the tree may move; again whenever what it knows has changed."""

@@ -52,6 +52,8 @@ class MotionReport:
     def publish_state(self, doing: Doing) -> None:
         """Tell what the tree does, if that is new."""
         before, self.doing = self.doing, doing
+        if doing == before and self._since > 0.0:
+            return
         if doing[1:3] != before[1:3] or self._since <= 0.0:
             self._since = self._port.seconds()
         if doing.state != before.state:

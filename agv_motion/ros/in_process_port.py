@@ -181,7 +181,7 @@ class InProcessPort:
 
     def seconds(self) -> float:
         """Return the time of the graph [s]."""
-        return float(self.graph.now) * 1e-9
+        return self.graph.now * 1e-9
 
     steady_seconds = seconds
 

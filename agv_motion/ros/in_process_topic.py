@@ -72,6 +72,7 @@ class InProcessRowPublisher(InProcessEnd):
     def __init__(self, port: Participant, rows: Rows, topic: str, qos: QoSProfile) -> None:
         """Join the topic."""
         self._message = rows.message()
+        self._frame: str = self._message.header.frame_id
         super().__init__(port, type(self._message), topic, qos)
         self._rows, self._kind, self.table = rows, type(rows), Table(rows)
         """what makes messages of many rows together"""
@@ -88,7 +89,7 @@ class InProcessRowPublisher(InProcessEnd):
     def publish(self, row: Any, stamp: int) -> None:
         """Send a row; no time passes in a callback, so ``stamp`` [ns] is that of the graph."""
         if self.goes_as_it_is():
-            self._graph.publish(self, SentRow(row, self._message.header.frame_id))
+            self._graph.publish(self, SentRow(row, self._frame))
             return
         time = self._message.header.stamp
         time.sec, time.nanosec = divmod(stamp, SECOND)
@@ -148,7 +149,8 @@ class InProcessRowListener(InProcessListener):
     def hear(self, data: Any) -> None:
         """Take a message, or a row."""
         if isinstance(data, SentRow):
-            self._call(self._callback, data.row, data.frame, self.port.graph.now)
+            row, frame = data
+            self._call(self._callback, row, frame, self.port.graph.now)
         else:
             self._call(self._hear_message, self._decode(data))
 

@@ -28,6 +28,9 @@ CALM = 5.0
 
 SECOND = 1_000_000_000
 
+FRESH = Silence.FRESH
+"""Looked up once: every input is judged ten times a second."""
+
 
 class Freshness(NamedTuple):
     """How fresh an input has to be."""
@@ -139,8 +142,9 @@ class InputWatch(Watchdog):
 
     def tell(self) -> Silence:
         """Return how silent the input is now; log it where that has changed."""
-        silence, age = self.silence(), self.age(self._port.steady_seconds())
-        if age is None or self._port.clock.fault:
+        port, now = self._port, self._port.steady_seconds()
+        silence, age = Silence.LOST if port.clock.fault else self.judge(now), self.age(now)
+        if (silence is FRESH and self._told is FRESH) or age is None or port.clock.fault:
             return silence
         if silence is not self._told and not self._is_restless():
             self._log(silence, age)

@@ -8,8 +8,6 @@ from agv_motion.ros.input_watch import Freshness, InputWatch
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from agv_motion.ros.port import Port
 
 
@@ -35,17 +33,16 @@ class InputWatches:
         """Note news of an input; nobody waits for the next look where it was the last one lost."""
         self._watches[name].note()
         if self.lost:
-            self.lost = self._first(watch.silence() for watch in self._watches.values())
+            pairs = self._watches.items()
+            self.lost = next((n for n, watch in pairs if watch.silence() is Silence.LOST), '')
 
     def look(self) -> bool:
         """Judge all inputs and log what has changed; return whether to stop at once.
 
         That is when one is lost that was not before, or where a clock that stands ticks no more.
         """
-        before = self.lost
-        self.lost = self._first([watch.tell() for watch in self._watches.values()])
+        before, self.lost = self.lost, ''
+        for name, watch in self._watches.items():
+            if watch.tell() is Silence.LOST and not self.lost:
+                self.lost = name
         return bool(self.lost) and (bool(self._port.clock.fault) or not before)
-
-    def _first(self, silences: Iterable[Silence]) -> str:
-        pairs = zip(self._watches, silences, strict=True)
-        return next((name for name, silence in pairs if silence is Silence.LOST), '')

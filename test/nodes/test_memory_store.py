@@ -10,8 +10,12 @@ pytest.importorskip('rclpy')
 
 from agv_motion.motion.behavior.memory import Memory
 from agv_motion.motion.navigation.zone import Zone
-from agv_motion.nodes.memory_store import FIRST_PERIOD, MemoryStore
+from agv_motion.nodes.memory_store import MemoryStore
+from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
+from agv_motion.reprocess.recorded import parameters
+from agv_motion.ros.in_process_graph import InProcessGraph
+from agv_motion.ros.in_process_node import InProcessNode
 
 
 class Port(SimpleNamespace):
@@ -39,9 +43,20 @@ def test_the_first_map_waits_for_the_time_and_has_it_as_its_stamp():
     port = Port(now=0.0, told=[], timers={})
     keeper = MemoryStore(port, Memory(zone), MotionGeneratorParameters(map_period=60.0))
     keeper.begin()
-    port.timers[FIRST_PERIOD]()
+    keeper.publish_first()
     assert port.told == []
     port.now = 7.0
-    port.timers[FIRST_PERIOD]()
-    port.timers[FIRST_PERIOD]()
+    keeper.publish_first()
+    keeper.publish_first()
     assert port.told == [('memory/sap_flow', 7), ('memory/last_visit', 7)]
+
+
+def test_a_node_that_began_before_the_clock_shows_the_first_map_as_soon_as_there_is_a_time():
+    said = []
+    graph = InProcessGraph(lambda publisher, stamp, _: said.append((publisher.topic, stamp)), 0)
+    InProcessNode(graph, MotionGenerator, parameters('tree.yaml', 'motion_generator'))
+    graph.start()
+    assert '/memory/sap_flow' not in [topic for topic, _ in said]
+    graph.run(1_000_000_000)
+    assert ('/memory/sap_flow', 100_000_000) in said
+    assert [topic for topic, _ in said].count('/memory/sap_flow') == 1

@@ -62,6 +62,6 @@ class TurretReadings:
         if self.angles is None or any(setpoints.rates):
             return False
         for planned, angle in zip(setpoints.angles, self.angles, strict=True):
-            if abs(wrap(angle - planned)) > LOST_TURRET:
+            if abs(angle - planned) > LOST_TURRET and abs(wrap(angle - planned)) > LOST_TURRET:
                 return True
         return False

@@ -50,7 +50,7 @@ class Park:
             def refresh(self, now, wanted=()):
                 for (robot, slot), cell in list(self.cells.items()):
                     if slot in FRESH and robot not in park.silent and now - cell.at > 0.5:
-                        self.put(robot, slot, now, json.loads(cell.text), renew=True)
+                        self.put(robot, slot, now, json.loads(cell.update)['value'], renew=True)
 
         self.board = Speaking()
         self.silent = set()

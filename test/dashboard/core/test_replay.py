@@ -48,7 +48,7 @@ def recording(tmp_path):
 def state(replay):
     replay.board.refresh(replay.at)
     cell = replay.board.cells.get(('oak', 'state'))
-    return None if cell is None else json.loads(cell.text)['text']
+    return None if cell is None else json.loads(cell.update)['value']['text']
 
 
 @pytest.mark.parametrize(
