@@ -18,7 +18,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from PIL import Image
 
 from agv_motion.bag.reader import BagReader
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.report import label_layout, style
 from agv_motion.report.walk import WalkRun, read_walk

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
@@ -44,7 +45,8 @@ def test_a_track_that_is_told_once_reaches_every_node(tmp_path):
     path = tmp_path / 'wide.yaml'
     path.write_text(yaml.safe_dump(content))
     for node in (DifferentialKinematics, DifferentialSimulator):
-        assert load_parameters(path, node.name, node.takes).drive().track == pytest.approx(0.55)
+        given = load_parameters(path, node.name, node.takes)
+        assert DifferentialDrive.of(given).track == pytest.approx(0.55)
     of = {node: load_parameters(path, node.name, node.takes)
           for node in (GhostTrajectory, RouteFollowerNode, SequenceNode)}  # fmt: skip
     assert of[GhostTrajectory].follow.ghost.track == pytest.approx(0.55)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.quality_of_service import OfferedQos
-
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
-    from agv_motion.bag.mcap.records import Channel, Schema
+    from agv_motion.bag.quality_of_service import OfferedQos
 
 
 class Connection(NamedTuple):
@@ -49,18 +47,3 @@ class Message(NamedTuple):
     """[ns] when it was sent"""
     sequence: int
     """number that the sender gave it, 0 where unknown"""
-
-
-def from_channel(channel: Channel, schemas: Mapping[int, Schema]) -> Connection:
-    """Return what an MCAP file says of a channel; a schema that is missing leaves gaps."""
-    schema = schemas.get(channel.schema_id)
-    return Connection(
-        channel.topic,
-        schema.name if schema else '',
-        schema.data.decode(errors='surrogateescape') if schema else '',
-        schema.encoding if schema else '',
-        channel.encoding,
-        channel.metadata.get('topic_type_hash', ''),
-        OfferedQos.from_yaml(channel.metadata.get('offered_qos_profiles', '')),
-        tuple(channel.metadata.items()),
-    )

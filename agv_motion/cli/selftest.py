@@ -55,7 +55,7 @@ def _planar() -> Iterator[Comparison]:
 
 
 def _probe() -> Iterator[Comparison]:
-    from agv_motion.probe import flow_index, flux_density
+    from agv_motion.probe.granier import flow_index, flux_density
 
     yield Comparison("Granier's K of 16 K, zero flow at 20 K", flow_index(16.0, 20.0), 0.25)
     # 118.99e-6 * 0.25**1.231 by mpmath, 20 digits
@@ -63,7 +63,9 @@ def _probe() -> Iterator[Comparison]:
 
 
 def _kinematics() -> Iterator[Comparison]:
-    from agv_motion.kinematics import DifferentialDrive, OmniWheels, Turrets, centre_of_rotation
+    from agv_motion.kinematics.differential import DifferentialDrive
+    from agv_motion.kinematics.omniwheels import OmniWheels
+    from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
     from agv_motion.planar import Twist
 
     tree = Turrets.from_polar([radians(-45), radians(45), pi], [1.18] * 3)
@@ -90,7 +92,8 @@ def _kinematics() -> Iterator[Comparison]:
 
 def _trajectory() -> Iterator[Comparison]:
     from agv_motion.planar import Pose
-    from agv_motion.trajectory import Arc, trapezoid
+    from agv_motion.trajectory.arc import Arc
+    from agv_motion.trajectory.trapezoidal import trapezoid
 
     yield Comparison(
         '2 m at 0.5 m/s, ramps of 0.25 m/s2 [s]', trapezoid(2.0, 0.5, 0.25).duration, 6.0

@@ -8,7 +8,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
 from std_msgs.msg import Bool
 
-from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.recorder import RecordedTopic
 from agv_motion.nodes.arbiter import ArbiterNode

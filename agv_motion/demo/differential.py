@@ -9,13 +9,13 @@ from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, String
 
-from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.drive_view import DriveView
-from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.differential_simulator import DifferentialSimulator
 from agv_motion.nodes.sequence import SequenceNode
@@ -101,7 +101,7 @@ class DifferentialScenario(Scenario[RunBag]):
         """Whether all actions were performed."""
         return self._status is not None and self._status.state is SequenceState.DONE
 
-    def last_word(self, demo: Demo[RunBag]) -> str:
+    def last_word(self, demo: DemoSoFar) -> str:
         """Return why it ended, and where."""
         last = demo.recorder.latest('ground_truth')
         if last is None:
@@ -117,7 +117,7 @@ class DifferentialScenario(Scenario[RunBag]):
         """Read the run back."""
         return read_run(bag)
 
-    def tell(self, _: RunBag, __: Demo[RunBag]) -> Iterator[RenderableType]:
+    def tell(self, _: RunBag, __: DemoSoFar) -> Iterator[RenderableType]:
         """Yield nothing: the last word has told it."""
         yield from ()
 

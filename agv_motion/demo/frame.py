@@ -7,9 +7,7 @@ the scenario make what is printed and drawn, from the bag alone.
 from __future__ import annotations
 
 import time
-from abc import ABC, abstractmethod
-from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic
 
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -21,36 +19,20 @@ from agv_motion.demo.explained import robots, why_nodes, why_topics
 from agv_motion.demo.map_view import Room
 from agv_motion.demo.readout import bar
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, R, Scenario
 from agv_motion.demo.standard_error import apart
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable
     from pathlib import Path
 
-    from rclpy.lifecycle import LifecycleNode
     from rich.console import Console, RenderableType
 
-    from agv_motion.bag.reader import BagReader
-    from agv_motion.ros.live_node import LiveNode
-
-R = TypeVar('R')
 
 REFRESH = 0.25
 """[s] between two pictures of the live view"""
-
-
-class DemoGraph(NamedTuple):
-    """The nodes of a demo, and what is kept of what they say."""
-
-    nodes: Sequence[LiveNode[Any]]
-    """of this package; they leave their outputs safe in this order"""
-    leader: LiveNode[Any]
-    """the simulator among them whose time is that of the demo"""
-    topics: Sequence[RecordedTopic]
-    others: Sequence[LifecycleNode] = ()
-    """nodes that are none of this package's, such as one that drives"""
 
 
 def explained(graph: DemoGraph) -> DemoGraph:
@@ -60,63 +42,6 @@ def explained(graph: DemoGraph) -> DemoGraph:
         nodes=[*graph.nodes, *why_nodes(namespaces)],
         topics=[*graph.topics, *why_topics(namespaces)],
     )
-
-
-class LiveView(Protocol):
-    """A picture of the demo as it runs."""
-
-    def draw(self, now: float, factor: float, room: Room) -> RenderableType:
-        """Return the picture at simulated ``now`` [s], passing ``factor`` times real time."""
-
-
-class Scenario(ABC, Generic[R]):
-    """What sets one demo apart; ``R`` is what it reads back from its bag."""
-
-    figure: ClassVar[str]
-    """file name of the picture"""
-    doing: ClassVar[str] = ''
-    """word beside the bar that shows how far the demo is; without one there is no bar"""
-
-    def __init__(self, seconds: float = inf) -> None:
-        """Let the demo last so many simulated seconds, or until it is `over`."""
-        self.seconds = seconds
-
-    @abstractmethod
-    def build(self) -> DemoGraph:
-        """Make the nodes; the ROS context is there."""
-
-    def view(self, recorder: DemoRecorder) -> LiveView | None:  # noqa: ARG002 - for those that have one
-        """Return the live view; there may be none."""
-        return None
-
-    def progress(self, elapsed: float) -> tuple[float, str]:
-        """Return the share that is done after ``elapsed`` [s], and what the robot does."""
-        return elapsed / self.seconds, self.doing
-
-    def over(self, elapsed: float, say: Callable[[str], None]) -> bool:  # noqa: ARG002
-        """Return whether the demo ends after ``elapsed`` [s]; asked again and again as it runs."""
-        return elapsed >= self.seconds
-
-    def last_word(self, demo: Demo[R]) -> str:  # noqa: ARG002 - for those that have one
-        """Return how it ended, where there is more to say than the bag tells."""
-        return ''
-
-    @property
-    def succeeded(self) -> bool:
-        """Whether the robot did what it was to do."""
-        return True
-
-    @abstractmethod
-    def read(self, bag: BagReader) -> R:
-        """Read the bag of the demo back."""
-
-    @abstractmethod
-    def tell(self, run: R, demo: Demo[R]) -> Iterator[RenderableType]:
-        """Yield what is to be printed of a run."""
-
-    @abstractmethod
-    def draw(self, run: R, path: Path) -> bool:
-        """Draw a run into one picture; return whether there was anything to draw."""
 
 
 class Demo(Generic[R]):

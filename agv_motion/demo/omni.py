@@ -14,9 +14,9 @@ from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.drive_view import DriveView
-from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.omni_driver import OmniDriver
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
@@ -105,7 +105,7 @@ class OmniScenario(Scenario[LocalizationRun]):
         """Read the drive back."""
         return read_localization(bag)
 
-    def tell(self, run: LocalizationRun, _: Demo[LocalizationRun]) -> Iterator[RenderableType]:
+    def tell(self, run: LocalizationRun, _: DemoSoFar) -> Iterator[RenderableType]:
         """Yield the figures of the drive."""
         yield summary(run)
 

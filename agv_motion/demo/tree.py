@@ -11,12 +11,12 @@ from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import Illuminance, JointState, Temperature
 from std_msgs.msg import Bool, Float64, String
 
-from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
-from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.tree_view import TreeView
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -115,7 +115,7 @@ class TreeScenario(Scenario[WalkRun]):
         """Read the walk back."""
         return read_walk(bag, self._wheels.wheel_radius)
 
-    def tell(self, run: WalkRun, demo: Demo[WalkRun]) -> Iterator[RenderableType]:
+    def tell(self, run: WalkRun, demo: DemoSoFar) -> Iterator[RenderableType]:
         """Yield the figures of the walk."""
         wheels, recorder = self._wheels, demo.recorder
         latencies = _latencies(recorder.arrivals)

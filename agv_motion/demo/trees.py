@@ -13,12 +13,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
-from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import N, configured_node
-from agv_motion.demo.frame import Demo, DemoGraph, Scenario
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.trees_view import TreesView
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.granier_probe import GranierProbe
@@ -140,9 +140,7 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
         """Read the walks back."""
         return read_walks(bag, self._names)
 
-    def tell(
-        self, run: list[RecordedWalk], _: Demo[list[RecordedWalk]]
-    ) -> Iterator[RenderableType]:
+    def tell(self, run: list[RecordedWalk], _: DemoSoFar) -> Iterator[RenderableType]:
         """Yield the figures of the walks."""
         if not _all_told(run):
             yield 'Ended before every tree had told where it is.'

@@ -10,15 +10,11 @@ from agv_motion.kinematics.differential import DifferentialDrive, WheelSpeeds
 from agv_motion.kinematics.omniwheel_placement import OmniWheel, mecanum_wheels, wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.kinematics.steering import (
-    AtRest,
-    Limiter,
-    Rolling,
-    SteeringController,
-    SteeringLimits,
-    SteeringPlanner,
-    rolling_share,
-)
+from agv_motion.kinematics.steering.alignment import rolling_share
+from agv_motion.kinematics.steering.controller import SteeringController
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
 from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
 from agv_motion.kinematics.twist_ramp import TwistRamp
 from agv_motion.kinematics.wheel_limits import WheelLimits

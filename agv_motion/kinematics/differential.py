@@ -23,6 +23,8 @@ from agv_motion.planar import Twist, require_finite
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
+
 SIDEWAYS = 1e-9
 """[m/s] A sideways speed below this is rounding."""
 
@@ -76,6 +78,11 @@ class DifferentialDrive:
                 raise GeometryError(msg)
         self.track = track * track_multiplier
         """[m] effective"""
+
+    @classmethod
+    def of(cls, base: DifferentialBaseParameters) -> DifferentialDrive:
+        """Return the drive of a base as it was declared."""
+        return cls(base.track, base.wheel_radii, base.track_multiplier)
 
     def __len__(self) -> int:
         """Return two."""

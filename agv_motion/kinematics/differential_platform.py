@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.parameters import Spec, check
 
 
@@ -47,7 +46,3 @@ class DifferentialBaseParameters(TrackParameters):
         if self.joint_names[0] == self.joint_names[1]:
             msg = f'joint_names = {list(self.joint_names)}: two wheels bear the same name'
             raise ConfigurationError(msg)
-
-    def drive(self) -> DifferentialDrive:
-        """Return the kinematics of this base."""
-        return DifferentialDrive(self.track, self.wheel_radii, self.track_multiplier)

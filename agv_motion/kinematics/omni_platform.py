@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import pi
 from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.omniwheel_placement import OmniWheel
-from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.parameters import Spec, check
 
 
@@ -54,23 +52,3 @@ class OmniBaseParameters:
         if len(set(self.joint_names)) < len(self.joint_names):
             msg = f'joint_names = {list(self.joint_names)}: two wheels bear the same name'
             raise ConfigurationError(msg)
-
-    def wheels(self) -> OmniWheels:
-        """Return the kinematics of this base.
-
-        Raises:
-            GeometryError: The wheels do not determine every motion; the message names it.
-
-        """
-        return OmniWheels(
-            [
-                OmniWheel(distance * cos(angle), distance * sin(angle), direction, slide)
-                for angle, distance, direction, slide in zip(
-                    self.wheel_angles,
-                    self.wheel_distances,
-                    self.wheel_directions,
-                    self.slide_angles,
-                    strict=True,
-                )
-            ]
-        )

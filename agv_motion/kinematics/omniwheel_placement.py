@@ -19,7 +19,6 @@ from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError
-from agv_motion.kinematics.polar import polar_points
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,8 +85,13 @@ def wheels_on_circle(angles: Sequence[float], distances: Sequence[float]) -> lis
         GeometryError: The lengths differ.
 
     """
-    points = polar_points(angles, distances)
-    return [OmniWheel(x, y, a - pi / 2) for (x, y), a in zip(points, angles, strict=True)]
+    if len(angles) != len(distances):
+        msg = f'{len(angles)} angles and {len(distances)} distances: give both of every wheel'
+        raise GeometryError(msg)
+    return [
+        OmniWheel(d * cos(a), d * sin(a), a - pi / 2)
+        for a, d in zip(angles, distances, strict=True)
+    ]
 
 
 def mecanum_wheels(half_length: float, half_width: float) -> list[OmniWheel]:

@@ -9,7 +9,7 @@ Systems 4(2), 1987, sections 4 and 6.
 
 from __future__ import annotations
 
-from math import isfinite, sqrt
+from math import cos, isfinite, sin, sqrt
 from operator import mul
 from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
@@ -29,6 +29,8 @@ from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
+
+    from agv_motion.kinematics.omni_platform import OmniBaseParameters
 
 Matrix = NDArray[np.float64]
 
@@ -83,6 +85,23 @@ class OmniWheels:
         self._free = tuple(wheel.free() for wheel in self.wheels)
         self._solutions: dict[tuple[int, ...], _Solution] = {}
         self._whole = self._solution(tuple(range(len(self.wheels))))
+
+    @classmethod
+    def of(cls, base: OmniBaseParameters) -> OmniWheels:
+        """Return the wheels of a base as it was declared; their radii are not kept.
+
+        Raises:
+            GeometryError: What the constructor refuses.
+
+        """
+        rows = zip(
+            base.wheel_angles, base.wheel_distances, base.wheel_directions, base.slide_angles,
+            strict=True,
+        )  # fmt: skip
+        return cls([
+            OmniWheel(distance * cos(angle), distance * sin(angle), direction, slide)
+            for angle, distance, direction, slide in rows
+        ])  # fmt: skip
 
     @classmethod
     def from_polar(

@@ -11,14 +11,13 @@ from math import hypot, sqrt
 from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.turrets import Turrets
 from agv_motion.parameters import Spec, check
 
-RADIUS = 1.18
+PLATFORM_RADIUS = 1.18
 """[m] from the centre to each turret of the tree. Its octagon has its corners over the turrets, so
 none of it reaches further: it may be turned at will within the disc of this radius."""
 
-FRONT = RADIUS / sqrt(2.0)
+FRONT = PLATFORM_RADIUS / sqrt(2.0)
 """[m] The two front turrets stand at -45 and +45 degrees."""
 
 SMALLEST = 0.01
@@ -33,7 +32,7 @@ class PlatformOutline:
     """Where the turrets stand and how far the body reaches; by default the tree's octagon."""
 
     turret_x: Annotated[tuple[float, ...], Spec('turret centres, forward', 'm', (-100, 100))] = (
-        FRONT, FRONT, -RADIUS,
+        FRONT, FRONT, -PLATFORM_RADIUS,
     )  # fmt: skip
     turret_y: Annotated[tuple[float, ...], Spec('turret centres, left', 'm', (-100, 100))] = (
         -FRONT, FRONT, 0.0,
@@ -70,7 +69,7 @@ class PlatformOutline:
     @property
     def farthest(self) -> float:
         """How far the farthest turret stands from the centre [m]."""
-        return max(map(hypot, self.turret_x, self.turret_y), default=RADIUS)
+        return max(map(hypot, self.turret_x, self.turret_y), default=PLATFORM_RADIUS)
 
 
 @dataclass(frozen=True)
@@ -79,8 +78,8 @@ class PlatformParameters(PlatformOutline):
 
     wheel_radius: Annotated[float, Spec('rolling radius of all wheels', 'm', (0.001, 10.0))] = 0.1
 
-    def turrets(self) -> Turrets:
-        """Return the kinematics of this platform.
+    def turret_positions(self) -> list[tuple[float, float]]:
+        """Return the (n, 2) centres of the turrets [m].
 
         Raises:
             ConfigurationError: A turret stands outside the rim.
@@ -92,4 +91,4 @@ class PlatformParameters(PlatformOutline):
                 f'{self.rim:g} m: give the rim of the whole platform, or 0'
             )
             raise ConfigurationError(msg)
-        return Turrets(list(zip(self.turret_x, self.turret_y, strict=True)))
+        return list(zip(self.turret_x, self.turret_y, strict=True))

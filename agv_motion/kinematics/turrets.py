@@ -21,7 +21,6 @@ import numpy as np
 
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.elementwise import elementwise
-from agv_motion.kinematics.polar import polar_points
 from agv_motion.kinematics.twist_fit import TwistFit
 from agv_motion.planar import Twist, require_finite
 
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
+
+    from agv_motion.kinematics.platform import PlatformParameters
 
     Column = NDArray[np.float64]
     T = TypeVar('T', float, Column)
@@ -81,6 +82,17 @@ class Turrets:
             raise GeometryError(msg)
 
     @classmethod
+    def of(cls, platform: PlatformParameters) -> Turrets:
+        """Return the turrets of a platform as it was declared.
+
+        Raises:
+            ConfigurationError: A turret stands outside the rim.
+            GeometryError: What the constructor refuses.
+
+        """
+        return cls(platform.turret_positions())
+
+    @classmethod
     def from_polar(cls, angles: Sequence[float], distances: Sequence[float]) -> Turrets:
         """Return the turrets that stand at polar positions from the centre of the base frame.
 
@@ -92,7 +104,10 @@ class Turrets:
             GeometryError: The lengths differ, or what the constructor refuses.
 
         """
-        return cls(polar_points(angles, distances))
+        if len(angles) != len(distances):
+            msg = f'{len(angles)} angles and {len(distances)} distances: give both of every turret'
+            raise GeometryError(msg)
+        return cls([(d * cos(a), d * sin(a)) for a, d in zip(angles, distances, strict=True)])
 
     def __len__(self) -> int:
         """Return the number of turrets."""

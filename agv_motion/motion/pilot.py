@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from agv_motion.motion.behavior.decision import Decision
     from agv_motion.motion.behavior.goals.goal import Goal
     from agv_motion.motion.behavior.sap_flow import SapFlow
-    from agv_motion.motion.command.limits import FloorRules
+    from agv_motion.motion.command.floor_rules import FloorRules
     from agv_motion.motion.navigation.navigator import Navigator
     from agv_motion.motion.navigation.polyline import Path
     from agv_motion.planar import Pose

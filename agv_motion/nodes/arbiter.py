@@ -9,10 +9,11 @@ from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
 from std_srvs.srv import SetBool
 
-from agv_motion.arbitration import Arbiter, ChassisLimits, TwistSource
+from agv_motion.arbitration.arbiter import Arbiter
+from agv_motion.arbitration.chassis_limits import ChassisLimits
 from agv_motion.arbitration.choice import FREE, Choice, Hold
 from agv_motion.arbitration.hold_file import restore, save
-from agv_motion.arbitration.source import DRIVERS
+from agv_motion.arbitration.source import DRIVERS, TwistSource
 from agv_motion.nodes.arbiter_parameters import ArbiterParameters
 from agv_motion.nodes.driver_report import INACTIVE, DriverReport, diagnosis
 from agv_motion.planar import REST, Twist

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
+from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.nodes.wheels import WheelsNode
 from agv_motion.nodes.wheels_parameters import WheelsParameters
@@ -43,7 +44,7 @@ class DifferentialKinematics(WheelsNode[DifferentialKinematicsParameters]):
         """Build the kinematics and the odometry, and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        self._wheels = given.drive()
+        self._wheels = DifferentialDrive.of(given)
         base = DifferentialBase(self._wheels.track)
         self._odometry = WheelOdometry(base, given.wheel_radii, given.odometry)
         self.open_wheels(given.joint_names, given.wheel_radii, self._odometry, self._wheels.matrix)

@@ -9,6 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
+from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
@@ -69,7 +70,7 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
     def reset(self) -> DifferentialRobot:
         """Return a robot at its start, its wheels still."""
         given = self.parameters
-        self._drive = given.drive()
+        self._drive = DifferentialDrive.of(given)
         self._robot = DifferentialRobot(self._drive, given.robot, given.start(), given.seed)
         self._camera = FixSensor(given.fixes, given.seed)
         self._wanted = [0.0, 0.0]

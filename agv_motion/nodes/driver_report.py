@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from std_msgs.msg import Bool
 
-from agv_motion.arbitration import Verdict, sentence
-from agv_motion.arbitration.sentence import told
+from agv_motion.arbitration.choice import Verdict
+from agv_motion.arbitration.sentence import sentence, told
 from agv_motion.arbitration.source import DRIVERS
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.qos import LATCHED
@@ -16,7 +16,8 @@ from agv_motion.ros.qos import LATCHED
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from agv_motion.arbitration import Choice, Standing, TwistSource
+    from agv_motion.arbitration.choice import Choice, Standing
+    from agv_motion.arbitration.source import TwistSource
     from agv_motion.ros.port import Port
 
 INACTIVE = 'the arbiter is not active: nobody drives'

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 
-from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.source import TwistSource
 from agv_motion.ros.qos import LATCHED
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from agv_motion.kinematics.omni_platform import OmniBaseParameters
+from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.nodes.wheels import WheelsNode
 from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.omni_odometry import OmniOdometry
@@ -55,7 +56,7 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         """Build the kinematics and the odometry, and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        self._wheels = given.wheels()
+        self._wheels = OmniWheels.of(given)
         self._odometry = OmniOdometry(self._wheels, given.wheel_radii, given.odometry)
         self._monitor = WheelMonitor(self._wheels, given.wheel_radii, given.odometry)
         self._diagnosis: WheelDiagnosis = SOUND

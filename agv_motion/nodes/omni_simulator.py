@@ -74,7 +74,7 @@ class OmniSimulatorParameters(SimulatedParameters, OmniBaseParameters):
         return OmniWheels(
             [
                 wheel._replace(x=wheel.x * share, y=wheel.y * share)
-                for wheel, share in zip(self.wheels().wheels, shares, strict=True)
+                for wheel, share in zip(OmniWheels.of(self).wheels, shares, strict=True)
             ]
         )
 

@@ -10,6 +10,7 @@ from sensor_msgs.msg import Illuminance, JointState
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
+from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import TurretJoints, fill_pose
@@ -85,7 +86,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
     def reset(self) -> TurretPlatform:
         """Return a platform at its start, its turrets straight."""
         given = self.parameters
-        self._platform = TurretPlatform(given.turrets(), given.motors, given.start())
+        self._platform = TurretPlatform(Turrets.of(given), given.motors, given.start())
         self._fix_sensor = FixSensor(given.fixes, given.seed)
         self._wanted = list(self._platform.angles), list(self._platform.speeds)
         return self._platform

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.nodes.input_parameters import DrivenParameters
 from agv_motion.parameters import Spec
 

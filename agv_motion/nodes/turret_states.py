@@ -16,6 +16,7 @@ from std_msgs.msg import Float64
 from agv_motion.bag.cdr.message_rows import MessageRows
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.elementwise import elementwise
+from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.covariances import fill_covariance
@@ -84,7 +85,7 @@ class TurretStates:
         self._port, self._joints, self._judge, self._watch = port, joints, judge, watch
         self._radius, self._zero = given.wheel_radius, given.zeros()
         self._reckoning = TurretOdometry(
-            given.turrets(), given.wheel_noise, given.max_measured_speed, given.max_gap
+            Turrets.of(given), given.wheel_noise, given.max_measured_speed, given.max_gap
         )
         self.fastest = 0.0
         """How fast the fastest wheel was seen to roll [m/s]"""

@@ -11,7 +11,9 @@ from std_srvs.srv import Trigger
 
 from agv_motion.activity import HeldBy
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering import Limiter, SteeringController
+from agv_motion.kinematics.steering.controller import SteeringController
+from agv_motion.kinematics.steering.state import Limiter
+from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
 from agv_motion.nodes.turret_states import TurretStates
@@ -56,7 +58,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         """Build the kinematics and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        turrets = given.turrets()
+        turrets = Turrets.of(given)
         self._zero = given.zeros()
         self._period = 1.0 / given.rate
         self._driving = SteeringController(turrets, given, self._period, given.unwind_after)

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import QoSProfile
 
-from agv_motion.explanation import Evidence, Explainer
+from agv_motion.explanation.evidence import Evidence
+from agv_motion.explanation.explainer import Explainer
 from agv_motion.ros.diagnosis import OK, Diagnosis
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED
 from agv_motion.ros.run import run
 
 if TYPE_CHECKING:
-    from agv_motion.explanation import Chain, Link
+    from agv_motion.explanation.link import Chain, Link
     from agv_motion.ros.port import Port
 
 REPORTS = QoSProfile(depth=50)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.omniwheels import OmniWheels
+from agv_motion.kinematics.turrets import Turrets
 from agv_motion.odometry.calibration_models import DifferentialModel, OmniModel, TurretModel
 from agv_motion.report.calibration_drive import Wheels, joints_of_turrets
 
@@ -55,7 +57,7 @@ def drawing_of(node: str, given: Any, prefix: str = '') -> Drawing:
 
     """
     if node == 'wheel_kinematics':
-        turrets = given.turrets()
+        turrets = Turrets.of(given)
         rolling, steering = joints_of_turrets(len(turrets))
         return Drawing(
             TurretModel(turrets, [given.wheel_radius] * len(turrets)),
@@ -73,7 +75,9 @@ def drawing_of(node: str, given: Any, prefix: str = '') -> Drawing:
             noise,
             lambda values: _differential_parameters(values, track),
         )
-    return Drawing(OmniModel(given.wheels(), given.wheel_radii), wheels, noise, _omni_parameters)
+    return Drawing(
+        OmniModel(OmniWheels.of(given), given.wheel_radii), wheels, noise, _omni_parameters
+    )
 
 
 def _all(values: dict[str, float], start: str) -> list[float]:

@@ -8,7 +8,7 @@ import numpy as np
 from rich.table import Table
 
 from agv_motion.bag.message_objects import decoded
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:

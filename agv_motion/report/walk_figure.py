@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.report import style, wording
 from agv_motion.report.figure import figure
 

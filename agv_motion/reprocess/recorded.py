@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.catalogue import available, parameters_of, require_node
 from agv_motion.parameters import nested, rows
-from agv_motion.reprocess.recorded_nodes import RECORDED
 from agv_motion.ros.config import find_config
 from agv_motion.ros.parameter_arguments import is_for, sections
 from agv_motion.ros.plain_node import PlainNode
@@ -18,6 +17,9 @@ if TYPE_CHECKING:
 
 LIVE_ONLY = {'bag_player', 'bag_recorder'}
 """nodes that are nothing without a graph"""
+
+MODULES = {'granier_probe': 'agv_motion.reprocess.recorded_probe'}
+"""of nodes that are others on a recording; the rest run as they do live"""
 
 FILES = {
     'arbiter': 'state_file', 'granier_probe': 'state_file', 'motion_generator': 'memory_file',
@@ -32,14 +34,12 @@ def node_class(name: str) -> Any:
         ConfigurationError: There is none of this name, or it is nothing without a graph.
 
     """
-    if name in RECORDED:
-        return RECORDED[name]
     require_node(name)
     if name in LIVE_ONLY:
         usable = ', '.join(sorted(set(available()) - LIVE_ONLY))
         msg = f'{name} works on a live graph only; there are {usable}'
         raise ConfigurationError(msg)
-    module = importlib.import_module(f'agv_motion.nodes.{name}')
+    module = importlib.import_module(MODULES.get(name, f'agv_motion.nodes.{name}'))
     return next(
         each
         for each in vars(module).values()

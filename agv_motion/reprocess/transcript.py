@@ -9,6 +9,7 @@ import numpy as np
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process_topic import InProcessEnd, InProcessRowPublisher
 from agv_motion.ros.messages import type_name
+from agv_motion.ros.row_table import Table
 
 if TYPE_CHECKING:
     from agv_motion.bag.writer import BagWriter
@@ -28,6 +29,7 @@ class Transcript:
         self.messages = 0
         self._writer = writer
         self._topics: dict[str, int] = {}
+        self._tables: dict[InProcessRowPublisher, Table] = {}
         self._waiting: list[tuple[InProcessEnd, int, Any]] = []
 
     def record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
@@ -50,12 +52,18 @@ class Transcript:
         for publisher, places in rows.items():
             assert isinstance(publisher, InProcessRowPublisher)
             times = np.array([stamps[i] for i in places], np.int64)
-            made = publisher.table.messages(times, [found[i].row for i in places])
+            made = self._table(publisher).messages(times, [found[i].row for i in places])
             for i, message in zip(places, made, strict=True):
                 messages[i] = message
         self._writer.write_several([topics[one] for one in publishers], stamps, messages)
         self.messages += len(messages)
         self._waiting.clear()
+
+    def _table(self, publisher: InProcessRowPublisher) -> Table:
+        """Return what makes messages of many rows together."""
+        if publisher not in self._tables:
+            self._tables[publisher] = Table(publisher.rows)
+        return self._tables[publisher]
 
     def _topic(self, publisher: InProcessEnd) -> int:
         if publisher.topic not in self._topics:

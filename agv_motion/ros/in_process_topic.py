@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.cdr import codec
-from agv_motion.ros.rows import Rows, Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,6 +15,7 @@ if TYPE_CHECKING:
 
     from agv_motion.ros.in_process_graph import InProcessGraph
     from agv_motion.ros.port import Ahead
+    from agv_motion.ros.rows import Rows
 
 
 SECOND = 1_000_000_000
@@ -74,8 +74,7 @@ class InProcessRowPublisher(InProcessEnd):
         self._message = rows.message()
         self._frame: str = self._message.header.frame_id
         super().__init__(port, type(self._message), topic, qos)
-        self._rows, self._kind, self.table = rows, type(rows), Table(rows)
-        """what makes messages of many rows together"""
+        self.rows, self._kind = rows, type(rows)
 
     def goes_as_it_is(self) -> bool:
         """Return whether the recording and everyone else who listens take such rows."""
@@ -93,7 +92,7 @@ class InProcessRowPublisher(InProcessEnd):
             return
         time = self._message.header.stamp
         time.sec, time.nanosec = divmod(stamp, SECOND)
-        self._rows.fill(self._message, row)
+        self.rows.fill(self._message, row)
         self.publish_message(self._message)
 
 

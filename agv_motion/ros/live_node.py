@@ -7,6 +7,7 @@ refused with its reason while the node lives on.
 
 from __future__ import annotations
 
+import time
 import traceback
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -18,8 +19,10 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from agv_motion.errors import AgvMotionError, shortened
 from agv_motion.model.frames import in_namespace
 from agv_motion.ros.clock_guard import CLOCK_TOPIC, LOOK_PERIOD, if_possible
+from agv_motion.ros.complaints import Complaints
 from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.diagnostics import Diagnostics
+from agv_motion.ros.graph_guard import GraphGuard
 from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.live_port import LivePort
 from agv_motion.ros.parameter_changes import differing, refusal
@@ -60,7 +63,9 @@ class LiveNode(LifecycleNode, Generic[N]):
         self.steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.defect = ''
         """What went wrong in a callback by a fault of ours: the node was deactivated for it."""
-        self.port = LivePort(self, self.message_of, self.stop_for)
+        complaints = Complaints(self.get_logger(), time.monotonic)
+        graph = GraphGuard(self, lambda: self.active, complaints.warn)
+        self.port = LivePort(self, graph, complaints, self.message_of, self.stop_for)
         self.declared = DeclaredParameters(self, kind.takes, self._accept)
         self._start_watch(Diagnostics(self.port, self._condition))
         answer_all(self, self.port.refuse)

@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.clock import Clock, ClockType
 
 from agv_motion.ros.clock_guard import ClockGuard
-from agv_motion.ros.complaints import Complaints
 from agv_motion.ros.ends import Ends
-from agv_motion.ros.graph_guard import GraphGuard
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,6 +18,8 @@ if TYPE_CHECKING:
 
     from agv_motion.clock_watch import ClockWatch
     from agv_motion.errors import AgvMotionError
+    from agv_motion.ros.complaints import Complaints
+    from agv_motion.ros.graph_guard import GraphGuard
     from agv_motion.ros.port import Ahead, RowPublisher
     from agv_motion.ros.rows import Rows
     from agv_motion.watchdog import Watchdog
@@ -33,12 +33,15 @@ class LivePort:
     """A `Port` on rclpy; ``node`` is for those that are nothing without a graph."""
 
     def __init__(
-        self, node: LifecycleNode, tell: Callable[[AgvMotionError], str], stop_for: StopFor
-    ) -> None:
+        self, node: LifecycleNode, graph: GraphGuard, complaints: Complaints,
+        tell: Callable[[AgvMotionError], str], stop_for: StopFor,
+    ) -> None:  # fmt: skip
         """Open nothing yet.
 
         Args:
             node: Of rclpy, which lives as long as the port.
+            graph: Looks who else is on the topics of the node.
+            complaints: Logs what was refused.
             tell: Returns the message of an error, as the node may tell it.
             stop_for: Deactivates the node for a defect; returns it in words.
 
@@ -47,10 +50,9 @@ class LivePort:
         self.active = False
         self._now = node.get_clock().handle.get_now
         self._log = node.get_logger()
-        self.complaints = Complaints(self._log, time.monotonic)
+        self.graph, self.complaints = graph, complaints
         self.clock_guard = ClockGuard(self)
         self.clock: ClockWatch = self.clock_guard.watch
-        self.graph = GraphGuard(node, lambda: self.active, self.complaints.warn)
         self.ends = Ends(node, self)
 
     @property

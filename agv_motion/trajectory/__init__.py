@@ -6,6 +6,7 @@ it, one twist a cycle. `trapezoid`, `Arc` and `ArcRun` serve controllers that kn
 
 from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.arc_run import ArcRun
+from agv_motion.trajectory.bounds import NO_RAMP
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 from agv_motion.trajectory.follower_state import FollowerState
@@ -15,7 +16,6 @@ from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
 from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
 from agv_motion.trajectory.pace import PaceParameters
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
-from agv_motion.trajectory.request import NO_RAMP
 from agv_motion.trajectory.tracking import TrackingError, TrackingLaw, tracking_error
 from agv_motion.trajectory.trajectory import Trajectory
 from agv_motion.trajectory.trapezoidal import trapezoid

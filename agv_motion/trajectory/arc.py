@@ -20,8 +20,7 @@ from math import copysign
 
 from agv_motion.kinematics.differential import WheelSpeeds
 from agv_motion.planar import Pose, Twist, integrate, require_finite
-from agv_motion.trajectory.limits import require_between
-from agv_motion.trajectory.request import SPEEDS, require_ramp
+from agv_motion.trajectory.bounds import SPEEDS, require_between, require_ramp
 from agv_motion.trajectory.trapezoidal import trapezoid
 
 MOST_ANGLE = 1e9

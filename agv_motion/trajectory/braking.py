@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from agv_motion.trajectory.motions import STILL, Speeds
+from agv_motion.trajectory.motion import STILL, Speeds
 
 if TYPE_CHECKING:
     from agv_motion.planar import Pose

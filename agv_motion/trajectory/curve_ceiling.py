@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.trajectory.limits import joint_ceiling, lowest_ceiling
-from agv_motion.trajectory.speed_plan import SHORTEST
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.trajectory.bezier import Column
     from agv_motion.trajectory.limits import BendLimit
-    from agv_motion.trajectory.motions import ArcLengthCurve
+    from agv_motion.trajectory.motion import ArcLengthCurve
+
+SHORTEST = 1e-12
+"""Share of the way below which a cell is none: two curves meet there."""
 
 
 def curve_ceiling(

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import GeometryError
 from agv_motion.trajectory.braking import Braking
-from agv_motion.trajectory.motions import STILL
+from agv_motion.trajectory.motion import STILL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from agv_motion.planar import Pose
-    from agv_motion.trajectory.motions import Speeds
+    from agv_motion.trajectory.motion import Speeds
     from agv_motion.trajectory.trajectory import Trajectory
 
 DEPARTURES = (0.0, 0.25, 0.5, 0.75, 0.9)

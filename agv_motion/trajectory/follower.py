@@ -19,7 +19,7 @@ from agv_motion.trajectory.approach import Approach, is_calm
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 from agv_motion.trajectory.follower_state import AT_REST, FollowerState
 from agv_motion.trajectory.ghost import Ghost
-from agv_motion.trajectory.motions import Speeds
+from agv_motion.trajectory.motion import Speeds
 from agv_motion.trajectory.pace import PaceController
 from agv_motion.trajectory.tracking import TrackingError, tracking_error
 

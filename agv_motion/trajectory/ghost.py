@@ -15,7 +15,8 @@ from agv_motion.planar import Pose, require_finite, wrap
 from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.departure import AT_ONCE, DEPARTURES, leave
 from agv_motion.trajectory.feasibility import Feasibility, examine
-from agv_motion.trajectory.motions import STILL, Speeds
+from agv_motion.trajectory.ghost_parameters import GhostParameters
+from agv_motion.trajectory.motion import STILL, Speeds
 from agv_motion.trajectory.planner import Planner
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.trajectory import Trajectory
@@ -23,7 +24,6 @@ from agv_motion.trajectory.trajectory import Trajectory
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 MANY = 100
 """A path of more poses leaves the old trajectory at once, or from rest: each try takes its time."""
@@ -50,7 +50,7 @@ class Ghost:
             SignalError: It is not finite.
 
         """
-        self._planner = Planner(parameters)
+        self._planner = Planner(parameters or GhostParameters())
         self._locked = True
         self._trajectory = self._standing(pose)
         self._time = 0.0

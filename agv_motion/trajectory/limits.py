@@ -155,25 +155,6 @@ def require_positive(name: str, value: float, unit: str) -> float:
     return value
 
 
-def require_between(
-    name: str, value: float, between: tuple[float, float], unit: str, remedy: str = ''
-) -> float:
-    """Return ``value`` if it lies within the closed range ``between``.
-
-    Raises:
-        ConfigurationError: It does not, or is not a number; the message names value, range and
-            ``remedy``.
-
-    """
-    low, high = between
-    if not low <= value <= high:
-        unit = unit and f' {unit}'
-        wanted = f'must lie in [{low:g}, {high:g}]{unit}{remedy and f"; {remedy}"}'
-        msg = f'{name} = {value}{unit}: {wanted}'
-        raise ConfigurationError(msg)
-    return value
-
-
 def lowest_ceiling(limits: Sequence[BendLimit], curvature: Column, cruising_speed: float) -> Column:
     """Return the highest speed that all ``limits`` and ``cruising_speed`` [m/s] allow."""
     ceiling = np.full(len(curvature), cruising_speed)

@@ -14,16 +14,9 @@ from agv_motion.trajectory.arc_length import ArcLength
 from agv_motion.trajectory.bezier import connect
 from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.curve_ceiling import curve_ceiling
-from agv_motion.trajectory.ghost_parameters import GhostParameters
 from agv_motion.trajectory.line import Line
-from agv_motion.trajectory.motions import (
-    STILL,
-    ArcLengthCurve,
-    DriveMotion,
-    Motion,
-    Speeds,
-    TurnMotion,
-)
+from agv_motion.trajectory.motion import STILL, ArcLengthCurve, Motion, Speeds
+from agv_motion.trajectory.motions import DriveMotion, TurnMotion
 from agv_motion.trajectory.request import Request
 from agv_motion.trajectory.speed_plan import plan_speed
 from agv_motion.trajectory.trajectory import Trajectory
@@ -32,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.trajectory.arc import Arc
+    from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 NOTHING = 1e-9
 """[m], [rad], [m/s], [rad/s] What is shorter or slower than this is none."""
@@ -43,9 +37,9 @@ MOST_MOTIONS = 400
 class Planner:
     """Makes trajectories for one robot."""
 
-    def __init__(self, parameters: GhostParameters | None = None) -> None:
+    def __init__(self, parameters: GhostParameters) -> None:
         """Plan for a robot of ``parameters``."""
-        self.parameters = parameters or GhostParameters()
+        self.parameters = parameters
         self._limits = self.parameters.limits()
 
     def rotation(

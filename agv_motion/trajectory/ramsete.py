@@ -28,7 +28,7 @@ from agv_motion.parameters import Spec, check
 from agv_motion.planar import SMALL_ANGLE, Twist
 
 if TYPE_CHECKING:
-    from agv_motion.trajectory.motions import Speeds
+    from agv_motion.trajectory.motion import Speeds
     from agv_motion.trajectory.tracking import TrackingError
 
 

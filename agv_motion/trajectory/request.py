@@ -4,31 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agv_motion.trajectory.limits import require_between
-from agv_motion.trajectory.speed_plan import AT_ONCE
-
-NO_RAMP = 0.0
-"""[m/s2], [rad/s2] In the place of an acceleration: the speed changes at once, nothing is ramped.
-
-What the motors do of it is for the limits of the base to say."""
-
-SPEEDS = (1e-9, 1e6)
-"""[m/s], [rad/s] A speed beyond cannot be meant."""
-
-RAMPS = (1e-9, AT_ONCE)
-"""[m/s2], [rad/s2] Likewise a ramp."""
-
-
-def require_ramp(name: str, value: float) -> float:
-    """Return the acceleration of a ramp [m/s2]: ``value``, or of `NO_RAMP` one without end.
-
-    Raises:
-        ConfigurationError: It is negative, not finite or too small.
-
-    """
-    if value == NO_RAMP:
-        return AT_ONCE
-    return require_between(name, value, RAMPS, 'm/s2', 'for no ramp give 0 (NO_RAMP)')
+from agv_motion.trajectory.bounds import SPEEDS, require_between, require_ramp
 
 
 @dataclass(frozen=True)

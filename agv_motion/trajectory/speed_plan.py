@@ -23,19 +23,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.errors import GeometryError
+from agv_motion.trajectory.bounds import AT_ONCE
 from agv_motion.trajectory.profile import Profile, RoundedProfile, SharpProfile
 
 if TYPE_CHECKING:
     from agv_motion.trajectory.bezier import Column
 
-SHORTEST = 1e-12
-"""Share of the way below which a cell is none: two curves meet there."""
-
 ROUNDING = 1e-15
 """Share of the way below which a piece is rounding and left out."""
-
-AT_ONCE = 1e300
-"""[m/s2] The acceleration of whom nothing holds back: what its ramps take is below all rounding."""
 
 
 def plan_speed(

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 from agv_motion.planar import Pose, Twist, wrap
 
 if TYPE_CHECKING:
-    from agv_motion.trajectory.motions import Speeds
+    from agv_motion.trajectory.motion import Speeds
 
 
 class TrackingError(NamedTuple):

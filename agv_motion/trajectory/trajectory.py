@@ -6,7 +6,7 @@ from bisect import bisect_right
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from agv_motion.trajectory.motions import STILL, Motion, Speeds
+from agv_motion.trajectory.motion import STILL, Motion, Speeds
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

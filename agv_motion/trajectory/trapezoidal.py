@@ -12,9 +12,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from agv_motion.trajectory.limits import require_between
+from agv_motion.trajectory.bounds import SPEEDS, require_between, require_ramp
 from agv_motion.trajectory.profile import Profile, RoundedProfile, SharpProfile
-from agv_motion.trajectory.request import SPEEDS, require_ramp
 
 DISTANCES = (0.0, 1e9)
 """[m], [rad]"""

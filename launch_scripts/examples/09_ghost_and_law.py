@@ -8,7 +8,7 @@ from math import degrees, hypot, pi
 
 from agv_motion.planar import Pose, Twist, integrate
 from agv_motion.trajectory import Ghost, Kanayama, tracking_error
-from agv_motion.trajectory.motions import Speeds
+from agv_motion.trajectory.motion import Speeds
 
 ghost, law = Ghost(Pose(0.0, 0.0, 0.0)), Kanayama()
 trajectory = ghost.compute_trajectory(

@@ -16,8 +16,7 @@ import zstandard
 
 from agv_motion.bag.columns.columns import read_topics
 from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.mcap import chunk as chunk_module
-from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap import chunk_content, records
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError, ConfigurationError
@@ -76,7 +75,7 @@ def test_lengths_that_cannot_be_anywhere_in_a_file(fuzz_bags, tmp_path, length):
 
 @pytest.mark.parametrize('announced', [1 << 27, 1 << 30, 2**63])
 def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, announced, monkeypatch):
-    monkeypatch.setattr(chunk_module, 'LARGEST', 1 << 26)  # a machine of 256 MiB
+    monkeypatch.setattr(chunk_content, 'LARGEST', 1 << 26)  # a machine of 256 MiB
     packed = zstandard.compress(bytes(1 << 27))
     chunk = records.chunk_head((0, 1), (len(packed), announced), 0, 'zstd') + packed
     error = refused(by_hand(tmp_path / 'bomb.mcap', 'int32 x', chunk))

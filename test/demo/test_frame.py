@@ -15,8 +15,9 @@ from rich.console import Console
 from std_msgs.msg import String
 
 from agv_motion.bag.reader import BagReader
-from agv_motion.demo.frame import Demo, DemoGraph, Scenario
+from agv_motion.demo.frame import Demo
 from agv_motion.demo.recorder import RecordedTopic
+from agv_motion.demo.scenario import DemoGraph, Scenario
 from agv_motion.errors import GeometryError
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters, TrackParameters
 from agv_motion.planar import Twist
 
@@ -12,7 +13,7 @@ from agv_motion.planar import Twist
 def test_a_calibrated_track_turns_the_robot():
     """Half a metre between the wheels, 0.3 m times two by calibration 0.6: the rims go 0.3 m/s."""
     assert TrackParameters(0.5, 1.2).effective_track == pytest.approx(0.6)
-    drive = DifferentialBaseParameters(0.5, 1.2, (0.1, 0.2)).drive()
+    drive = DifferentialDrive.of(DifferentialBaseParameters(0.5, 1.2, (0.1, 0.2)))
     left, right = drive.command(Twist(0.0, 0.0, 1.0)).speed
     assert (left, right) == pytest.approx((-0.3, 0.3))
 

@@ -8,6 +8,7 @@ import pytest
 
 from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.kinematics.omni_platform import OmniBaseParameters
+from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.planar import Twist
 
 ROWS = ('wheel_angles', 'wheel_distances', 'wheel_directions', 'slide_angles', 'wheel_radii')
@@ -15,7 +16,7 @@ ROWS = ('wheel_angles', 'wheel_distances', 'wheel_directions', 'slide_angles', '
 
 def test_the_wheels_stand_at_their_angles_and_distances():
     """The first at 30 degrees and 0.2 m: (0.173, 0.1), driving clockwise, so the robot turns so."""
-    wheels = OmniBaseParameters().wheels()
+    wheels = OmniWheels.of(OmniBaseParameters())
     speeds = wheels.command(Twist(0.0, 0.0, 1.0)).speed
     assert list(speeds) == pytest.approx([-0.2, -0.2, -0.2])
     ahead = wheels.command(Twist(1.0, 0.0, 0.0)).speed
@@ -37,4 +38,4 @@ def test_no_two_wheels_bear_one_name():
 def test_wheels_that_leave_a_motion_open_are_refused():
     parallel = OmniBaseParameters(wheel_directions=(0.0, 0.0, 0.0), slide_angles=(pi / 2,) * 3)
     with pytest.raises(GeometryError):
-        parallel.wheels()
+        OmniWheels.of(parallel)

@@ -8,6 +8,7 @@ import pytest
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformOutline, PlatformParameters
+from agv_motion.kinematics.turrets import Turrets
 
 pytest.importorskip('rclpy')
 
@@ -34,14 +35,19 @@ def test_an_outline_that_is_none_is_refused(kind, given):
         kind(**given)
 
 
-def test_a_turret_outside_the_rim_is_refused():
-    with pytest.raises(ConfigurationError, match=r'turret stands 1.18 m .* outside .* = 0.5 m'):
-        PlatformParameters(platform_radius=0.5).turrets()
-
-
 @pytest.mark.parametrize('radius', [0.3, 1.18, 2.0])
 def test_agent_and_reservations_have_the_rim_of_the_platform(radius):
     given = MotionGeneratorParameters(platform_radius=radius)
     assert given.agent().platform_radius == radius
     assert given.sharing().body == radius
     assert given.sharing().tolerance == given.traffic.tolerance
+
+
+def test_a_turret_outside_the_rim_is_refused():
+    with pytest.raises(ConfigurationError, match=r'turret stands 1.18 m .* outside .* = 0.5 m'):
+        PlatformParameters(platform_radius=0.5).turret_positions()
+
+
+def test_the_turrets_stand_where_the_outline_says():
+    given = PlatformParameters(turret_x=(2.0, -1.0), turret_y=(0.0, 1.0))
+    assert Turrets.of(given).positions == ((2.0, 0.0), (-1.0, 1.0))

@@ -133,6 +133,8 @@ def test_a_wrong_number_of_angles_is_refused():
 def test_polar_positions():
     polar = Turrets.from_polar([-pi / 4, pi / 4, pi], [1.18] * 3)
     assert np.array(polar.positions) == pytest.approx(np.array(TREE.positions), abs=1e-15)
+    with pytest.raises(GeometryError, match='2 angles and 3 distances'):
+        Turrets.from_polar([0.0, 1.0], [1.0, 1.0, 1.0])
 
 
 def test_wheels_that_stand_are_straight_unless_they_were_held_otherwise():

@@ -65,4 +65,4 @@ def test_a_platform_too_wide_for_the_zone_is_told(walk, capfd):
 
 def test_a_turret_outside_the_rim_stops_the_wheels_from_starting():
     with pytest.raises(ConfigurationError, match='outside platform_radius = 1 m'):
-        WheelKinematicsParameters(platform_radius=1.0).turrets()
+        WheelKinematicsParameters(platform_radius=1.0).turret_positions()

@@ -17,6 +17,7 @@ from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
 
 from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.ros.diagnosis import OK, WARN
 from agv_motion.ros.messages import seconds_of
@@ -292,4 +293,4 @@ def test_a_base_that_cannot_be_is_refused(tester):
         tester.start(OmniKinematics, wheel_directions=[0.0] * 3)
     node = tester.start(OmniKinematics, activate=False, wheel_directions=[0.0] * 3)
     with pytest.raises(GeometryError, match='no wheel turns when the base moves along'):
-        node.parameters.wheels()
+        OmniWheels.of(node.parameters)

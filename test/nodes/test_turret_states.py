@@ -33,7 +33,7 @@ class Tree:
         self.graph = InProcessGraph(self.record, START)
         self.given = parameters('tree.yaml', 'wheel_kinematics')
         self.node = InProcessNode(self.graph, WheelKinematics, self.given)
-        self.count = len(self.node.plain.parameters.turrets())
+        self.count = len(self.node.plain.parameters.turret_x)
         self.radius = self.node.plain.parameters.wheel_radius
         self.zeros = self.node.plain.parameters.zeros()
         self.graph.start()

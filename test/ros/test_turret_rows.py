@@ -12,7 +12,7 @@ from sensor_msgs.msg import JointState
 from agv_motion.errors import SignalError
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.messages import TurretJoints
-from agv_motion.ros.rows import Table
+from agv_motion.ros.row_table import Table
 from agv_motion.ros.turret_rows import TurretRows
 
 JOINTS = TurretJoints(2)

@@ -17,7 +17,7 @@ from agv_motion.planar import Twist
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_port import InProcessPort, Place
-from agv_motion.ros.rows import Table
+from agv_motion.ros.row_table import Table
 from agv_motion.ros.twist_rows import TwistRows, twist_publisher
 
 ROWS = [Twist(1.0, 2.0, 3.0), Twist(-4.0, 0.0, 0.5)]

@@ -14,9 +14,9 @@ from agv_motion.kinematics.differential import DifferentialDrive
 from agv_motion.planar import Pose, integrate, wrap
 from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.arc_run import ArcRun
+from agv_motion.trajectory.bounds import NO_RAMP
 from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.request import NO_RAMP
 
 TRACK = 0.3
 ORIGIN = Pose(0.0, 0.0, 0.0)

@@ -7,7 +7,8 @@ import pytest
 from agv_motion.planar import Pose
 from agv_motion.trajectory.braking import Braking
 from agv_motion.trajectory.line import Line
-from agv_motion.trajectory.motions import STILL, DriveMotion
+from agv_motion.trajectory.motion import STILL
+from agv_motion.trajectory.motions import DriveMotion
 from agv_motion.trajectory.trajectory import Trajectory
 from agv_motion.trajectory.trapezoidal import trapezoid
 

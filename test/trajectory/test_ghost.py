@@ -14,7 +14,7 @@ from agv_motion.errors import ConfigurationError, GeometryError, SignalError
 from agv_motion.planar import Pose, wrap
 from agv_motion.trajectory.ghost import Ghost, Kinetics
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.motions import STILL
+from agv_motion.trajectory.motion import STILL
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 ANGLES = st.floats(-pi, pi, exclude_max=True)

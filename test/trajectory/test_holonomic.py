@@ -7,7 +7,7 @@ from math import cos, sin
 import pytest
 
 from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
-from agv_motion.trajectory.motions import Speeds
+from agv_motion.trajectory.motion import Speeds
 from agv_motion.trajectory.tracking import TrackingError
 
 LAW, ERROR = Holonomic(HolonomicGains(3.0, 5.0)), TrackingError(0.1, -0.2, 0.3)

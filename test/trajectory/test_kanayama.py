@@ -7,7 +7,7 @@ from math import cos, sin
 import pytest
 
 from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
-from agv_motion.trajectory.motions import STILL, Speeds
+from agv_motion.trajectory.motion import STILL, Speeds
 from agv_motion.trajectory.tracking import TrackingError
 
 LAW = Kanayama(KanayamaGains(3.0, 5.0, 7.0, 2.0))

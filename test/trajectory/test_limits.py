@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.trajectory.bounds import require_between
 from agv_motion.trajectory.limits import (
     LateralAcceleration,
     LinearSpeed,
@@ -16,7 +17,6 @@ from agv_motion.trajectory.limits import (
     WheelSpeed,
     joint_ceiling,
     lowest_ceiling,
-    require_between,
 )
 
 BENDS = np.array([0.5, -2.0])

@@ -12,7 +12,8 @@ from agv_motion.planar import Pose, wrap
 from agv_motion.trajectory.arc import Arc
 from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.line import Line
-from agv_motion.trajectory.motions import STILL, DriveMotion, TurnMotion
+from agv_motion.trajectory.motion import STILL
+from agv_motion.trajectory.motions import DriveMotion, TurnMotion
 from agv_motion.trajectory.trapezoidal import trapezoid
 
 HERE = Pose(1.0, 2.0, 3.0)

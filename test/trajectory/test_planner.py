@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.planar import Pose
 from agv_motion.trajectory.arc_length import MOST_CELLS_IN_ALL
+from agv_motion.trajectory.bounds import NO_RAMP
 from agv_motion.trajectory.feasibility import MOST_LINES
 from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.request import NO_RAMP
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 PACE = 0.4, 0.4

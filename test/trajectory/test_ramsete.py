@@ -6,7 +6,7 @@ from math import cos, sin, sqrt
 
 import pytest
 
-from agv_motion.trajectory.motions import Speeds
+from agv_motion.trajectory.motion import Speeds
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
 from agv_motion.trajectory.tracking import TrackingError
 

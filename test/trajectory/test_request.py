@@ -7,14 +7,13 @@ from math import inf, nan
 import pytest
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.trajectory.request import NO_RAMP, Request, require_ramp
-from agv_motion.trajectory.speed_plan import AT_ONCE
+from agv_motion.trajectory.bounds import AT_ONCE, NO_RAMP
+from agv_motion.trajectory.request import Request
 
 
 def test_no_ramp_is_one_without_end():
     assert Request(NO_RAMP, 1.0).acceleration == AT_ONCE
     assert Request(0.4, 1.0).acceleration == 0.4
-    assert require_ramp('braking', 0.4) == 0.4
 
 
 @pytest.mark.parametrize('bad', [-0.1, 1e-12, inf, nan])

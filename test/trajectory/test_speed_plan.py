@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.trajectory.speed_plan import AT_ONCE, plan_speed
+from agv_motion.trajectory.bounds import AT_ONCE
+from agv_motion.trajectory.speed_plan import plan_speed
 
 POSITIVE = st.floats(0.05, 5.0)
 

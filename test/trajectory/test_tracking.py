@@ -12,7 +12,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.planar import Pose, Twist, compose, integrate, wrap
 from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
 from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
-from agv_motion.trajectory.motions import STILL, Speeds
+from agv_motion.trajectory.motion import STILL, Speeds
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
 from agv_motion.trajectory.tracking import TrackingError, tracking_error
 

@@ -8,7 +8,8 @@ import pytest
 
 from agv_motion.planar import Pose
 from agv_motion.trajectory.line import Line
-from agv_motion.trajectory.motions import STILL, DriveMotion, TurnMotion
+from agv_motion.trajectory.motion import STILL
+from agv_motion.trajectory.motions import DriveMotion, TurnMotion
 from agv_motion.trajectory.trajectory import Trajectory
 from agv_motion.trajectory.trapezoidal import trapezoid
 

@@ -11,14 +11,14 @@ from __future__ import annotations
 from struct import Struct as Form
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.cdr.message_type import Struct
 from agv_motion.bag.cdr.primitives import PRIMITIVES
+from agv_motion.bag.cdr.unfolded import Struct
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.bag.cdr.message_type import Member
+    from agv_motion.bag.cdr.unfolded import Member
     from agv_motion.bag.mcap.record_parsing import Buffer
 
     Segment = tuple[int, int, int]

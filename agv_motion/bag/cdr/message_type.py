@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.bag.cdr.idl_text import fields_from_idl
 from agv_motion.bag.cdr.interface_parts import SEPARATOR, following, sections
 from agv_motion.bag.cdr.primitives import PRIMITIVES
+from agv_motion.bag.cdr.unfolded import Member, Struct
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -35,22 +36,6 @@ class Field(NamedTuple):
     array: bool = False
     size: int | None = None
     """number of elements of a fixed array; None of any other"""
-
-
-class Member(NamedTuple):
-    """A field whose type is known down to the primitives."""
-
-    name: str
-    type: str | Struct
-    array: bool
-    size: int | None
-
-
-class Struct(NamedTuple):
-    """A message type, unfolded."""
-
-    name: str
-    members: Sequence[Member]
 
 
 def unfold(message_type: str, definition: str, encoding: str) -> Struct:

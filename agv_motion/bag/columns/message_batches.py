@@ -10,7 +10,7 @@ from agv_motion.bag.cdr.primitives import ENCAPSULATION
 from agv_motion.bag.columns.batch import Batch
 from agv_motion.bag.compression import decompress_message
 from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.mcap.chunk import LARGEST
+from agv_motion.bag.mcap.chunk_content import LARGEST
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

@@ -25,7 +25,7 @@ from agv_motion.bag.editing.new_channels import NewChannels
 from agv_motion.bag.editing.picking import Picked, Wanted, joined
 from agv_motion.bag.editing.steps import CHUNK, EditSource, Step, ids_of, plan, stream
 from agv_motion.bag.mcap import record_parsing
-from agv_motion.bag.mcap.chunk import stored_content
+from agv_motion.bag.mcap.chunk_content import stored_content
 from agv_motion.bag.mcap.records import Attachment
 from agv_motion.bag.selection import Selection
 

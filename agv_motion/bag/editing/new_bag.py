@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from agv_motion.bag import connection as connections
 from agv_motion.bag import metadata
 from agv_motion.bag.editing.new_channels import topic_of
+from agv_motion.bag.mcap.channels import from_channel
 from agv_motion.bag.mcap.output import McapOutput
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ class NewBag:
         topics: dict[tuple[str, str], tuple[metadata.Topic, int]] = {}
         counts = [file.channel_counts for file in files]
         for number, channel in self._channels.channels.items():
-            topic = topic_of(connections.from_channel(channel, self._channels.schemas))
+            topic = topic_of(from_channel(channel, self._channels.schemas))
             known, before = topics.get((topic.name, topic.type), (None, 0))
             if known is not None:
                 topic = known._replace(qos=tuple(dict.fromkeys((*known.qos, *topic.qos))))

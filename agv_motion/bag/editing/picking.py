@@ -14,7 +14,8 @@ from agv_motion.bag.compression import compressor
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import record_parsing, records
 from agv_motion.bag.mcap.checksum import crc32
-from agv_motion.bag.mcap.chunk import HEAD, message_offsets, stored_content
+from agv_motion.bag.mcap.chunk_content import message_offsets, stored_content
+from agv_motion.bag.mcap.message_heads import HEAD
 from agv_motion.bag.mcap.output import NewChunk
 from agv_motion.bag.mcap.time_order import inside
 

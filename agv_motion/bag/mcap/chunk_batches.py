@@ -9,7 +9,7 @@ import numpy as np
 from agv_motion.bag.columns.batch import Batch, place_in_file
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
-from agv_motion.bag.mcap.chunk import HEAD, heads
+from agv_motion.bag.mcap.message_heads import HEAD, heads
 from agv_motion.bag.mcap.time_order import inside
 
 if TYPE_CHECKING:

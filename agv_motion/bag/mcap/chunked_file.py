@@ -1,31 +1,31 @@
-"""One MCAP file, mapped into memory: its topics, its chunks, and where their messages lie."""
+"""One MCAP file in memory: its topics, its chunks, and where their messages lie."""
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from agv_motion.bag import connection as connections
-from agv_motion.bag.connection import Connection, Message
+from agv_motion.bag.connection import Message
 from agv_motion.bag.damage import CLOSED, DamagedBagError
 from agv_motion.bag.mcap import message_index, records
-from agv_motion.bag.mcap import scan as mcap_scan
-from agv_motion.bag.mcap.chunk import HEAD, LARGEST, Chunk, content, heads, message_offsets
-from agv_motion.bag.mcap.mapped import mapped, release
+from agv_motion.bag.mcap.chunk_cache import ChunkCache
+from agv_motion.bag.mcap.chunk_content import LARGEST, content, message_offsets
+from agv_motion.bag.mcap.mapped import release
+from agv_motion.bag.mcap.message_heads import HEAD, heads
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterator, Mapping
+    from collections.abc import Container, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.connection import Connection
+    from agv_motion.bag.mcap.chunk import Chunk
     from agv_motion.bag.mcap.record_parsing import Buffer
-
-CACHE = 1 << 27
-"""[bytes] Chunks that overlap in time are kept unpacked up to this size, then unpacked again."""
+    from agv_motion.bag.mcap.records import Statistics
+    from agv_motion.bag.mcap.summary import Summary
 
 
 class Entries(NamedTuple):
@@ -42,42 +42,42 @@ class ChunkedFile:
     """Finds what lies where in a file with or without index, whole or torn."""
 
     def __init__(
-        self,
-        path: Path,
-        *,
-        validate: bool = True,
-        scan: bool = False,
-        unpacked: Path | None = None,
-    ) -> None:
-        """Map the file and find out what is in it.
+        self, path: Path, data: memoryview, found: Summary, channels: Mapping[int, Connection],
+        *, validate: bool = True,
+    ) -> None:  # fmt: skip
+        """Keep what is in the file.
 
         Args:
-            path: The file.
+            path: The file, for errors.
+            data: Its bytes.
+            found: What is in it.
+            channels: Its channels, by their ids.
             validate: Compare chunks with their CRC, where the file has one.
-            scan: Walk through the file even if it has a summary.
-            unpacked: Where it lies unpacked, if it is compressed as a whole; bytes are its.
-
-        Raises:
-            SourceError: It cannot be opened, or is no MCAP file.
 
         """
         self.path = path
-        self._validate = validate
-        self._mapped: memoryview | None = mapped(path, unpacked or path)
-        self._cache: OrderedDict[int, Buffer] = OrderedDict()
-        self._cached = 0
-        found, problems = mcap_scan.look(self.data, path, believe=not scan)
-        self.summary = found
-        self.problems = [*problems, *self.summary.problems]
+        self.problems = list(found.problems)
         """what is amiss in the file, though it can be read"""
-        self.indexed = self.summary.indexed
-        """whether the summary at its end was there to be used"""
-        self.statistics = self.summary.statistics
-        self.chunks = self.summary.chunks
-        self.channels: Mapping[int, Connection] = {
-            number: connections.from_channel(channel, self.summary.schemas)
-            for number, channel in self.summary.channels.items()
-        }
+        self.channels = channels
+        self._mapped: memoryview | None = data
+        self.summary = found
+        self._validate = validate
+        self._cache = ChunkCache()
+
+    @property
+    def chunks(self) -> Sequence[Chunk]:
+        """Its chunks, in the order of the file."""
+        return self.summary.chunks
+
+    @property
+    def indexed(self) -> bool:
+        """Whether the summary at its end was there to be used."""
+        return self.summary.indexed
+
+    @property
+    def statistics(self) -> Statistics | None:
+        """Totals of the file; None where it has none."""
+        return self.summary.statistics
 
     @property
     def data(self) -> memoryview:
@@ -234,14 +234,7 @@ class ChunkedFile:
             DamagedBagError: It is damaged.
 
         """
-        unpacked = self._cache.get(chunk.offset)
-        if unpacked is None:
-            unpacked = self.unpacked(chunk)
-            self._cache[chunk.offset] = unpacked
-            self._cached += len(unpacked)
-            while self._cached > CACHE and len(self._cache) > 1:
-                self._cached -= len(self._cache.popitem(last=False)[1])
-        return unpacked
+        return self._cache.content(chunk, self.unpacked)
 
     def heads(
         self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
@@ -264,7 +257,6 @@ class ChunkedFile:
     def close(self) -> None:
         """Let go of the file; messages already read stay valid."""
         self._cache.clear()
-        self._cached = 0
         self._mapped = None
 
     def messages_at(self, content: Buffer, offsets: list[int]) -> Iterator[Message]:

@@ -10,13 +10,16 @@ from agv_motion.bag.columns.message_batches import of_messages
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import record_parsing, records, scan
 from agv_motion.bag.mcap.batches import read_mcap
-from agv_motion.bag.mcap.chunk import message_offsets
+from agv_motion.bag.mcap.channels import connections
+from agv_motion.bag.mcap.chunk_content import message_offsets
 from agv_motion.bag.mcap.chunked_file import ChunkedFile
+from agv_motion.bag.mcap.mapped import mapped
 from agv_motion.bag.mcap.runs import runs
 from agv_motion.bag.mcap.time_order import in_time_order
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -28,6 +31,22 @@ if TYPE_CHECKING:
 @final
 class McapFile(ChunkedFile):
     """Reads the messages of a file with or without index, whole or torn."""
+
+    def __init__(self, path: Path, *, validate: bool = True, unpacked: Path | None = None) -> None:
+        """Map the file and find out what is in it.
+
+        Args:
+            path: The file.
+            validate: Compare chunks with their CRC, where the file has one.
+            unpacked: Where it lies unpacked, if it is compressed as a whole; bytes are its.
+
+        Raises:
+            SourceError: It cannot be opened, or is no MCAP file.
+
+        """
+        data = mapped(path, unpacked or path)
+        found = scan.look(data, path)
+        super().__init__(path, data, found, connections(found), validate=validate)
 
     def messages(self, channels: Collection[int], start: int, stop: int) -> Iterator[Message]:
         """Yield messages in the order of their log time.

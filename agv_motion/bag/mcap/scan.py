@@ -8,16 +8,10 @@ from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import record_parsing as parsing
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
-from agv_motion.bag.mcap.chunk import (
-    HEAD,
-    INDEX_ENTRY,
-    INDEX_HEAD,
-    Chunk,
-    content,
-    heads,
-    message_offsets,
-)
+from agv_motion.bag.mcap.chunk import INDEX_ENTRY, INDEX_HEAD, Chunk
+from agv_motion.bag.mcap.chunk_content import content, message_offsets
 from agv_motion.bag.mcap.mapped import release
+from agv_motion.bag.mcap.message_heads import HEAD, heads
 from agv_motion.bag.mcap.summary import Summary, complete, read
 
 if TYPE_CHECKING:
@@ -33,10 +27,8 @@ _PIECE = 1 << 24
 """[bytes] whose CRC is computed at a time"""
 
 
-def look(
-    data: memoryview, path: Path, *, believe: bool = True
-) -> tuple[Summary, list[DamagedBagError]]:
-    """Return what is in a file by its summary, or by a walk through all, and what was amiss.
+def look(data: memoryview, path: Path, *, believe: bool = True) -> Summary:
+    """Return what is in a file by its summary, or by a walk through all, and what is amiss.
 
     Args:
         data: The whole file.
@@ -51,10 +43,11 @@ def look(
             if told is not None and complete(told):
                 found = between(data, path, told)
                 if found is not None:
-                    return found, problems
+                    return found
         except DamagedBagError as error:
             problems.append(error)
-    return scan(data, path, told.statistics if told else None), problems
+    found = scan(data, path, told.statistics if told else None)
+    return found._replace(problems=[*problems, *found.problems])
 
 
 def scan(data: memoryview, path: Path, told: Statistics | None = None) -> Summary:

@@ -16,7 +16,7 @@ import numpy as np
 from agv_motion.bag.compression import compressor
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
-from agv_motion.bag.mcap.chunk import HEAD
+from agv_motion.bag.mcap.message_heads import HEAD
 from agv_motion.bag.mcap.output import McapOutput, NewChunk
 from agv_motion.bag.quality_of_service import as_yaml
 from agv_motion.errors import SignalError

@@ -16,7 +16,7 @@ from agv_motion.demo.page import page
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from agv_motion.demo.frame import Scenario
+    from agv_motion.demo.scenario import Scenario
 
 
 def begun() -> Console:

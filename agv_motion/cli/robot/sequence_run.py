@@ -32,7 +32,7 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
-    from agv_motion.arbitration import TwistSource
+    from agv_motion.arbitration.source import TwistSource
     from agv_motion.cli.robot.source_topic import arguments_for
     from agv_motion.nodes.sequence import SequenceNode
     from agv_motion.ros.live_node import LiveNode

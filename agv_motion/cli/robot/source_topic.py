@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import rclpy
 
 if TYPE_CHECKING:
-    from agv_motion.arbitration import TwistSource
+    from agv_motion.arbitration.source import TwistSource
 
 PATIENCE = 2.0
 """[s] in which somebody who listens to the robot's twists should be found."""

@@ -64,7 +64,7 @@ def _text(ears: RobotEars, width: int) -> Text:
     """Return all chains, robot by robot."""
     from rich.text import Text
 
-    from agv_motion.explanation import lines
+    from agv_motion.explanation.text import lines
 
     text = Text()
     for name, chain in ears.chains().items():

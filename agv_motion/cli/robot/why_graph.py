@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.cli.graph.session import interface_class, spin
 from agv_motion.errors import SourceError
-from agv_motion.explanation import Evidence, Explainer
 from agv_motion.explanation.decision import DECIDERS
+from agv_motion.explanation.evidence import Evidence
+from agv_motion.explanation.explainer import Explainer
 from agv_motion.explanation.wheels import DRIVERS
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
-    from agv_motion.explanation import Chain
+    from agv_motion.explanation.link import Chain
 
 SIGNS = frozenset({*DRIVERS, *DECIDERS, 'granier_probe', 'localization', 'arbiter'})
 """Nodes that make a namespace a robot"""

@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.bag.cdr.message_decoder import MessageDecoder
 from agv_motion.bag.last_messages import last_before
-from agv_motion.bag.reader import BagReader
 from agv_motion.dashboard.core.board import SLOWLY, Board
 from agv_motion.dashboard.core.names import SIGNS, split, type_of
 from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from pathlib import Path
+    from collections.abc import Callable, Iterator, Mapping
 
     from agv_motion.bag.connection import Connection, Message
+    from agv_motion.bag.reader import BagReader
 
 BEFORE = 120.0
 """[s] of the past that are replayed at once for the trail, before the moment that was asked for"""
@@ -32,12 +31,15 @@ class Replay:
     """The robots of a bag at a moment, and from there on."""
 
     def __init__(
-        self, path: Path, at: float, platforms: Mapping[str, dict[str, Any]] | None = None
+        self,
+        open_bag: Callable[[], BagReader],
+        at: float,
+        platforms: Mapping[str, dict[str, Any]] | None = None,
     ) -> None:
         """Know at once what was known at a moment.
 
         Args:
-            path: Of the bag.
+            open_bag: Opens the bag as it is now.
             at: The moment [s since 1970, as the bag's log times].
             platforms: Shapes of robots, by name.
 
@@ -45,12 +47,12 @@ class Replay:
             AgvMotionError: There is no bag, or it cannot be read at all.
 
         """
-        self._path = path
+        self._open_bag = open_bag
         self.board = Board()
         self.at = at
         """up to where the board knows [s]"""
         self._decoders: dict[tuple[str, str], MessageDecoder | None] = {}
-        self._bag = BagReader(path)
+        self._bag = open_bag()
         self._messages: Iterator[Message] = iter(())
         self._next: Message | None = None
         self._meet_robots()
@@ -111,7 +113,7 @@ class Replay:
     def _reopen(self) -> None:
         """Look whether the bag has grown."""
         try:
-            bag = BagReader(self._path)
+            bag = self._open_bag()
         except AgvMotionError:
             return  # it is being renamed or moved just now
         self._bag.close()
@@ -136,7 +138,7 @@ class Replay:
         key = connection.topic, connection.definition
         if key not in self._decoders:
             try:
-                self._decoders[key] = MessageDecoder(connection, self._path)
+                self._decoders[key] = MessageDecoder(connection, self._bag.path)
             except AgvMotionError:
                 self._decoders[key] = None
         return self._decoders[key]

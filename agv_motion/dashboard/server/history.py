@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.dashboard.core.replay import Replay
 from agv_motion.dashboard.server.door import Asked, Door, acting, looking
-from agv_motion.dashboard.server.history_bag import RENEWAL, History
 from agv_motion.dashboard.server.live import PERIOD, Client
 from agv_motion.dashboard.server.marks import marks
 from agv_motion.dashboard.server.requests import RequestError, number
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from starlette.websockets import WebSocket
 
     from agv_motion.dashboard.server.alerts import AlertDesk
+    from agv_motion.dashboard.server.history_bag import History
     from agv_motion.dashboard.server.site import Site
 
 MOST = 6
@@ -68,7 +68,7 @@ async def keep_told(site: Site) -> None:
         if end > 0.0:
             board, now = site.fleet.board, site.fleet.now()
             board.put('', 'history', now, {'begin': begin, 'end': end})
-        await asyncio.sleep(RENEWAL)
+        await asyncio.sleep(site.history.renewal)
 
 
 async def look_back(site: Site, socket: WebSocket, client: Client, hello: dict[str, Any]) -> None:
@@ -87,7 +87,7 @@ async def look_back(site: Site, socket: WebSocket, client: Client, hello: dict[s
         return
     history.watchers += 1
     try:
-        replay = await asyncio.to_thread(Replay, history.bag, at or (await history.span())[0],
+        replay = await asyncio.to_thread(Replay, history.open, at or (await history.span())[0],
                                          site.platforms())  # fmt: skip
         try:
             await _Past(socket, client, replay, rate).serve(hello)

@@ -16,13 +16,14 @@ from agv_motion.errors import AgvMotionError
 if TYPE_CHECKING:
     from pathlib import Path
 
-RENEWAL = 5.0
-"""[s] between two looks at how far a bag reaches that is being written"""
 SECOND = 1_000_000_000
 
 
 class History:
     """The bag into which one looks back, and how far it reaches."""
+
+    renewal = 5.0
+    """[s] between two looks at how far a bag reaches that is being written"""
 
     def __init__(self, bag: Path, saves: Path) -> None:
         """Look at nothing yet.
@@ -35,13 +36,22 @@ class History:
         self.bag, self._saves = bag, saves
         self.watchers = 0
         self._span = 0.0, 0.0
-        self._looked = -RENEWAL
+        self._looked = -self.renewal
         self._turn = asyncio.Semaphore(1)
+
+    def open(self) -> BagReader:
+        """Open the bag as it is now.
+
+        Raises:
+            AgvMotionError: There is none, or it cannot be read at all.
+
+        """
+        return BagReader(self.bag)
 
     async def span(self) -> tuple[float, float]:
         """Return begin and end of the bag [s since 1970]; zeros as long as it has nothing."""
         async with self._turn:
-            if time.monotonic() - self._looked >= RENEWAL:
+            if time.monotonic() - self._looked >= self.renewal:
                 self._span = await asyncio.to_thread(self._read_span)
                 self._looked = time.monotonic()
         return self._span
@@ -58,7 +68,7 @@ class History:
 
     def _read_span(self) -> tuple[float, float]:
         try:
-            with BagReader(self.bag) as bag:
+            with self.open() as bag:
                 return bag.start / SECOND, bag.end / SECOND
         except AgvMotionError:
             return 0.0, 0.0
@@ -66,7 +76,7 @@ class History:
     def _save(self, begin: float, end: float) -> tuple[str, int]:
         name = datetime.now(timezone.utc).strftime('around_%Y_%m_%d-%H_%M_%S_%f')
         folder = self._saves / name
-        with BagReader(self.bag) as bag:
+        with self.open() as bag:
             first, last = int(begin * SECOND), int(end * SECOND)
             if not (bag.start <= last and first <= bag.end):
                 msg = f'nothing was recorded then: the bag reaches from {bag.start / SECOND:.0f} '

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.activity import Activity, Cause
-from agv_motion.motion.command.limits import FloorRules
+from agv_motion.motion.command.floor_rules import FloorRules
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.goals.goal import Goal

@@ -8,7 +8,7 @@ from agv_motion.activity import Activity, Cause
 from agv_motion.errors import GeometryError
 from agv_motion.motion.behavior.decision import Decision, resting, stopped
 from agv_motion.motion.behavior.homing import OutsideZone
-from agv_motion.motion.command.limits import FloorRules
+from agv_motion.motion.command.floor_rules import FloorRules
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.goals.goal import Goal

@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from agv_motion.errors import ConfigurationError, GeometryError
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:

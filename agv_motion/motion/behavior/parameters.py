@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.memory import MemoryParameters
 from agv_motion.motion.behavior.sap_flow import RestParameters
 from agv_motion.motion.behavior.schedule import ScheduleParameters
-from agv_motion.motion.command.polar import LINEAR_SPEED, PLATFORM_RADIUS
+from agv_motion.motion.command.polar import LINEAR_SPEED
 
 if TYPE_CHECKING:
     from agv_motion.motion.navigation.polyline import Point

@@ -18,6 +18,8 @@ from agv_motion.planar import wrap
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from agv_motion.motion.command.floor_rules import FloorRules
+
 
 @dataclass(frozen=True)
 class LimitParameters:
@@ -48,14 +50,6 @@ class LimitParameters:
     def __post_init__(self) -> None:
         """Check every row."""
         check(self)
-
-
-class FloorRules(NamedTuple):
-    """What the place of the platform allows."""
-
-    may_turn: bool = True
-    top_speed: float = 1.0
-    """largest v"""
 
 
 class CommandLimit(Protocol):

@@ -6,17 +6,14 @@ from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.platform import RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.planar import Twist, require_finite, wrap
 
 if TYPE_CHECKING:
     from agv_motion.planar import Pose
 
 LINEAR_SPEED = 1.0 / 60.0
-"""[m/s] trunk speed at v = 1: one metre a minute."""
-
-PLATFORM_RADIUS = RADIUS
-"""[m] from the centre to the rim; omega = 1 moves it at `LINEAR_SPEED`."""
+"""[m/s] trunk speed at v = 1, and of the rim at omega = 1: one metre a minute."""
 
 
 class PolarCommand(NamedTuple):

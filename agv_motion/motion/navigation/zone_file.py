@@ -9,7 +9,7 @@ from agv_motion.errors import ConfigurationError, GeometryError
 from agv_motion.files import json_text, yaml_text
 from agv_motion.files.marked import quoted
 from agv_motion.files.text import as_kind
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.navigation.zone import MARGIN, Zone
 
 if TYPE_CHECKING:

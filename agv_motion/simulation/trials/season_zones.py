@@ -6,7 +6,7 @@ import random
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.navigation.zone import MARGIN, Zone
 
 if TYPE_CHECKING:

@@ -6,7 +6,10 @@ import pytest
 
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap.channels import connections
 from agv_motion.bag.mcap.chunked_file import ChunkedFile
+from agv_motion.bag.mcap.mapped import mapped
+from agv_motion.bag.mcap.scan import look
 from agv_motion.bag.mcap.writer import McapWriter
 from agv_motion.bag.metadata import Topic
 from agv_motion.errors import SourceError
@@ -30,7 +33,9 @@ def path(tmp_path):
 
 
 def opened(path, *, scan=False):
-    return ChunkedFile(path, validate=True, scan=scan)
+    data = mapped(path, path)
+    found = look(data, path, believe=not scan)
+    return ChunkedFile(path, data, found, connections(found))
 
 
 @pytest.mark.parametrize('scan', [False, True])
@@ -101,7 +106,7 @@ def test_the_content_is_kept_but_not_for_ever(path, monkeypatch):
     file = opened(path)
     first, second = file.chunks
     assert file.content(first) is file.content(first)
-    monkeypatch.setattr('agv_motion.bag.mcap.chunked_file.CACHE', 1)
+    monkeypatch.setattr('agv_motion.bag.mcap.chunk_cache.CACHE', 1)
     kept = file.content(first)
     file.content(second)
     assert file.content(first) is not kept

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.bag.mcap import records
-from agv_motion.bag.mcap.chunk import content, message_offsets
+from agv_motion.bag.mcap.chunk_content import content, message_offsets
 from agv_motion.bag.mcap.record_parsing import walk
 from agv_motion.bag.mcap.scan import look, scan
 from agv_motion.bag.mcap.summary import read
@@ -52,11 +52,10 @@ def test_a_torn_file_gives_its_whole_chunks_and_what_is_left_of_the_last(file):
     data = file.read_bytes()
     last = places(data, records.CHUNK)[2] - records.PREFIX.size
     torn = memoryview(data[: last + 70])
-    found, problems = look(torn, file)
+    found = look(torn, file)
     assert stamps(found.chunks) == [(0, 1), (10, 11), (20, 21)]
     assert [chunk.torn for chunk in found.chunks] == [False, False, True]
     assert 'the file ends here' in str(found.problems[0])
-    assert problems == []
     saved = content(torn, found.chunks[2], file, validate=True)
     assert len(message_offsets(saved)) <= 1
 

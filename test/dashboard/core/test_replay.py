@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 
 import pytest
 
 from agv_motion.bag import BagWriter, OfferedQos
+from agv_motion.bag.reader import BagReader
 from agv_motion.dashboard.core.replay import Replay
 from agv_motion.errors import SourceError
 
@@ -57,7 +59,7 @@ def state(replay):
 )
 def test_at_a_moment_is_known_what_was_known_then(recording, second, word):
     recording.bag.close()
-    replay = Replay(recording.folder, BEGIN + second)
+    replay = Replay(partial(BagReader, recording.folder), BEGIN + second)
     assert state(replay) == word
     assert replay.board.cells['oak', 'state'].at <= BEGIN + second
     replay.close()
@@ -65,7 +67,7 @@ def test_at_a_moment_is_known_what_was_known_then(recording, second, word):
 
 def test_from_there_on_time_passes(recording):
     recording.bag.close()
-    replay = Replay(recording.folder, BEGIN + 301.0)
+    replay = Replay(partial(BagReader, recording.folder), BEGIN + 301.0)
     assert state(replay) == 'walking'
     replay.advance(BEGIN + 309.9)
     assert state(replay) == 'walking'
@@ -75,7 +77,7 @@ def test_from_there_on_time_passes(recording):
 
 
 def test_a_bag_that_is_still_written_goes_on(recording):
-    replay = Replay(recording.folder, BEGIN + 311.0)
+    replay = Replay(partial(BagReader, recording.folder), BEGIN + 311.0)
     assert state(replay) == 'resting'
     recording.say(320, 'walking again')
     replay.advance(BEGIN + 321.0)
@@ -87,11 +89,11 @@ def test_a_bag_that_is_still_written_goes_on(recording):
 def test_a_topic_of_another_type_is_not_shown(recording):
     recording.bag.write(recording.odom, (BEGIN + 1) * SECOND, text('no odometry'))
     recording.bag.close()
-    replay = Replay(recording.folder, BEGIN + 2.0)
+    replay = Replay(partial(BagReader, recording.folder), BEGIN + 2.0)
     assert 'odom' not in replay.board.robots['oak'].latest
     replay.close()
 
 
 def test_where_there_is_no_bag_that_is_told(tmp_path):
     with pytest.raises(SourceError):
-        Replay(tmp_path / 'no', 0.0)
+        Replay(partial(BagReader, tmp_path / 'no'), 0.0)

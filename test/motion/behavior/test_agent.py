@@ -9,6 +9,7 @@ import pytest
 import shapely
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.goals.goal import Objective
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
@@ -16,7 +17,7 @@ from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
-from agv_motion.motion.command.polar import PLATFORM_RADIUS, STILL, to_twist
+from agv_motion.motion.command.polar import STILL, to_twist
 from agv_motion.motion.navigation.navigator import StraightNavigator
 from agv_motion.motion.navigation.path_follower import PathFollower
 from agv_motion.motion.navigation.path_planner import PathPlanner

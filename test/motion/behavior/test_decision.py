@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.motion.behavior.decision import Decision, resting, standing, stopped
-from agv_motion.motion.command.limits import FloorRules
+from agv_motion.motion.command.floor_rules import FloorRules
 
 
 def test_a_decision_without_more_stays_where_it_is_whoever_comes():

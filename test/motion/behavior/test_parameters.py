@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.motion.behavior.parameters import AgentParameters
-from agv_motion.motion.command.polar import LINEAR_SPEED, PLATFORM_RADIUS
+from agv_motion.motion.command.polar import LINEAR_SPEED
 
 
 def test_a_tree_of_which_nothing_is_told_is_that_of_the_original_installation():

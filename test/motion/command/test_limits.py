@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.command.limits import CommandLimits, FloorRules, LimitParameters
+from agv_motion.motion.command.floor_rules import FloorRules
+from agv_motion.motion.command.limits import CommandLimits, LimitParameters
 from agv_motion.motion.command.polar import STILL, PolarCommand, checked
 from agv_motion.planar import wrap
 

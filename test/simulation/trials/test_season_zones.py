@@ -9,7 +9,7 @@ import pytest
 from shapely.geometry import Polygon
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.simulation.trials import season_zones
 from agv_motion.simulation.trials.season_zones import DOOR, MOST_TREES, ZONES, ZonePlan, plan_of
 

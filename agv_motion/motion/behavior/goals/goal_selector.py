@@ -8,14 +8,13 @@ in a straight line.
 from __future__ import annotations
 
 import random
-from math import hypot
+from math import hypot, isinf
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.behavior.goals.goal import Goal, Objective
-from agv_motion.motion.behavior.memory import NEVER
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.goals.reachability import Reachability
@@ -97,7 +96,7 @@ def _goal(objective: Objective, time: float, memory: Memory, cell: tuple[int, in
     place = f'({x:.1f}, {y:.1f})'
     if objective is Objective.UNKNOWN:
         visited = float(memory.visited_at[cell])
-        if visited == NEVER:
+        if isinf(visited):
             return Goal(x, y, f'never visited: {place}', objective)
         return Goal(
             x, y, f'{objective.value}: {place}, last visited {ago(time - visited)}', objective

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from agv_motion.motion.command.polar import PLATFORM_RADIUS
+from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.parameters import Spec, check
 
 

@@ -11,7 +11,9 @@ from agv_motion.bag.compression import compressor
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
-from agv_motion.bag.mcap.chunk import Chunk, content, heads, message_offsets
+from agv_motion.bag.mcap.chunk import Chunk
+from agv_motion.bag.mcap.chunk_content import content, message_offsets
+from agv_motion.bag.mcap.message_heads import heads
 
 PATH = Path('walk.mcap')
 EVERY = pytest.mark.parametrize('compression', ['', 'lz4', 'zstd'])

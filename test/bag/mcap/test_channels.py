@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from agv_motion.bag.connection import from_channel
+from agv_motion.bag.mcap.channels import from_channel
 from agv_motion.bag.mcap.records import Channel, Schema
 from agv_motion.bag.quality_of_service import OfferedQos, as_yaml
 

@@ -8,7 +8,7 @@ pytest.importorskip('rclpy')
 
 from sensor_msgs.msg import Temperature
 
-from agv_motion.reprocess.recorded_nodes import RECORDED
+from agv_motion.reprocess.recorded_probe import RecordedProbe
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
@@ -29,7 +29,7 @@ def test_a_recorded_reading_is_said_again_with_its_value():
 
     graph = InProcessGraph(record, NOON)
     graph.recorded = ('/granier/probe_1/temperature_difference',)
-    InProcessNode(graph, RECORDED['granier_probe'], {'source': 'simulated'})
+    InProcessNode(graph, RecordedProbe, {'source': 'simulated'})
     graph.start()
     topic = '/granier/probe_1/temperature_difference'
     for second, value in ((5, 7.25), (15, 7.5)):

@@ -13,7 +13,7 @@ from agv_motion.errors import SignalError
 from agv_motion.planar import Twist
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.messages import TurretJoints
-from agv_motion.ros.rows import SECOND, Table
+from agv_motion.ros.row_table import SECOND, Table
 from agv_motion.ros.turret_rows import TurretRows
 from agv_motion.ros.twist_rows import TwistRows
 

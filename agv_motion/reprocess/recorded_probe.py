@@ -1,9 +1,9 @@
-"""What is another on a recording: the probes take the readings that were recorded."""
+"""The probe node on a recording: it takes the readings that were recorded."""
 
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sensor_msgs.msg import Temperature
 
@@ -33,7 +33,3 @@ class RecordedProbe(GranierProbe):
 
 def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:
     recorded.take(probe, seconds_of(message.header.stamp), message.temperature)
-
-
-RECORDED: dict[str, Any] = {'granier_probe': RecordedProbe}
-"""Nodes that are others on a recording, by name."""
