@@ -28,7 +28,9 @@ from turret_peer import LIMIT, POSITIONS, TWIST, wpilib_command
 from wpimath.geometry import Rotation2d, Translation2d
 from wpimath.kinematics import ChassisSpeeds, SwerveDrive3Kinematics
 
-from agv_motion.kinematics.steering import AtRest, SteeringLimits, SteeringPlanner
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.state import AtRest
 from agv_motion.kinematics.turret_columns import command_columns, polar_to_cartesian
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.granier_probe import GranierProbe

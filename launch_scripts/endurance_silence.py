@@ -23,7 +23,7 @@ from nav_msgs.msg import Odometry, Path
 from rich.progress import track
 from sensor_msgs.msg import JointState
 
-from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.nodes.arbiter import ArbiterNode
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.motion_generator import MotionGenerator

@@ -6,7 +6,6 @@ An `Arbiter` takes what each `TwistSource` says and chooses; `ChassisLimits` com
 
 from agv_motion.arbitration.arbiter import Arbiter
 from agv_motion.arbitration.chassis_limits import ChassisLimitParameters, ChassisLimits
-from agv_motion.arbitration.choice import Choice, HeldStop, Hold, Standing, Verdict
 from agv_motion.arbitration.sentence import sentence
 from agv_motion.arbitration.source import TwistSource
 
@@ -14,11 +13,6 @@ __all__ = [
     'Arbiter',
     'ChassisLimitParameters',
     'ChassisLimits',
-    'Choice',
-    'HeldStop',
-    'Hold',
-    'Standing',
     'TwistSource',
-    'Verdict',
     'sentence',
 ]

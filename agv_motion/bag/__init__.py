@@ -34,10 +34,10 @@ is wrong). `README.md` beside this file tells the way through the rooms; whateve
 ``__all__`` may change.
 """
 
-from agv_motion.bag.checks.check import Finding, Limits, check
+from agv_motion.bag.checks.check import Limits, check
 from agv_motion.bag.columns.column import Ragged, Texts
 from agv_motion.bag.columns.columns import Columns, read_topic, read_topics
-from agv_motion.bag.connection import Connection, Message
+from agv_motion.bag.connection import Message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.quality_of_service import OfferedQos
@@ -48,9 +48,7 @@ __all__ = [
     'BagReader',
     'BagWriter',
     'Columns',
-    'Connection',
     'DamagedBagError',
-    'Finding',
     'Limits',
     'Message',
     'OfferedQos',

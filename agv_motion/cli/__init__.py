@@ -1,4 +1,4 @@
-"""The `agv` command."""
+"""The `agv` command: a program, not a library; `agv --help` and `README.md` are its manual."""
 
 import os
 import sys

@@ -6,15 +6,13 @@ whole recording (``command_columns``, ``twist_columns``). What moves in time: `S
 `SteeringController` for turrets, `TwistRamp` for wheels that do not steer.
 """
 
-from agv_motion.kinematics.differential import DifferentialDrive, WheelSpeeds
-from agv_motion.kinematics.omniwheel_placement import OmniWheel, mecanum_wheels, wheels_on_circle
+from agv_motion.kinematics.differential import DifferentialDrive
+from agv_motion.kinematics.omniwheel_placement import OmniWheel, mecanum_wheels
 from agv_motion.kinematics.omniwheels import OmniWheels
-from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.kinematics.steering.alignment import rolling_share
 from agv_motion.kinematics.steering.controller import SteeringController
 from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.planner import SteeringPlanner
-from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
+from agv_motion.kinematics.steering.state import AtRest, Limiter
 from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
 from agv_motion.kinematics.twist_ramp import TwistRamp
 from agv_motion.kinematics.wheel_limits import WheelLimits
@@ -25,17 +23,12 @@ __all__ = [
     'Limiter',
     'OmniWheel',
     'OmniWheels',
-    'PlatformParameters',
-    'Rolling',
     'SteeringController',
     'SteeringLimits',
     'SteeringPlanner',
     'Turrets',
     'TwistRamp',
     'WheelLimits',
-    'WheelSpeeds',
     'centre_of_rotation',
     'mecanum_wheels',
-    'rolling_share',
-    'wheels_on_circle',
 ]

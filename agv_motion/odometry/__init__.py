@@ -8,29 +8,21 @@ from agv_motion.odometry.covariance import Covariance
 from agv_motion.odometry.fix import Fix, position_fix
 from agv_motion.odometry.fusion import PoseFusion
 from agv_motion.odometry.fusion_parameters import FusionParameters
-from agv_motion.odometry.fusion_report import Estimate, FixVerdict, FusionState, Health
 from agv_motion.odometry.gyro_odometry import GyroOdometry
 from agv_motion.odometry.omni_odometry import OmniOdometry
 from agv_motion.odometry.parameters import OdometryParameters
 from agv_motion.odometry.turret_odometry import TurretOdometry
 from agv_motion.odometry.wheel_odometry import WheelOdometry
-from agv_motion.odometry.yaw_rate import YawRate, YawRateParameters
 
 __all__ = [
     'Covariance',
-    'Estimate',
     'Fix',
-    'FixVerdict',
     'FusionParameters',
-    'FusionState',
     'GyroOdometry',
-    'Health',
     'OdometryParameters',
     'OmniOdometry',
     'PoseFusion',
     'TurretOdometry',
     'WheelOdometry',
-    'YawRate',
-    'YawRateParameters',
     'position_fix',
 ]

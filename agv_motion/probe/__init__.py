@@ -6,20 +6,14 @@
 """
 
 from agv_motion.probe.granier import flow_index, flux_density, flux_density_columns
-from agv_motion.probe.probe import Normalisation, Polarity, Probe, ProbeParameters, ProbeReading
-from agv_motion.probe.quality import Quality
+from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
 from agv_motion.probe.series import ProbeSeries, read_series
-from agv_motion.probe.zero_flow import ZeroFlow
 
 __all__ = [
-    'Normalisation',
-    'Polarity',
     'Probe',
     'ProbeParameters',
     'ProbeReading',
     'ProbeSeries',
-    'Quality',
-    'ZeroFlow',
     'flow_index',
     'flux_density',
     'flux_density_columns',

@@ -5,21 +5,17 @@
 """
 
 from agv_motion.sequence.actions import DriveArc, FollowRoute, GoTo, Rotate, Wait
-from agv_motion.sequence.runner import SequenceRunner, SequenceState, Status
-from agv_motion.sequence.sequence import OnFailure, Sequence, SequenceStep
+from agv_motion.sequence.runner import SequenceRunner
+from agv_motion.sequence.sequence import Sequence
 from agv_motion.sequence.sequence_file import load_sequence
 
 __all__ = [
     'DriveArc',
     'FollowRoute',
     'GoTo',
-    'OnFailure',
     'Rotate',
     'Sequence',
     'SequenceRunner',
-    'SequenceState',
-    'SequenceStep',
-    'Status',
     'Wait',
     'load_sequence',
 ]

@@ -9,15 +9,12 @@ from agv_motion.trajectory.arc_run import ArcRun
 from agv_motion.trajectory.bounds import NO_RAMP
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
-from agv_motion.trajectory.follower_state import FollowerState
-from agv_motion.trajectory.ghost import Ghost, Kinetics
+from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
-from agv_motion.trajectory.holonomic import Holonomic, HolonomicGains
-from agv_motion.trajectory.kanayama import Kanayama, KanayamaGains
-from agv_motion.trajectory.pace import PaceParameters
-from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
-from agv_motion.trajectory.tracking import TrackingError, TrackingLaw, tracking_error
-from agv_motion.trajectory.trajectory import Trajectory
+from agv_motion.trajectory.holonomic import Holonomic
+from agv_motion.trajectory.kanayama import Kanayama
+from agv_motion.trajectory.ramsete import Ramsete
+from agv_motion.trajectory.tracking import tracking_error
 from agv_motion.trajectory.trapezoidal import trapezoid
 
 __all__ = [
@@ -26,20 +23,11 @@ __all__ = [
     'ArcRun',
     'Follower',
     'FollowerParameters',
-    'FollowerState',
     'Ghost',
     'GhostParameters',
     'Holonomic',
-    'HolonomicGains',
     'Kanayama',
-    'KanayamaGains',
-    'Kinetics',
-    'PaceParameters',
     'Ramsete',
-    'RamseteGains',
-    'TrackingError',
-    'TrackingLaw',
-    'Trajectory',
     'tracking_error',
     'trapezoid',
 ]

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.arbitration import Arbiter, HeldStop, Hold, TwistSource, Verdict
+from agv_motion.arbitration import Arbiter, TwistSource
 from agv_motion.arbitration.arbiter import FASTEST
+from agv_motion.arbitration.choice import HeldStop, Hold, Verdict
 from agv_motion.arbitration.source import DRIVERS, RANKED
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.planar import REST, Twist

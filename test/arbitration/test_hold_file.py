@@ -7,8 +7,8 @@ import json
 import pytest
 
 from agv_motion import saved_state
-from agv_motion.arbitration import HeldStop, Hold, TwistSource
-from agv_motion.arbitration.choice import FREE
+from agv_motion.arbitration import TwistSource
+from agv_motion.arbitration.choice import FREE, HeldStop, Hold
 from agv_motion.arbitration.hold_file import LARGEST, LONGEST, restore, save
 from agv_motion.errors import ConfigurationError
 

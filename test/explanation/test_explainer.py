@@ -6,7 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from agv_motion.explanation import Evidence, Explainer, Level
+from agv_motion.explanation import Evidence, Explainer
+from agv_motion.explanation.link import Level
 
 
 def test_a_tree_that_walks(robot):

@@ -19,7 +19,7 @@ from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.planar import Twist as Twist2D

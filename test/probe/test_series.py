@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.probe import Probe, ProbeParameters, Quality, flux_density, read_series
+from agv_motion.probe import Probe, ProbeParameters, flux_density, read_series
+from agv_motion.probe.quality import Quality
 
 DAY = 86400.0
 TIMES = np.arange(0.0, 3 * DAY, 900.0)

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.route import FollowParameters, RouteLimiter, route_speeds
+from agv_motion.route import FollowParameters, route_speeds
+from agv_motion.route.speeds import RouteLimiter
 
 PROFILES = FollowParameters(
     v_dphi=(0.0, 1.0, 1.0, 0.5), v_dn=(0.0, 0.2, 1.0, 0.8), v_alpha=(0.0, 0.1, pi, 0.7),

@@ -2,18 +2,12 @@
 
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.decision import Decision
-from agv_motion.motion.behavior.memory import Memory, MemoryParameters
 from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
-from agv_motion.motion.behavior.schedule import Schedule, ScheduleParameters
 
 __all__ = [
     'Agent',
     'AgentParameters',
     'Decision',
-    'Memory',
-    'MemoryParameters',
     'SapFlow',
-    'Schedule',
-    'ScheduleParameters',
 ]

@@ -6,9 +6,8 @@ from math import cos, nan, pi
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest, Rolling
 from agv_motion.kinematics.steering.alignment import RollingShare, rolling_share
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.state import AtRest, Rolling, Stance
 
 
 @pytest.mark.parametrize(

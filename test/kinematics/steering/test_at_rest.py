@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.kinematics.steering import AtRest, Limiter, SteeringLimits
 from agv_motion.kinematics.steering.at_rest import (
     FREE_CHANGES,
     align,
@@ -19,7 +18,8 @@ from agv_motion.kinematics.steering.at_rest import (
     unwind,
 )
 from agv_motion.kinematics.steering.chassis import measure
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Stance
 from agv_motion.kinematics.turrets import Turrets
 
 PAIR = Turrets([(0.5, 0.0), (-0.5, 0.0)])

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from agv_motion.kinematics.steering import SteeringLimits
 from agv_motion.kinematics.steering.chassis import measure
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.turrets import Turrets
 
 

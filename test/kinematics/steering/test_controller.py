@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
-from agv_motion.kinematics.steering import SteeringController, SteeringLimits
+from agv_motion.kinematics.steering.controller import SteeringController
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.readings import LOST_TURRET, MOST_TURNS
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import REST, Twist

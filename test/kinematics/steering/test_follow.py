@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agv_motion.kinematics.steering import AtRest, Rolling, SteeringLimits, SteeringPlanner
 from agv_motion.kinematics.steering.chassis import measure
 from agv_motion.kinematics.steering.follow import (
     all_follow,
@@ -17,7 +16,9 @@ from agv_motion.kinematics.steering.follow import (
     longest_share,
     nearest_velocity,
 )
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.state import AtRest, Rolling, Stance
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import Twist
 

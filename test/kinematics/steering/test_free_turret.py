@@ -6,9 +6,9 @@ from math import pi
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest, Rolling, SteeringLimits
 from agv_motion.kinematics.steering.free_turret import brake_free_turret, turn_free_turrets
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.state import AtRest, Rolling, Stance
 
 LIMITS = SteeringLimits(steering_rate=2.0, steering_acceleration=4.0, turn_limit=1.5)
 

@@ -14,7 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest, SteeringLimits, SteeringPlanner
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.state import AtRest
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import REST, Twist
 

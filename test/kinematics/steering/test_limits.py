@@ -7,7 +7,7 @@ from math import nan
 import pytest
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.kinematics.steering import SteeringLimits
+from agv_motion.kinematics.steering.limits import SteeringLimits
 
 
 @pytest.mark.parametrize(('name', 'value'), [('turn_limit', 0.2), ('steering_rate', nan)])

@@ -6,10 +6,10 @@ from math import atan2, cos, pi, sin, sqrt, tan
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest, Limiter, Rolling, SteeringLimits
 from agv_motion.kinematics.steering.chassis import measure
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.move import HERE, TOO_FAR, is_slow, plan_move
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling, Stance
 from agv_motion.kinematics.turrets import Turrets
 
 PAIR = Turrets([(0.5, 0.0), (-0.5, 0.0)])

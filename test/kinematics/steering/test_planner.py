@@ -10,7 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.steering import AtRest, Limiter, Rolling, SteeringLimits, SteeringPlanner
+from agv_motion.kinematics.steering.limits import SteeringLimits
+from agv_motion.kinematics.steering.planner import SteeringPlanner
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
 from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
 from agv_motion.planar import REST, Twist
 from agv_motion.simulation.trials.steering import SteeringTrial

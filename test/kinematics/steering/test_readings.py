@@ -7,8 +7,8 @@ from math import inf, nan, pi, tau
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.steering import AtRest
 from agv_motion.kinematics.steering.readings import LOST_TURRET, TurretReadings
+from agv_motion.kinematics.steering.state import AtRest
 
 MOST = (1.5 + 10.0) * tau
 

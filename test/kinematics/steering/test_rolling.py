@@ -6,10 +6,10 @@ from math import pi
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest, Limiter, Rolling, SteeringLimits
 from agv_motion.kinematics.steering.chassis import measure
+from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.rolling import roll
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling, Stance
 from agv_motion.kinematics.turrets import Turrets
 
 PAIR = Turrets([(0.5, 0.0), (-0.5, 0.0)])

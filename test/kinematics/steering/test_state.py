@@ -7,8 +7,7 @@ from math import nan
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.steering import AtRest, Limiter, Rolling
-from agv_motion.kinematics.steering.state import Stance
+from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling, Stance
 from agv_motion.kinematics.turrets import Turrets
 
 PAIR = Turrets([(1.0, 0.0), (-1.0, 0.0)])

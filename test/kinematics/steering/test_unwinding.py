@@ -6,7 +6,7 @@ from math import pi
 
 import pytest
 
-from agv_motion.kinematics.steering import AtRest
+from agv_motion.kinematics.steering.state import AtRest
 from agv_motion.kinematics.steering.unwinding import Unwinding, describe, is_wound
 
 

@@ -2,7 +2,10 @@
 
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.reservation import Reservation
-from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 
-__all__ = ['Reservation', 'RightOfWay', 'SharedNavigator', 'TrafficParameters']
+__all__ = [
+    'Reservation',
+    'SharedNavigator',
+    'TrafficParameters',
+]
