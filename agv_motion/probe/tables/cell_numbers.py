@@ -7,7 +7,7 @@ from math import isfinite, nan
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SourceError
-from agv_motion.probe.tables.table_parameters import DECIMALS
+from agv_motion.probe.tables.signs import DECIMALS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

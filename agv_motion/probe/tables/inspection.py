@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.errors import AgvMotionError, SourceError
 from agv_motion.files import text
 from agv_motion.probe.tables import file_text
+from agv_motion.probe.tables.signs import DELIMITERS, JOIN
 from agv_motion.probe.tables.table import files_of
 from agv_motion.probe.tables.table_file import LARGEST
 from agv_motion.probe.tables.table_form import HEAD, is_number, split
-from agv_motion.probe.tables.table_parameters import DELIMITERS, JOIN, TableParameters
+from agv_motion.probe.tables.table_parameters import TableParameters
 from agv_motion.probe.tables.time_format import choose, readings
 from agv_motion.probe.tables.time_readers import OF_COLUMNS
 

@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.probe.tables.table_parameters import DELIMITERS, JOIN
+from agv_motion.probe.tables.signs import DELIMITERS, JOIN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

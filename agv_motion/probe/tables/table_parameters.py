@@ -8,13 +8,10 @@ from typing import Annotated
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 from agv_motion.probe.tables.local_time import DoubledHour, zone_of
+from agv_motion.probe.tables.signs import DECIMALS, DELIMITERS
 from agv_motion.probe.tables.time_format import named
 
 ENCODINGS = 'auto', 'utf-8', 'utf-16', 'latin-1'
-DELIMITERS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'pipe': '|', 'blanks': ' '}
-DECIMALS = {'point': '.', 'comma': ','}
-JOIN = '+'
-"""between the names of columns that make one time"""
 
 
 @dataclass(frozen=True)
