@@ -24,7 +24,7 @@ from agv_motion.ros.run import start
 def test_nodes_with_their_states(agv, graph):
     start(graph.add(LiveNode(WheelKinematics, context=graph.context)))
     graph.add(rclpy.create_node('plain', context=graph.context))
-    told = agv('nodes', '--spin-time', '5', cold=True)[1].splitlines()
+    told = agv('nodes', '--spin-time', '5')[1].splitlines()
     assert told == sorted(told)  # one that was killed before may still be announced
     assert {'/plain', '/wheel_kinematics [active]'} <= set(told)
 
@@ -35,7 +35,7 @@ def test_run_lists_and_refuses(alone):
     assert {'granier_probe', 'motion_generator', 'simulator', 'wheel_kinematics'} <= set(
         out.split()
     )
-    status, _, errors = alone('run', 'wheel_cinematics', cold=True)
+    status, _, errors = alone('run', 'wheel_cinematics')
     assert status == 1
     assert "did you mean 'wheel_kinematics'?" in errors
 

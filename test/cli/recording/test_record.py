@@ -48,7 +48,7 @@ def test_the_disk_at_its_floor_is_an_error(agv, publisher, tmp_path):
 
 
 def test_a_folder_that_exists_is_told(alone, tmp_path):
-    status, _, errors = alone('record', '-a', '-o', tmp_path, cold=True)
+    status, _, errors = alone('record', '-a', '-o', tmp_path)
     assert status == 1
     assert 'choose a new folder' in errors
     assert 'Traceback' not in errors

@@ -63,10 +63,17 @@ def differential(path, turning, spoil=lambda angles, poses: None, robots=('', ''
     write(path, ['left_wheel', 'right_wheel'], angles, poses, robots)
 
 
-def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
-    differential(tmp_path / 'bag', 0.8)
+@pytest.fixture(scope='module')
+def winding(tmp_path_factory):
+    """Return a bag of a drive that tells everything, for all who only read it."""
+    path = tmp_path_factory.mktemp('winding') / 'bag'
+    differential(path, 0.8)
+    return path
+
+
+def test_radii_and_track_of_a_differential_drive(alone, tmp_path, winding):
     out_file = tmp_path / 'new.yaml'
-    status, out, errors = alone('calibrate', tmp_path / 'bag', '-o', out_file)
+    status, out, errors = alone('calibrate', winding, '-o', out_file)
     assert status == 0, errors
     assert 'not told' not in out
     given = yaml.safe_load(out_file.read_text())['/**']['ros__parameters']
@@ -79,7 +86,7 @@ def test_radii_and_track_of_a_differential_drive(alone, tmp_path):
 def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
     differential(tmp_path / 'bag', 0.0)
     asked = 'calibrate', tmp_path / 'bag', '-o', tmp_path / 'new.yaml'
-    status, out, _ = alone(*asked, cold=True)
+    status, out, _ = alone(*asked)
     assert status == 0
     (track,) = [line for line in out.splitlines() if line.startswith('track')]
     assert 'not told by this motion' in track
@@ -97,9 +104,8 @@ def test_a_straight_line_says_what_it_does_not_tell(alone, tmp_path):
         (['--node', 'omni_kinematics'], 'expected'),
     ],
 )
-def test_what_is_missing_is_told(alone, tmp_path, options, word):
-    differential(tmp_path / 'bag', 0.5)
-    status, _, errors = alone('calibrate', tmp_path / 'bag', *options)
+def test_what_is_missing_is_told(alone, winding, options, word):
+    status, _, errors = alone('calibrate', winding, *options)
     assert status == 1
     assert word in ' '.join(errors.split())
     assert 'Traceback' not in errors
@@ -161,9 +167,8 @@ def test_no_other_robot_tells_the_places(alone, tmp_path):
     assert list(yaml.safe_load((tmp_path / 'new.yaml').read_text())) == ['/oak/**']
 
 
-def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
-    differential(tmp_path / 'whole', 0.8)
-    (file,) = (tmp_path / 'whole').glob('*.mcap')
+def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path, winding):
+    (file,) = winding.glob('*.mcap')
     data = file.read_bytes()
     (tmp_path / 'bag').mkdir()
     (tmp_path / 'bag' / 'bag_0.mcap').write_bytes(data[: len(data) * 3 // 4])
@@ -172,10 +177,9 @@ def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
     assert given['wheel_radii'] == pytest.approx(RADII, abs=3e-4)
 
 
-def test_a_place_that_cannot_be_written_is_told(alone, tmp_path):
-    differential(tmp_path / 'bag', 0.8)
+def test_a_place_that_cannot_be_written_is_told(alone, tmp_path, winding):
     asked = '-o', tmp_path / 'nowhere' / 'new.yaml'
-    status, _, errors = alone('calibrate', tmp_path / 'bag', *asked)
+    status, _, errors = alone('calibrate', winding, *asked)
     assert status == 1
     assert 'cannot be written (No such file or directory)' in ' '.join(errors.split())
 

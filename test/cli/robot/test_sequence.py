@@ -40,7 +40,7 @@ def test_every_key_of_every_action_is_explained():
 def test_an_unknown_action_is_told_with_its_line(alone, tmp_path):
     file = tmp_path / 'm.yaml'
     file.write_text('actions:\n  - wait: 1\n  - goto: {x: 1}\n')
-    status, _, errors = alone('sequence', file, cold=True)
+    status, _, errors = alone('sequence', file)
     assert status == 1
     assert "m.yaml, line 3, column 5: unknown action 'goto', did you mean 'go_to'?" in errors
 
