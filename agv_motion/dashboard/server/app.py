@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from contextlib import asynccontextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from starlette.applications import Starlette
 from starlette.responses import FileResponse, JSONResponse, RedirectResponse
@@ -16,6 +16,7 @@ from agv_motion.dashboard.server.alerts import AlertDesk, alert_doors
 from agv_motion.dashboard.server.door import is_public
 from agv_motion.dashboard.server.doors import doors
 from agv_motion.dashboard.server.drive import drive
+from agv_motion.dashboard.server.foxglove.door import FoxgloveDoor
 from agv_motion.dashboard.server.gate import Gate
 from agv_motion.dashboard.server.ground import ground_doors
 from agv_motion.dashboard.server.history import history_doors, keep_told, look_back
@@ -28,13 +29,15 @@ from agv_motion.dashboard.server.roles import Role
 from agv_motion.dashboard.server.site import STATIC
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable, Collection
+    from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 
     from starlette.requests import Request
     from starlette.responses import Response
+    from starlette.routing import BaseRoute
     from starlette.types import ASGIApp
     from starlette.websockets import WebSocket
 
+    from agv_motion.dashboard.server.foxglove.door import Room
     from agv_motion.dashboard.server.site import Site
 
 MOST_CLIENTS = 100
@@ -53,36 +56,72 @@ class PageFiles(StaticFiles):
         return response
 
 
+class Foxglove(NamedTuple):
+    """The endpoint for tools."""
+
+    room: Room
+    acts: bool = False
+    """whether operators and experts may act there"""
+    origins: Collection[str] = ()
+    """sites whose pages may open it"""
+    alone: bool = False
+    """without the operator's page, and at the root of the address, too"""
+
+
 def application(
-    site: Site, names: Collection[str] = (), clock: Callable[[], float] = time.monotonic
-) -> ASGIApp:
+    site: Site, names: Collection[str] = (), clock: Callable[[], float] = time.monotonic,
+    foxglove: Foxglove | None = None,
+) -> ASGIApp:  # fmt: skip
     """Return the application of a page.
 
     Args:
         site: Robots, access and what is kept.
         names: By which browsers may know this host, beside its addresses and ``localhost``.
         clock: Returns seconds that never go back.
+        foxglove: What is served to tools such as Foxglove; None: nothing.
 
     """
 
     @asynccontextmanager
     async def life(_: Starlette) -> AsyncIterator[None]:
-        running = [asyncio.create_task(one) for one in (site.hub.run(), keep_told(site))]
+        work = [site.hub.run(), keep_told(site), *([foxglove.room.run()] if foxglove else [])]
+        running = [asyncio.create_task(one) for one in work]
         yield
         for task in running:
             task.cancel()
             with suppress(asyncio.CancelledError):
                 await task
 
+    routes: list[BaseRoute] = [Route('/health', _health(site)), *login_doors(site)]
+    origins: Collection[str] = ()
+    if foxglove is not None:
+        origins = foxglove.origins
+        door = FoxgloveDoor(site, foxglove.room, acts=foxglove.acts)
+        paths = ('/foxglove', '/') if foxglove.alone else ('/foxglove',)
+        routes += [WebSocketRoute(path, door.open) for path in paths]
+    if foxglove is None or not foxglove.alone:
+        routes += _page(site)
+    return Gate(Starlette(routes=routes, lifespan=life), names, clock, origins)
+
+
+def _page(site: Site) -> list[BaseRoute]:
+    """Return all that belongs to the operator's page."""
     desk = AlertDesk(site)
-    routes = [
+    routes: list[BaseRoute] = [
         *_pages(site), *doors(site), *parameter_doors(site), *ground_doors(site),
         *mark_doors(site), *history_doors(site, desk), *alert_doors(site, desk),
-        *report_doors(site), *login_doors(site), *_sockets(site),
+        *report_doors(site), *_sockets(site),
     ]  # fmt: skip
     if STATIC.is_dir():
         routes.append(Mount('/static', PageFiles(directory=STATIC)))
-    return Gate(Starlette(routes=routes, lifespan=life), names, clock)
+    return routes
+
+
+def _health(site: Site) -> Callable[[Request], Awaitable[Response]]:
+    async def health(_: Request) -> Response:
+        return JSONResponse({'robots': len(site.fleet.robots), 'clients': len(site.hub.clients)})
+
+    return health
 
 
 def _pages(site: Site) -> list[Route]:
@@ -97,14 +136,10 @@ def _pages(site: Site) -> list[Route]:
     async def login(_: Request) -> Response:
         return _file('login.html')
 
-    async def health(_: Request) -> Response:
-        return JSONResponse({'robots': len(site.fleet.robots), 'clients': len(site.hub.clients)})
-
     return [
         Route('/', page),
         Route('/public', public),
         Route('/login', login, methods=['GET']),
-        Route('/health', health),
     ]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import re
 import time
 from ipaddress import ip_address
@@ -25,9 +26,12 @@ LARGEST_BODY = 64 * 1024
 """[bytes] of a request"""
 SLOWEST_BODY = 10.0
 """[s] in which it must have come"""
+TOOLS = frozenset({'/foxglove', '/'})
+"""Doors for tools, whose pages may come from other sites"""
 SAFE = frozenset({'GET', 'HEAD'})
 KNOWN = SAFE | {'POST'}
 
+_LOG = logging.getLogger('uvicorn.error')
 _HOST = re.compile(r'(\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+)(:\d{1,5})?')
 
 POLICY = (
@@ -52,7 +56,7 @@ class Gate:
 
     def __init__(
         self, inner: ASGIApp, names: Collection[str] = (),
-        clock: Callable[[], float] = time.monotonic,
+        clock: Callable[[], float] = time.monotonic, origins: Collection[str] = (),
     ) -> None:  # fmt: skip
         """Stand before an application.
 
@@ -60,13 +64,16 @@ class Gate:
             inner: The application.
             names: By which browsers may know this host, beside its addresses and ``localhost``.
             clock: Returns seconds that never go back.
+            origins: Sites whose pages may open `/foxglove`, as ``https://app.example``.
 
         """
         self._inner = inner
+        self._origins = frozenset(origin.lower().rstrip('/') for origin in origins)
         self._names = frozenset(name.lower() for name in names) | {'localhost'}
         self._acts = RateLimit(burst=60, rate=20.0, clock=clock)
         self._stops = RateLimit(burst=60, rate=20.0, clock=clock)
         """a flood of other acts must not keep anybody from STOP"""
+        self._told = RateLimit(burst=5, rate=0.1, clock=clock)
         self._sockets = RateLimit(burst=100, rate=10.0, clock=clock)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -120,7 +127,9 @@ class Gate:
         method = scope.get('method', '')
         if not socket and method not in KNOWN:
             return 405, f'{method[:10]} is not done here'
-        if (socket or method not in SAFE) and _is_foreign(scope, headers, host):
+        foreign = (socket or method not in SAFE) and _is_foreign(scope, headers, host)
+        tool = socket and scope['path'] in TOOLS
+        if foreign and not (tool and self._is_listed(headers)):
             return 403, 'another page asks: only this page may act'
         if _length(headers) > LARGEST_BODY:
             return 413, f'the request has more than {LARGEST_BODY} bytes'
@@ -136,6 +145,18 @@ class Gate:
             stops = scope['path'].endswith('/stop')
             allowed = (self._stops if stops else self._acts).allows(who)
         return None if allowed else (429, 'too many at once: wait a few seconds')
+
+    def _is_listed(self, headers: dict[bytes, bytes]) -> bool:
+        """Return whether a tool asks whose site is on the list; one that is not is told of."""
+        origin = headers.get(b'origin', b'').decode('latin-1')
+        if origin.lower().rstrip('/') in self._origins:
+            return True
+        if self._told.allows(''):
+            shown = ''.join(c if c.isprintable() else ' ' for c in origin[:80])
+            _LOG.warning(
+                'a tool of %s wanted to connect; if it may: start with --origin %s', shown, shown
+            )
+        return False
 
     def _is_ours(self, host: str) -> bool:
         """Return whether a browser may know this host by that name.

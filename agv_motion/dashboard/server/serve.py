@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import uvicorn
 
+from agv_motion.dashboard.server.foxglove.wire import BatchProtocol
 from agv_motion.dashboard.server.prompt_protocol import PromptProtocol, allow_descriptors
 from agv_motion.errors import ConfigurationError
 
@@ -78,7 +79,7 @@ class WebServer:
         self.listener = listener
         config = uvicorn.Config(
             application, log_level='warning', access_log=False, lifespan='on', http=PromptProtocol,
-            ws='websockets-sansio', ws_max_size=LARGEST_MESSAGE, ws_per_message_deflate=False,
+            ws=BatchProtocol, ws_max_size=LARGEST_MESSAGE, ws_per_message_deflate=False,
             ws_ping_interval=10.0, ws_ping_timeout=10.0, server_header=False, date_header=False,
             h11_max_incomplete_event_size=16 * 1024, timeout_graceful_shutdown=1,
             timeout_keep_alive=10, **tls,

@@ -31,6 +31,9 @@ LASTING = 12 * 3600.0
 SHORTEST, LONGEST = 10, 200
 """characters of a password"""
 NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_.@-]{0,39}')
+MOST_HOURS = 24.0 * 31.0
+"""for which a token of a tool may last"""
+LONGEST_TOKEN = 200
 MOST_SESSIONS = 20
 """of one user; the oldest ends first"""
 
@@ -163,6 +166,48 @@ class Users:
     def csrf(self, token: str) -> str:
         """Return the token that acts of a session must bear: no other page can know it."""
         return hmac.new(self._secret, token.encode(), hashlib.sha256).hexdigest()
+
+    # Tokens for the Foxglove endpoint: nothing is kept of them
+
+    def bearer_token(self, name: str, role: str, hours: float) -> str:
+        """Return a token that tools bear in an address, for `/foxglove` alone.
+
+        It is void once it is over, and when the user is removed or gets another password.
+
+        Args:
+            name: Of a user.
+            role: That it has at most, and never more than the user has.
+            hours: For which it lasts.
+
+        Raises:
+            ConfigurationError: There is no such user or role, or it would last too long.
+
+        """
+        self._require(name)
+        _require_role(role)
+        if not 0.0 < hours <= MOST_HOURS:
+            msg = f'hours = {hours:g}: must lie in (0, {MOST_HOURS:g}]'
+            raise ConfigurationError(msg)
+        told = f'{name}!{role}!{round(self._clock() + 3600.0 * hours)}'
+        return f'{told}!{self._sealed(told, name)}'
+
+    def bearer(self, token: str) -> Visitor | None:
+        """Return whose a token of `bearer_token` is; None if it is none, or is over."""
+        told, _, seal = token[:LONGEST_TOKEN].rpartition('!')
+        name, _, rest = told.partition('!')
+        role, _, end = rest.partition('!')
+        found = self.names().get(name)
+        good = found is not None and hmac.compare_digest(
+            self._sealed(told, name).encode(), seal.encode('utf-8', 'replace')
+        )
+        if not good or found not in ROLES or role not in ROLES or not self._clock() < int(end):
+            return None
+        return Visitor(name, min(ROLES[found], ROLES[role]), '')
+
+    def _sealed(self, told: str, name: str) -> str:
+        rows = self._store.rows('SELECT hash FROM users WHERE name = ?', (name,))
+        words = f'foxglove {told} {rows[0][0] if rows else ""}'
+        return hmac.new(self._secret, words.encode(), hashlib.sha256).hexdigest()
 
     def end(self, token: str) -> None:
         """End a session."""

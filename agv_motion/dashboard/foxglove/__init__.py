@@ -1,0 +1,1 @@
+"""What tools such as Foxglove and Lichtblick are told and ask: no socket, no ROS, no clock."""

@@ -1,0 +1,1 @@
+"""The endpoint `/foxglove` on its sockets: live, and over a recording."""
