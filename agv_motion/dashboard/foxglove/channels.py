@@ -20,7 +20,7 @@ MOST_SLOTS = 100
 """of one topic"""
 
 
-class Topic(NamedTuple):
+class GraphTopic(NamedTuple):
     """A topic as its source tells of it."""
 
     name: str
@@ -43,7 +43,7 @@ class Said(NamedTuple):
     data: bytes
 
 
-class Channel:
+class LiveChannel:
     """One topic of one type."""
 
     def __init__(self, info: ChannelInfo) -> None:
@@ -55,7 +55,7 @@ class Channel:
         self.fresh: list[Said] = []
         """what came at the last look"""
 
-    def fit(self, topic: Topic) -> None:
+    def fit(self, topic: GraphTopic) -> None:
         """Have as many slots as a topic needs now."""
         self.latched = topic.latched
         slots = min(max(topic.slots, 1), MOST_SLOTS)
@@ -73,15 +73,15 @@ class Channels:
 
     def __init__(self) -> None:
         """Know no topic."""
-        self.by_number: dict[int, Channel] = {}
+        self.by_number: dict[int, LiveChannel] = {}
         """those that are there"""
-        self.by_topic: dict[str, Channel] = {}
+        self.by_topic: dict[str, LiveChannel] = {}
         self.count = 0
         """of all messages so far"""
-        self._known: dict[Topic, Channel] = {}
-        self._fresh: list[Channel] = []
+        self._known: dict[GraphTopic, LiveChannel] = {}
+        self._fresh: list[LiveChannel] = []
 
-    def update(self, topics: Mapping[str, Topic]) -> tuple[list[Channel], list[int]]:
+    def update(self, topics: Mapping[str, GraphTopic]) -> tuple[list[LiveChannel], list[int]]:
         """Take which topics there are now; return new channels, and the numbers of those gone."""
         new, there = [], {}
         for topic in topics.values():
@@ -97,11 +97,11 @@ class Channels:
         self.by_topic = {channel.info.topic: channel for channel in there.values()}
         return new, gone
 
-    def take(self, messages: Iterable[tuple[str, int, bytes]]) -> list[Channel]:
+    def take(self, messages: Iterable[tuple[str, int, bytes]]) -> list[LiveChannel]:
         """Take what came since the last look; return the channels that have news.
 
         Args:
-            messages: Topic, time [ns] and data of each.
+            messages: GraphTopic, time [ns] and data of each.
 
         """
         for channel in self._fresh:
@@ -120,12 +120,12 @@ class Channels:
         self.count, self._fresh = count, fresh
         return fresh
 
-    def _channel(self, topic: Topic) -> Channel:
+    def _channel(self, topic: GraphTopic) -> LiveChannel:
         key = topic._replace(slots=1, latched=False)
         if key not in self._known:
             info = ChannelInfo(
                 len(self._known) + 1, topic.name, topic.type, topic.definition, CDR,
                 topic.definition_encoding,
             )  # fmt: skip
-            self._known[key] = Channel(info)
+            self._known[key] = LiveChannel(info)
         return self._known[key]

@@ -41,7 +41,7 @@ class Capability(Enum):
     PLAYBACK = 'playbackControl'
 
 
-class Level(IntEnum):
+class Severity(IntEnum):
     """How grave a status is."""
 
     INFO = 0
@@ -122,7 +122,7 @@ def server_info(
     return _text(told)
 
 
-def status(level: Level, message: str, number: str = '') -> str:
+def status(level: Severity, message: str, number: str = '') -> str:
     """Return a word to the client; a later one of the same ``number`` replaces it."""
     told = {'op': 'status', 'level': int(level), 'message': message[:LONGEST]}
     return _text(told | ({'id': number} if number else {}))

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from asyncio import Future
     from collections.abc import Iterable, Mapping
 
-    from agv_motion.dashboard.foxglove.channels import Topic
+    from agv_motion.dashboard.foxglove.channels import GraphTopic
     from agv_motion.dashboard.foxglove.protocol import ConnectionGraph
 
 
@@ -16,7 +16,7 @@ class GraphSource(Protocol):
     """A graph, live."""
 
     @property
-    def topics(self) -> Mapping[str, Topic]:
+    def topics(self) -> Mapping[str, GraphTopic]:
         """Those that are there, by name; another object when something has changed."""
 
     @property

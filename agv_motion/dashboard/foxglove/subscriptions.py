@@ -9,7 +9,7 @@ from agv_motion.dashboard.foxglove.frames import message_header
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from agv_motion.dashboard.foxglove.channels import Channel, Said
+    from agv_motion.dashboard.foxglove.channels import LiveChannel, Said
 
 
 class Subscriptions:
@@ -17,16 +17,16 @@ class Subscriptions:
 
     def __init__(self) -> None:
         """Choose none."""
-        self.by_channel: dict[int, tuple[int, Channel]] = {}
+        self.by_channel: dict[int, tuple[int, LiveChannel]] = {}
         """number of the subscription, and the channel, by the number of the channel"""
         self._channel_of: dict[int, int] = {}
-        self._new: list[Channel] = []
+        self._new: list[LiveChannel] = []
         """channels whose slots it has never had"""
         self._served = 0
         """number of the newest message that it has had"""
         self._behind = False
 
-    def add(self, number: int, channel: Channel) -> str:
+    def add(self, number: int, channel: LiveChannel) -> str:
         """Choose a channel; return why that cannot be, or nothing."""
         if number in self._channel_of:
             return f'subscription {number} is there already: unsubscribe first'
@@ -38,7 +38,7 @@ class Subscriptions:
             self._new.append(channel)
         return ''
 
-    def number_of(self, channel: Channel) -> int:
+    def number_of(self, channel: LiveChannel) -> int:
         """Return the number of the subscription to a channel that is chosen."""
         return self.by_channel[channel.info.id][0]
 
@@ -70,7 +70,7 @@ class Subscriptions:
         """Send nothing this time: the client has not taken what it was sent before."""
         self._behind = True
 
-    def frames(self, fresh: Iterable[Channel], count: int) -> list[bytes]:
+    def frames(self, fresh: Iterable[LiveChannel], count: int) -> list[bytes]:
         """Return what is to be sent, as pieces of frames; it counts as sent.
 
         Args:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp
     from starlette.websockets import WebSocket
 
-    from agv_motion.dashboard.server.foxglove.door import Room
+    from agv_motion.dashboard.server.foxglove.door import EndpointRoom
     from agv_motion.dashboard.server.site import Site
 
 MOST_CLIENTS = 100
@@ -59,7 +59,7 @@ class PageFiles(StaticFiles):
 class Foxglove(NamedTuple):
     """The endpoint for tools."""
 
-    room: Room
+    room: EndpointRoom
     acts: bool = False
     """whether operators and experts may act there"""
     origins: Collection[str] = ()

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from agv_motion.dashboard.foxglove.channels import MOST_SLOTS, Channels, Topic
+from agv_motion.dashboard.foxglove.channels import MOST_SLOTS, Channels, GraphTopic
 
 
 def topic(name, **more):
-    return Topic(name, 'std_msgs/msg/String', 'string data', **more)
+    return GraphTopic(name, 'std_msgs/msg/String', 'string data', **more)
 
 
 def graph(*topics):
@@ -20,7 +20,7 @@ def test_a_topic_that_comes_back_has_its_number_and_another_type_another():
     channels.take([('/a', 1, b'1')])
     assert channels.update({}) == ([], [a.info.id])
     assert not a.slots
-    other = Topic('/a', 'std_msgs/msg/Bool', 'bool data')
+    other = GraphTopic('/a', 'std_msgs/msg/Bool', 'bool data')
     new, _ = channels.update({'/a': other})
     assert new[0].info.id != a.info.id
     new, gone = channels.update({'/a': topic('/a', slots=4)})

@@ -10,9 +10,9 @@ from agv_motion.dashboard.foxglove.protocol import (
     Capability,
     ChannelInfo,
     ConnectionGraph,
-    Level,
     PlaybackStatus,
     ServiceInfo,
+    Severity,
 )
 
 
@@ -106,6 +106,6 @@ def test_a_graph_is_told_by_what_has_changed():
 
 
 def test_words_have_an_end():
-    assert len(json.loads(protocol.status(Level.ERROR, 'x' * 10**6, 'n'))['message']) == 1000
+    assert len(json.loads(protocol.status(Severity.ERROR, 'x' * 10**6, 'n'))['message']) == 1000
     assert json.loads(protocol.remove_status(['n']))['statusIds'] == ['n']
     assert len(json.loads(protocol.service_failure(1, 2, 'x' * 10**6))['message']) == 1000

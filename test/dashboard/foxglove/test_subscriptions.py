@@ -7,13 +7,13 @@ import struct
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agv_motion.dashboard.foxglove.channels import Channels, Topic
+from agv_motion.dashboard.foxglove.channels import Channels, GraphTopic
 from agv_motion.dashboard.foxglove.frames import message_header
 from agv_motion.dashboard.foxglove.subscriptions import Subscriptions
 
 
 def topic(name, **more):
-    return Topic(name, 'std_msgs/msg/String', 'string data', **more)
+    return GraphTopic(name, 'std_msgs/msg/String', 'string data', **more)
 
 
 def graph(*topics):

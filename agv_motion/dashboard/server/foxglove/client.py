@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.dashboard.foxglove import protocol
 from agv_motion.dashboard.foxglove.frames import frame
-from agv_motion.dashboard.foxglove.protocol import NO_GRAPH, Level
+from agv_motion.dashboard.foxglove.protocol import NO_GRAPH, Severity
 from agv_motion.dashboard.foxglove.subscriptions import Subscriptions
 from agv_motion.errors import AgvMotionError, shortened
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterable
 
-    from agv_motion.dashboard.foxglove.channels import Channel
+    from agv_motion.dashboard.foxglove.channels import LiveChannel
     from agv_motion.dashboard.foxglove.permissions import Permissions
     from agv_motion.dashboard.foxglove.requests import ClientChannel
     from agv_motion.dashboard.server.foxglove.wire import Wire
@@ -61,15 +61,15 @@ class FoxgloveClient:
             return
         self.wire.write((frame(message),))
 
-    def tell(self, level: Level, text: str, number: str = '') -> None:
+    def tell(self, level: Severity, text: str, number: str = '') -> None:
         """Tell it something in words."""
         self.send(protocol.status(level, text, number))
 
     def refuse(self, why: object) -> None:
         """Tell it what was not done."""
-        self.tell(Level.ERROR, shortened(str(why)))
+        self.tell(Severity.ERROR, shortened(str(why)))
 
-    def serve(self, fresh: Iterable[Channel], count: int, time: bytes | None) -> None:
+    def serve(self, fresh: Iterable[LiveChannel], count: int, time: bytes | None) -> None:
         """Send what is new, if it has taken what was sent before.
 
         Args:

@@ -37,7 +37,7 @@ BURST, RATE = 1000, 100.0
 topic by a message of its own"""
 
 
-class Room(Protocol):
+class EndpointRoom(Protocol):
     """Who serves a client that was let in."""
 
     def welcome(self, client: FoxgloveClient, subprotocol: str) -> None:
@@ -56,7 +56,7 @@ class Room(Protocol):
 class FoxgloveDoor:
     """Lets clients in."""
 
-    def __init__(self, site: Site, room: Room, *, acts: bool) -> None:
+    def __init__(self, site: Site, room: EndpointRoom, *, acts: bool) -> None:
         """Open a room.
 
         Args:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.dashboard.foxglove import protocol
 from agv_motion.dashboard.foxglove.channels import Channels
 from agv_motion.dashboard.foxglove.frames import frame
-from agv_motion.dashboard.foxglove.protocol import Level
+from agv_motion.dashboard.foxglove.protocol import Severity
 from agv_motion.dashboard.server.foxglove.client import ALL, Renewal
 from agv_motion.dashboard.server.foxglove.services import Services
 
@@ -149,7 +149,7 @@ class FoxgloveHub:
 
     def _complain(self, client: FoxgloveClient) -> None:
         for topic, why in self.source.complaints.items():
-            client.tell(Level.WARNING, f'{topic} is not served: {why}', topic)
+            client.tell(Severity.WARNING, f'{topic} is not served: {why}', topic)
 
     def _tell_changes(self) -> None:
         """Tell parameters and connections that have changed, to those who want to know."""
@@ -168,7 +168,7 @@ class FoxgloveHub:
     def _renew(self) -> None:
         for client in list(self.clients):
             if not client.welcome():
-                client.tell(Level.ERROR, 'the session has ended: log in again')
+                client.tell(Severity.ERROR, 'the session has ended: log in again')
                 client.wire.finish()
 
     def _is_new(self, what: str, told: object) -> bool:

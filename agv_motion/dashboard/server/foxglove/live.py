@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class LiveRoom:
-    """Implements `Room` for a graph."""
+    """Implements `EndpointRoom` for a graph."""
 
     def __init__(self, site: Site, source: GraphSource) -> None:
         """Serve the graph of a source, to those whom a site knows."""

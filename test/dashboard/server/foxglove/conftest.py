@@ -16,7 +16,7 @@ sync_client = pytest.importorskip('websockets.sync.client')
 
 from websockets.exceptions import ConnectionClosed
 
-from agv_motion.dashboard.foxglove.channels import Topic
+from agv_motion.dashboard.foxglove.channels import GraphTopic
 from agv_motion.dashboard.foxglove.protocol import NO_GRAPH
 from agv_motion.dashboard.server.access import Access
 from agv_motion.dashboard.server.app import Foxglove, application
@@ -46,7 +46,7 @@ class Graph:
         self.chosen = threading.Condition()
 
     def offer(self, name, kind='std_msgs/msg/String', definition='string data', **more):
-        self.topics = self.topics | {name: Topic(name, kind, definition, **more)}
+        self.topics = self.topics | {name: GraphTopic(name, kind, definition, **more)}
 
     def say(self, *messages):
         """Say messages: topic, time and data of each."""
