@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import atexit
 import gc
+import json
 import os
 import random
 import signal
 import socket
+import struct
 import threading
 import time
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace as Some
 
 # looking for garbage after every 700 new objects takes up to half of what makes many that stay:
 # imports, syntax trees, columns of messages
@@ -374,3 +377,85 @@ def driven_robot(graph):
 def real_time_robot(graph):
     """Return what makes a robot that moves as time passes."""
     return lambda: RealTimeRobot(graph)
+
+
+class FoxgloveTool:
+    """A client of the endpoint `/foxglove`, by hand and the library websockets."""
+
+    def __init__(self, server, subprotocol='foxglove.sdk.v1', path='/foxglove', **options):
+        url = server.url.replace('http', 'ws', 1) + path
+        names = options.pop('subprotocols', [subprotocol])
+        from websockets.sync.client import connect
+
+        self.context = connect(
+            url, subprotocols=names, max_size=None, compression=None, open_timeout=60.0, **options
+        )
+        self.socket = self.context.__enter__()
+        self.kept = []
+        self.info = self.wait('serverInfo')
+
+    def ask(self, op, **told):
+        self.socket.send(json.dumps({'op': op} | told))
+
+    def wait(self, op, fits=lambda _: True):
+        """Return the next message of a kind; others are kept for later."""
+        for told in self.kept:
+            if told['op'] == op and fits(told):
+                self.kept.remove(told)
+                return told
+        while True:
+            told = decoded(self.socket.recv(timeout=60.0))
+            if told['op'] == op and fits(told):
+                return told
+            self.kept.append(told)
+
+    def refusal(self):
+        return self.wait('status', lambda told: told['level'] == 2)['message']
+
+    def channels(self, *topics):
+        """Return the number of each channel, when all are advertised."""
+        found = {}
+        while not set(topics) <= found.keys():
+            found |= {one['topic']: one for one in self.wait('advertise')['channels']}
+        return [found[topic]['id'] for topic in topics]
+
+    def subscribe(self, *topics):
+        """Subscribe to topics, each by the number of its place from 0."""
+        rows = [{'id': n, 'channelId': c} for n, c in enumerate(self.channels(*topics))]
+        self.ask('subscribe', subscriptions=rows)
+
+    def data(self):
+        told = self.wait('message')
+        return told['id'], told['data']
+
+    def closed(self):
+        """Return code and reason, when the server has closed."""
+        with suppress(Exception):
+            while True:
+                self.socket.recv(timeout=60.0)
+        return Some(code=self.socket.close_code, reason=self.socket.close_reason)
+
+
+def decoded(message):
+    if isinstance(message, str):
+        return json.loads(message)
+    kinds = {1: 'message', 2: 'time', 3: 'response', 4: 'asset', 5: 'playback'}
+    if message[0] == 1:
+        number, stamp = struct.unpack_from('<IQ', message, 1)
+        return {'op': 'message', 'id': number, 'stamp': stamp, 'data': message[13:]}
+    return {'op': kinds[message[0]], 'bytes': message[1:]}
+
+
+@pytest.fixture
+def connect():
+    """Return what makes clients of the endpoint `/foxglove` of a server with an ``url``."""
+    opened = []
+
+    def make(*args, **options):
+        made = FoxgloveTool(*args, **options)
+        opened.append(made)
+        return made
+
+    yield make
+    for one in opened:
+        one.context.__exit__(None, None, None)

@@ -33,6 +33,7 @@ app = typer.Typer(
             'sequence': 'robot.sequence:app',
             'demo': 'demo.group:app',
             'dashboard': 'dashboard.group:app',
+            'foxglove': 'dashboard.foxglove:foxglove',
             'calibrate': 'robot.calibrate:calibrate',
             'probes': 'probe.probes:probes',
             'record': 'recording.record:record',

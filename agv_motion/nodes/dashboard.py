@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from agv_motion.dashboard.core.board import Board
 from agv_motion.errors import ConfigurationError
+from agv_motion.nodes.foxglove_graph import FoxgloveGraph
 from agv_motion.nodes.live_fleet import LiveFleet
 from agv_motion.parameters import Spec, check
 from agv_motion.ros.diagnosis import OK, Diagnosis
@@ -52,6 +53,20 @@ class DashboardParameters:
     bag: Annotated[
         str, Spec('folder of the bag that is being recorded, to look back into; empty: none')
     ] = ''
+    page: Annotated[
+        bool, Spec("serve the operator's page; without it there is the endpoint for tools alone")
+    ] = True
+    foxglove: Annotated[
+        bool, Spec('serve /foxglove to Foxglove, Lichtblick and other tools: to look')
+    ] = True
+    foxglove_acts: Annotated[
+        bool,
+        Spec('let operators publish and call services there, and experts set parameters, too'),
+    ] = False
+    foxglove_origins: Annotated[
+        tuple[str, ...],
+        Spec('sites whose pages may open it, such as https://app.foxglove.dev; empty: none'),
+    ] = ()
     robots: Annotated[tuple[str, ...], Spec('names of those that are shown; empty: all')] = ()
 
     def __post_init__(self) -> None:
@@ -72,6 +87,7 @@ class Dashboard(PlainNode[DashboardParameters]):
         super().__init__(port, parameters)
         self.board = Board()
         self.fleet = LiveFleet(port, self.board, parameters.robots)
+        self.graph = FoxgloveGraph(port, self.fleet.publisher) if parameters.foxglove else None
         self.site: Site | None = None
         self.server: WebServer | None = None
         self._taken_at = 0.0
@@ -87,7 +103,8 @@ class Dashboard(PlainNode[DashboardParameters]):
 
         """
         try:
-            from agv_motion.dashboard.server.app import application
+            from agv_motion.dashboard.server.app import Foxglove, application
+            from agv_motion.dashboard.server.foxglove.live import LiveRoom
             from agv_motion.dashboard.server.opening import opened
             from agv_motion.dashboard.server.serve import WebServer, listening
         except ModuleNotFoundError as error:
@@ -97,11 +114,17 @@ class Dashboard(PlainNode[DashboardParameters]):
         self.fleet.look()
         self.site = opened(self.fleet, given.host, given.state_folder, given.bag)
         listener = listening(given.host, given.port, next_free=given.next_free_port)
-        page = application(self.site, given.names)
+        tools = None
+        if self.graph is not None:
+            room = LiveRoom(self.site, self.graph)
+            acts, origins = given.foxglove_acts, given.foxglove_origins
+            tools = Foxglove(room, acts, origins, alone=not given.page)
+        page = application(self.site, given.names, foxglove=tools)
         self.server = WebServer(page, listener, given.certificate, given.key)
         self.server.start()
         who = 'users log in' if self.site.access.needs_login else 'for this machine alone'
-        self.port.info(f'the page is at {self.server.url}, {who}')
+        what = 'the page' if given.page else 'the endpoint for tools'
+        self.port.info(f'{what} is at {self.server.url}, {who}')
 
     def halt(self) -> None:
         """Close the page."""
@@ -112,6 +135,8 @@ class Dashboard(PlainNode[DashboardParameters]):
             self.site.close()
             self.site = None
         self.fleet.close()
+        if self.graph is not None:
+            self.graph.close()
 
     def diagnose(self) -> Diagnosis:
         """Tell where the page is, and how many look at it."""
@@ -121,6 +146,8 @@ class Dashboard(PlainNode[DashboardParameters]):
     def _go_on(self) -> None:
         """Do what was asked; take what has come, when it is time to."""
         self.fleet.send()
+        if self.graph is not None:
+            self.graph.send()
         self._turn = (self._turn + 1) % TAKE_EVERY
         if self._turn:
             return

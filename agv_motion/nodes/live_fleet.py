@@ -55,6 +55,8 @@ class LiveFleet:
         """when each robot is to be asked for its shape again [s, steady]"""
         self._listener = RobotListener(port, board, only)
         self._acts.clock = lambda: self._listener.simulated_time() or port.nanoseconds()
+        self.publisher = self._acts.publisher
+        """returns the publisher of a message class and a topic; in the thread of the node"""
         self._acts.factor = lambda: 1.0 if board.factor is None else max(board.factor, 0.0)
         self._asked: deque[Callable[[], None]] = deque()
         self._drives: dict[str, tuple[Twist, float]] = {}

@@ -50,7 +50,7 @@ class RobotActs:
 
         """
         self._port, self._services, self._parameters = port, services, parameters
-        self._publishers: dict[str, Any] = {}
+        self._publishers: dict[tuple[str, type[Any]], Any] = {}
         self._held_past_arbiter: set[str] = set()
         """namespaces whose kinematics were stopped, as their arbiter did not answer"""
         self.clock: Callable[[], int] = port.nanoseconds
@@ -60,10 +60,10 @@ class RobotActs:
 
     def prepare(self, robot: str) -> None:
         """Open the topics of a robot, so that who listens has been found when they are needed."""
-        self._publisher(String, '/mark')
+        self.publisher(String, '/mark')
         for kind, topic in ((TwistStamped, 'cmd_vel/stop'), (TwistStamped, 'cmd_vel/manual'),
                             (PoseStamped, 'goal_pose')):  # fmt: skip
-            self._publisher(kind, f'{namespace_of(robot)}/{topic}')
+            self.publisher(kind, f'{namespace_of(robot)}/{topic}')
 
     def begin(self, robot: str, action: str, arguments: dict[str, Any], answer: Answer) -> None:
         """Begin an act; ``answer`` gets the words of the robot, or why it was not done.
@@ -142,7 +142,7 @@ class RobotActs:
         self._set_bool(names, 'it has no arbiter, so nobody is locked out', answer, data=False)
 
     def _goal(self, namespace: str, arguments: dict[str, Any], answer: Answer) -> None:
-        publisher = self._publisher(PoseStamped, f'{namespace}/goal_pose')
+        publisher = self.publisher(PoseStamped, f'{namespace}/goal_pose')
         if not publisher.get_subscription_count():
             msg = 'nobody there takes a goal'
             raise RefusedError(msg)
@@ -166,7 +166,7 @@ class RobotActs:
 
     def _mark(self, _: str, arguments: dict[str, Any], answer: Answer) -> None:
         """Publish a text for all who record."""
-        self._publisher(String, '/mark').publish(String(data=arguments['text']))
+        self.publisher(String, '/mark').publish(String(data=arguments['text']))
         answer('')
 
     # Plumbing
@@ -204,10 +204,11 @@ class RobotActs:
         message = TwistStamped()
         message.header.stamp = stamp_of(moment)
         fill_twist(message.twist, twist)
-        self._publisher(TwistStamped, topic).publish(message)
+        self.publisher(TwistStamped, topic).publish(message)
 
-    def _publisher(self, kind: type[Any], topic: str) -> Any:
+    def publisher(self, kind: type[Any], topic: str) -> Any:
         """Return the publisher of a topic, made when it is first needed."""
-        if topic not in self._publishers:
-            self._publishers[topic] = self._port.publisher(kind, topic, COMMAND)
-        return self._publishers[topic]
+        key = topic, kind
+        if key not in self._publishers:
+            self._publishers[key] = self._port.publisher(kind, topic, COMMAND)
+        return self._publishers[key]

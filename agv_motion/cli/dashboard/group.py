@@ -43,6 +43,12 @@ def dashboard(
     recording: Annotated[
         str, typer.Option('--bag', help='Being recorded, to look back into.')
     ] = '',
+    origin: Annotated[
+        str, typer.Option(help='Sites whose tools may open /foxglove, by commas.')
+    ] = '',
+    foxglove_acts: Annotated[
+        bool, typer.Option('--foxglove-acts', help='Operators and experts may act there, too.')
+    ] = False,
     end_with_stdin: Annotated[bool, typer.Option(hidden=True)] = False,
     next_free_port: Annotated[
         bool, typer.Option('--next-free-port', help='Take the next port where this is taken.')
@@ -67,18 +73,31 @@ def dashboard(
     if end_with_stdin:
         threading.Thread(target=_end_with_stdin, daemon=True).start()
     end_at_once()  # until the node's `run` takes over
-    from agv_motion.nodes.dashboard import main
-
-    given: dict[str, object] = {'port': port, 'next_free_port': str(next_free_port).lower()}
+    given: dict[str, object] = {
+        'port': port, 'next_free_port': str(next_free_port).lower(),
+        'foxglove_acts': str(foxglove_acts).lower(),
+    }  # fmt: skip
     texts = {
         'host': host, 'certificate': certificate, 'key': key, 'state_folder': state_folder,
         'bag': recording,
     }  # fmt: skip
     given |= {option: json.dumps(value) for option, value in texts.items() if value}
-    for option, value in (('robots', robots), ('names', name)):
-        listed = [one.strip() for one in value.split(',') if one.strip()]
-        if listed:
-            given[option] = json.dumps(listed)
+    run_node(given | listed({'robots': robots, 'names': name, 'foxglove_origins': origin}))
+
+
+def listed(texts: dict[str, str]) -> dict[str, object]:
+    """Return lists that were given by commas, as parameters; without those that are empty."""
+    split = {
+        option: [one.strip() for one in value.split(',') if one.strip()]
+        for option, value in texts.items()
+    }
+    return {option: json.dumps(values) for option, values in split.items() if values}
+
+
+def run_node(given: dict[str, object]) -> None:
+    """Be the node, with these parameters."""
+    from agv_motion.nodes.dashboard import main
+
     words = (word for option, value in given.items() for word in ('-p', f'{option}:={value}'))
     sys.argv = ['dashboard', '--ros-args', *words]
     main()

@@ -80,6 +80,23 @@ def remove(name: NAME, *, state_folder: FOLDER = '') -> None:
         typer.echo(f'{name} may log in no more')
 
 
+@app.command()
+def token(
+    name: NAME,
+    *,
+    role: ROLE = 'viewer',
+    hours: Annotated[float, typer.Option(help='For which it lasts.')] = 12.0,
+    state_folder: FOLDER = '',
+) -> None:
+    """Print a token by which a tool comes to /foxglove, where it cannot log in.
+
+    It stands in the address, which the tool may keep: so it opens nothing else, is for looking
+    unless a role is given, and is void after some hours, or when the password is changed.
+    """
+    with _users(state_folder) as users:
+        typer.echo(f'?token={users.bearer_token(name, role, hours)}')
+
+
 @app.command(name='list')
 def list_users(*, state_folder: FOLDER = '') -> None:
     """List the users and their roles."""

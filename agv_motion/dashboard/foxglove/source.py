@@ -29,14 +29,24 @@ class GraphSource(Protocol):
 
     @property
     def connections(self) -> ConnectionGraph:
-        """Who speaks with whom; looked at only while `watch_connections` says so."""
+        """Who speaks with whom; known only while that is wanted."""
 
     @property
     def simulated(self) -> bool:
         """Whether the time of the robots is a simulation's."""
 
-    def watch(self, topics: frozenset[str], *, parameters: bool, connections: bool) -> None:
-        """Tell what is wanted: topics that clients have chosen, changes, who speaks with whom."""
+    def watch(
+        self, topics: frozenset[str], *, clients: bool, parameters: bool, connections: bool
+    ) -> None:
+        """Tell what is wanted.
+
+        Args:
+            topics: That clients have chosen.
+            clients: Whether there is one.
+            parameters: Whether changes of parameters are to be told.
+            connections: Whether `connections` is looked at.
+
+        """
 
     def take(self) -> Iterable[tuple[str, int, bytes]]:
         """Yield topic, time of arrival [ns] and data of each message since the last time."""
@@ -46,6 +56,9 @@ class GraphSource(Protocol):
 
     def changed_parameters(self) -> Mapping[str, Any]:
         """Return what has changed since the last time: ``/node.parameter`` and its value."""
+
+    def prepare(self, topic: str, kind: str) -> Future[str]:
+        """Let who listens to a topic be found before something is published."""
 
     def publish(self, topic: str, kind: str, data: bytes) -> Future[str]:
         """Publish a message in CDR; the future ends when it is out, or with why it is not."""

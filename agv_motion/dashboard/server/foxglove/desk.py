@@ -48,7 +48,7 @@ class FoxgloveDesk:
             asked.Subscribe: self._subscribe,
             asked.Unsubscribe: self._unsubscribe,
             asked.Publish: self._publish,
-            asked.Advertise: _advertise,
+            asked.Advertise: self._advertise,
             asked.Unadvertise: _unadvertise,
             asked.Call: lambda client, told: client.begin(hub.services.call(client, told)),
             asked.GetParameters: lambda client, told: client.begin(parameters.get(client, told)),
@@ -91,6 +91,14 @@ class FoxgloveDesk:
                 _tell(client, client.subscriptions.add(number, found))
         self._hub.want()
 
+    def _advertise(self, client: FoxgloveClient, request: asked.Advertise) -> None:
+        for channel in request.channels:
+            why = _advertised(client, channel)
+            _tell(client, why)
+            if not why:
+                ready = self._hub.source.prepare(channel.topic, channel.type)
+                ready.add_done_callback(lambda done: _tell_failure(client, done))
+
     def _publish(self, client: FoxgloveClient, request: asked.Publish) -> None:
         channel = client.published.get(request.channel)
         if channel is None:
@@ -111,11 +119,6 @@ class FoxgloveDesk:
             raise ProtocolError(msg)
         if moves:
             drivers[robot] = client, now
-
-
-def _advertise(client: FoxgloveClient, request: asked.Advertise) -> None:
-    for channel in request.channels:
-        _tell(client, _advertised(client, channel))
 
 
 def _unadvertise(client: FoxgloveClient, request: asked.Unadvertise) -> None:

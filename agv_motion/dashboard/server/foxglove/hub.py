@@ -65,6 +65,7 @@ class FoxgloveHub:
         client.send(protocol.advertise_services(self.services.seen_by(client)))
         self._complain(client)
         self.clients.add(client)
+        self.want()
         self._time = None
         self._someone.set()
 
@@ -83,6 +84,7 @@ class FoxgloveHub:
         by_number = self.channels.by_number
         self.source.watch(
             frozenset(by_number[n].info.topic for n in chosen if n in by_number),
+            clients=bool(self.clients),
             parameters=any(client.watched for client in self.clients),
             connections=any(client.watches_graph for client in self.clients),
         )

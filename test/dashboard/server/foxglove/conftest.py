@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-import json
-import struct
 import threading
-from contextlib import suppress
 from types import SimpleNamespace as Some
 
 import pytest
 
 pytest.importorskip('starlette')
-sync_client = pytest.importorskip('websockets.sync.client')
-
-from websockets.exceptions import ConnectionClosed
+pytest.importorskip('websockets')
 
 from agv_motion.dashboard.foxglove.channels import GraphTopic
 from agv_motion.dashboard.foxglove.protocol import NO_GRAPH
@@ -64,9 +59,10 @@ class Graph:
 
     # As the server sees it
 
-    def watch(self, topics, *, parameters, connections):
+    def watch(self, topics, *, clients, parameters, connections):
         with self.chosen:
             self.wanted, self.watched = topics, (parameters, connections)
+            self.clients = clients
             self.chosen.notify_all()
 
     def take(self):
@@ -81,6 +77,9 @@ class Graph:
         with self._lock:
             found, self._changed = self._changed, {}
         return found
+
+    def prepare(self, topic, kind):
+        return done('')
 
     def publish(self, topic, kind, data):
         self.published.append((topic, kind, data))
@@ -101,71 +100,6 @@ def done(result):
     future = asyncio.get_running_loop().create_future()
     future.set_result(result)
     return future
-
-
-class Tool:
-    """A client of the endpoint."""
-
-    def __init__(self, server, subprotocol='foxglove.sdk.v1', path='/foxglove', **options):
-        url = server.url.replace('http', 'ws', 1) + path
-        names = options.pop('subprotocols', [subprotocol])
-        self.context = sync_client.connect(
-            url, subprotocols=names, max_size=None, compression=None, open_timeout=WAIT, **options
-        )
-        self.socket = self.context.__enter__()
-        self.kept = []
-        self.info = self.wait('serverInfo')
-
-    def ask(self, op, **told):
-        self.socket.send(json.dumps({'op': op} | told))
-
-    def wait(self, op, fits=lambda _: True):
-        """Return the next message of a kind; others are kept for later."""
-        for told in self.kept:
-            if told['op'] == op and fits(told):
-                self.kept.remove(told)
-                return told
-        while True:
-            told = decoded(self.socket.recv(timeout=WAIT))
-            if told['op'] == op and fits(told):
-                return told
-            self.kept.append(told)
-
-    def refusal(self):
-        return self.wait('status', lambda told: told['level'] == 2)['message']
-
-    def channels(self, *topics):
-        """Return the number of each channel, when all are advertised."""
-        found = {}
-        while not set(topics) <= found.keys():
-            found |= {one['topic']: one for one in self.wait('advertise')['channels']}
-        return [found[topic]['id'] for topic in topics]
-
-    def subscribe(self, *topics):
-        """Subscribe to topics, each by the number of its place from 0."""
-        rows = [{'id': n, 'channelId': c} for n, c in enumerate(self.channels(*topics))]
-        self.ask('subscribe', subscriptions=rows)
-
-    def data(self):
-        told = self.wait('message')
-        return told['id'], told['data']
-
-    def closed(self):
-        """Return code and reason, when the server has closed."""
-        with suppress(ConnectionClosed):
-            while True:
-                self.socket.recv(timeout=WAIT)
-        return Some(code=self.socket.close_code, reason=self.socket.close_reason)
-
-
-def decoded(message):
-    if isinstance(message, str):
-        return json.loads(message)
-    kinds = {1: 'message', 2: 'time', 3: 'response', 4: 'asset', 5: 'playback'}
-    if message[0] == 1:
-        number, stamp = struct.unpack_from('<IQ', message, 1)
-        return {'op': 'message', 'id': number, 'stamp': stamp, 'data': message[13:]}
-    return {'op': kinds[message[0]], 'bytes': message[1:]}
 
 
 @pytest.fixture
@@ -192,20 +126,6 @@ def serve(robots, tmp_path, graph):
     for server, store in opened:
         server.close()
         store.close()
-
-
-@pytest.fixture
-def connect():
-    opened = []
-
-    def make(*args, **options):
-        made = Tool(*args, **options)
-        opened.append(made)
-        return made
-
-    yield make
-    for one in opened:
-        one.context.__exit__(None, None, None)
 
 
 @pytest.fixture

@@ -1,0 +1,141 @@
+"""The endpoint over a bag, without ROS: played by Foxglove's controls, or by parameters."""
+
+from __future__ import annotations
+
+import struct
+from types import SimpleNamespace as Some
+
+import pytest
+
+from agv_motion.bag import BagReader, BagWriter
+from agv_motion.dashboard.server.access import Access
+from agv_motion.dashboard.server.app import Foxglove, application
+from agv_motion.dashboard.server.bag_fleet import BagFleet
+from agv_motion.dashboard.server.foxglove.recorded import RecordedRoom
+from agv_motion.dashboard.server.serve import WebServer, listening
+from agv_motion.dashboard.server.site import Site
+
+SECOND = 1_000_000_000
+PAUSE, PLAY = 1, 0
+
+
+@pytest.fixture(scope='module')
+def bag(tmp_path_factory):
+    """Return a bag of a counter, ten times a second for ten seconds, and a latched text."""
+    from agv_motion.bag import OfferedQos
+
+    path = tmp_path_factory.mktemp('bags') / 'counted'
+    with BagWriter(path) as writer:
+        offered = [OfferedQos(durability='transient_local')]
+        latched = writer.add_topic('/description', 'std_msgs/msg/String', qos=offered)
+        count = writer.add_topic('/count', 'std_msgs/msg/UInt32')
+        writer.write(latched, SECOND, b'\0\1\0\0\x02\0\0\0u\0')
+        for number in range(1, 101):
+            stamp = SECOND + number * SECOND // 10
+            writer.write(count, stamp, b'\0\1\0\0' + struct.pack('<I', number))
+    return path
+
+
+@pytest.fixture(scope='module')
+def server(bag):
+    room = RecordedRoom(bag, 20.0)
+    site = Site(BagFleet(bag), Access('127.0.0.1', None), recorded=True)
+    made = WebServer(
+        application(site, foxglove=Foxglove(room, alone=True)), listening('127.0.0.1', 0)
+    )
+    made.start()
+    yield Some(url=made.url)
+    made.close()
+
+
+def control(tool, command, speed=1.0, seek=None, number='n'):
+    words = number.encode()
+    seeks, stamp = seek is not None, seek or 0
+    form = struct.pack('<BBfBQI', 3, command, speed, seeks, stamp, len(words))
+    tool.socket.send(form + words)
+
+
+def state(tool, number):
+    """Return status, time, speed and whether it leapt, of the answer to a request."""
+    told = tool.wait('playback', lambda t: t['bytes'][18:].decode() == number)['bytes']
+    return struct.unpack_from('<BQfB', told)
+
+
+def counts(tool, until):
+    found = []
+    while not found or found[-1] != until:
+        number, data = tool.data()
+        if number == 0:
+            found.append(struct.unpack('<I', data[4:])[0])
+    return found
+
+
+@pytest.mark.parametrize('subprotocol', ['foxglove.sdk.v1', 'foxglove.websocket.v1'])
+def test_all_that_is_in_the_bag_comes(server, connect, bag, subprotocol):
+    tool = connect(server, subprotocol, path='/')
+    newer = subprotocol == 'foxglove.sdk.v1'
+    assert ('playbackControl' in tool.info['capabilities']) is newer
+    assert tool.info.get('dataStartTime') == ({'sec': 1, 'nsec': 0} if newer else None)
+    tool.ask('setParameters', parameters=[{'name': '/playback.seconds', 'value': 0}])
+    tool.subscribe('/count', '/description')
+    assert set(range(20, 101)) <= set(counts(tool, 100))
+    assert any(told['op'] == 'time' for told in tool.kept)
+    with BagReader(bag) as reader:
+        texts = {reader.topics[t].definition for t in ('/count', '/description')}
+    assert all(texts)
+
+
+def test_controls_of_foxglove(server, connect):
+    tool = connect(server)
+    control(tool, PAUSE, 1.0, 6 * SECOND, 'first')
+    assert state(tool, 'first') == (1, 6 * SECOND, 1.0, 1)
+    tool.subscribe('/count', '/description')
+    found = {tool.data() for _ in range(2)}
+    assert found == {(0, b'\0\1\0\0' + struct.pack('<I', 49)), (1, b'\0\1\0\0\x02\0\0\0u\0')}
+    control(tool, PLAY, 50.0, None, 'second')
+    assert state(tool, 'second')[2] == 50.0
+    assert counts(tool, 100) == list(range(50, 101))
+    told = tool.wait('playback', lambda t: t['bytes'][0] == 3)
+    assert struct.unpack_from('<BQ', told['bytes']) == (3, 11 * SECOND)
+    control(tool, PLAY, 1e6, None, 'third')
+    assert 'rate = 1000000.0: must lie in' in tool.refusal()
+
+
+def test_playback_by_parameters_is_told_in_words(server, connect):
+    tool = connect(server, 'foxglove.websocket.v1')
+    rows = [{'name': '/playback.playing', 'value': False},
+            {'name': '/playback.seconds', 'value': 2.5}]  # fmt: skip
+    tool.ask('subscribeParameterUpdates', parameterNames=[])
+    tool.ask('setParameters', parameters=rows, id='q')
+    tool.wait('parameterValues', lambda t: t.get('id') == 'q')
+    told = tool.wait('parameterValues', lambda t: 'id' not in t)
+    values = {row['name']: row['value'] for row in told['parameters']}
+    assert values == {'/playback.playing': False, '/playback.rate': 20.0, '/playback.seconds': 2.5}
+    for name, value, words in (
+        ('/playback.rate', 0, 'must lie in'), ('/playback.seconds', 99, 'must lie in [0, 10'),
+        ('/playback.playing', 1, 'true or false'), ('/playback.x', 1, "no parameter '/playback.x'"),
+    ):  # fmt: skip
+        tool.ask('setParameters', parameters=[{'name': name, 'value': value}])
+        assert words in tool.refusal()
+    tool.ask('getParameters', parameterNames=['/x'])
+    assert "no parameter '/x'" in tool.refusal()
+    control(tool, PLAY)
+    assert 'by the parameters' in tool.refusal()
+
+
+def test_nothing_can_be_done_but_to_play(server, connect):
+    tool = connect(server)
+    tool.ask('advertise', channels=[])
+    assert 'this is a recording' in tool.refusal()
+    tool.ask('subscribe', subscriptions=[{'id': 1, 'channelId': 99}])
+    assert 'no channel 99' in tool.refusal()
+    tool.ask('unsubscribe', subscriptionIds=[4])
+    assert 'no subscription 4' in tool.refusal()
+
+
+def test_each_plays_by_itself(server, connect):
+    first, second = connect(server), connect(server)
+    control(first, PAUSE, 1.0, 3 * SECOND)
+    control(second, PAUSE, 1.0, 5 * SECOND)
+    assert state(first, 'n')[1] == 3 * SECOND
+    assert state(second, 'n')[1] == 5 * SECOND
