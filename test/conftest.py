@@ -388,7 +388,13 @@ class FoxgloveTool:
         from websockets.sync.client import connect
 
         self.context = connect(
-            url, subprotocols=names, max_size=None, compression=None, open_timeout=60.0, **options
+            url,
+            subprotocols=names,
+            max_size=None,
+            compression=None,
+            close_timeout=1,
+            open_timeout=60.0,
+            **options,
         )
         self.socket = self.context.__enter__()
         self.kept = []

@@ -18,6 +18,7 @@ from rclpy.parameter import parameter_value_to_python
 from agv_motion.bag.cdr.definitions import installed
 from agv_motion.dashboard.foxglove.channels import GraphTopic
 from agv_motion.dashboard.foxglove.protocol import NO_GRAPH
+from agv_motion.dashboard.foxglove.transforms import HOLD, DerivedTransforms
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.nodes.foxglove_acts import FoxgloveActs
 from agv_motion.nodes.foxglove_connections import connections
@@ -55,11 +56,13 @@ class FoxgloveGraph:
         self._listeners = ListenerNodes(f'{port.name}_foxglove', port.node.context)
         port.close_later(self._listeners.close)
         self._acts = FoxgloveActs(port, publisher)
+        self._transforms = DerivedTransforms(HOLD)
         self.topics: Mapping[str, GraphTopic] = {}
         self.services: Mapping[str, str] = {}
         self.complaints: Mapping[str, str] = {}
         self.connections = NO_GRAPH
         self.simulated = False
+        self._offered: dict[str, GraphTopic] = {}
         self._publishers: dict[str, list[Any]] = {}
         self._wanted: frozenset[str] = frozenset()
         self._watched = (False, False, False)
@@ -84,13 +87,14 @@ class FoxgloveGraph:
 
     def take(self) -> Iterator[tuple[str, int, bytes]]:
         """Yield topic, time of arrival [ns] and data of each message since the last time."""
-        wanted = self._wanted
+        return self._transforms.passed(self._arrived(), self._wanted)
+
+    def _arrived(self) -> Iterator[tuple[str, int, bytes]]:
         for topic, subscription in self._taken:
             for data, received in subscription.take():
                 if topic in TYPES:
                     self._hear(topic, data)
-                if topic in wanted:
-                    yield topic, received if self._now is None else self._now, data
+                yield topic, received if self._now is None else self._now, data
 
     def time(self) -> int | None:
         """Return the robots' simulated time [ns]; None where time is real."""
@@ -200,6 +204,8 @@ class FoxgloveGraph:
             name: types[0] for name, types in self._node.get_service_names_and_types()
             if len(types) == 1 and '/_' not in name
         }  # fmt: skip
+        self._offered = self._transforms.offered(found)
+        found |= self._offered
         if found != self.topics:
             self.topics = found
         if complaints != self.complaints:
@@ -220,7 +226,8 @@ class FoxgloveGraph:
     def _subscribe(self) -> None:
         """Hear what is wanted, and nothing else."""
         clients, parameters, _ = self._watched
-        wanted = set(self._wanted & self.topics.keys())
+        needed = self._transforms.needed(self._wanted)
+        wanted = set((self._wanted | needed) & self.topics.keys()) - self._offered.keys()
         if clients and self.simulated:
             wanted.add(CLOCK)
         else:

@@ -34,7 +34,7 @@ PATIENCE = 1.0
 SECOND = 1_000_000_000
 
 
-class BagPlayer:
+class BagViewing:
     """One bag, played for one client."""
 
     def __init__(self, path: Path, rate: float = 1.0) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from agv_motion.bag import BagReader
 from agv_motion.dashboard.foxglove import playback
-from agv_motion.dashboard.foxglove.playback import BagPlayer
+from agv_motion.dashboard.foxglove.playback import BagViewing
 from agv_motion.dashboard.foxglove.protocol import PlaybackStatus
 from agv_motion.dashboard.foxglove.requests import ProtocolError
 
@@ -18,7 +18,7 @@ BOTH = '/count', '/description'
 
 @pytest.fixture
 def player(counted):
-    made = BagPlayer(counted)
+    made = BagViewing(counted)
     yield made
     made.close()
 
@@ -97,7 +97,7 @@ def test_a_bag_that_is_torn_plays_up_to_where_it_is(counted, tmp_path):
         (file,) = (one.path for one in bag.files)
     torn = tmp_path / 'torn.mcap'
     torn.write_bytes(file.read_bytes()[:-200])
-    made = BagPlayer(torn)
+    made = BagViewing(torn)
     made.choose(BOTH, 0.0)
     made.play(0.0)
     assert words(made.due(100.0))[:2] == ['urdf', '1']

@@ -6,6 +6,7 @@ import asyncio
 import secrets
 import threading
 import time
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.bag.cdr.definitions import installed
@@ -15,9 +16,10 @@ from agv_motion.dashboard.foxglove import requests as asked
 from agv_motion.dashboard.foxglove.channels import Channels, GraphTopic
 from agv_motion.dashboard.foxglove.frames import frame
 from agv_motion.dashboard.foxglove.parsing import parsed
-from agv_motion.dashboard.foxglove.playback import SECOND, BagPlayer, require_rate
+from agv_motion.dashboard.foxglove.playback import SECOND, BagViewing, require_rate
 from agv_motion.dashboard.foxglove.protocol import NEWER, Capability, PlaybackStatus, Severity
 from agv_motion.dashboard.foxglove.requests import ProtocolError
+from agv_motion.dashboard.foxglove.transforms import DerivedTransforms
 from agv_motion.errors import AgvMotionError, ConfigurationError
 
 if TYPE_CHECKING:
@@ -54,11 +56,15 @@ class RecordedRoom:
         self.path, self.rate = path, rate
         self.session = secrets.token_hex(8)
         self.topics: dict[str, GraphTopic] = {}
+        self.recorded: frozenset[str] = frozenset()
+        """those that are in the bag; the others are made"""
         self.complaints: dict[str, str] = {}
         with BagReader(path) as bag:
             self.span = bag.start, bag.end
             for connection in bag.topics.values():
                 self._meet(connection)
+        self.recorded = frozenset(self.topics)
+        self.topics |= DerivedTransforms(inf).offered(self.topics)
         self._viewings: dict[FoxgloveClient, _Viewing] = {}
 
     def _meet(self, connection: Connection) -> None:
@@ -102,7 +108,7 @@ class _Viewing:
 
     def __init__(self, room: RecordedRoom, client: FoxgloveClient, *, controls: bool) -> None:
         self._room, self._client, self._controls = room, client, controls
-        self._player = BagPlayer(room.path, room.rate)
+        self._player = BagViewing(room.path, room.rate)
         self._channels = Channels()
         self._channels.update(room.topics)
         self._asked: list[Callable[[float], None]] = []
@@ -118,6 +124,11 @@ class _Viewing:
         }
         self._watched = False
         self._lock = threading.Lock()
+        self._transforms = DerivedTransforms(inf)
+        self._offered = self._transforms.offered(
+            {name: one for name, one in room.topics.items() if name in room.recorded}
+        )
+        self._chosen: frozenset[str] = frozenset()
 
     def begin(self) -> None:
         client, room = self._client, self._room
@@ -181,7 +192,7 @@ class _Viewing:
         with self._lock:
             for act in acts:
                 act(now)
-            return self._player.due(now)
+            return list(self._transforms.passed(self._player.due(now), self._chosen))
 
     def _subscribe(self, request: asked.Subscribe) -> None:
         for number, channel in request.channels.items():
@@ -199,8 +210,15 @@ class _Viewing:
         self._choose()
 
     def _choose(self) -> None:
-        chosen = [one.info.topic for _, one in self._client.subscriptions.by_channel.values()]
-        self._asked.append(lambda now: self._player.choose(chosen, now))
+        by_channel = self._client.subscriptions.by_channel.values()
+        chosen = frozenset(one.info.topic for _, one in by_channel)
+
+        def act(now: float) -> None:
+            self._chosen = chosen
+            played = (chosen | self._transforms.needed(chosen)) - self._offered.keys()
+            self._player.choose(played, now)
+
+        self._asked.append(act)
 
     def _control(self, request: asked.Control) -> None:
         if not self._controls:
@@ -216,6 +234,7 @@ class _Viewing:
         def act(now: float) -> None:
             if seek is not None:
                 self._player.seek(seek, now)
+                self._transforms.forget()
             self._player.set_rate(rate, now)
             (self._player.play if playing else self._player.pause)(now)
             loop.call_soon_threadsafe(self._tell_state, number, seek is not None)
