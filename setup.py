@@ -105,6 +105,7 @@ setup(
             'ruff>=0.12',
             'types-pyserial',
             'types-pyyaml',
+            'yourdfpy>=0.0.56',
         ],
         'benchmark': [
             'foxglove-sdk>=0.14',

@@ -13,6 +13,8 @@ from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
+from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
+from agv_motion.demo.drawn import model_node
 from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
@@ -36,6 +38,7 @@ CONFIG = 'differential.yaml'
 
 TOPICS = [
     *ARBITER_TOPICS,
+    *DRAWN_TOPICS,
     RecordedTopic('wheels/command', JointState),
     RecordedTopic('wheels/state', JointState),
     RecordedTopic('odom', Odometry),
@@ -67,7 +70,7 @@ class DifferentialScenario(Scenario[RunBag]):
         self._status: Status | None = None
 
     def build(self) -> DemoGraph:
-        """Make the four nodes."""
+        """Make the five nodes."""
         patient = {'use_sim_time': True, 'report_after': 1.0, 'stop_after': 2.0}
         robot = configured_node(
             DifferentialSimulator, CONFIG, {'time_factor': self._time_factor, 'seed': self._seed}
@@ -78,7 +81,8 @@ class DifferentialScenario(Scenario[RunBag]):
         )  # fmt: skip
         wheels = configured_node(DifferentialKinematics, CONFIG, patient)
         arbiter = arbiter_node(CONFIG, {'timeouts__sequence': 2.0})
-        return DemoGraph((self._actions, arbiter, wheels, robot), robot, TOPICS)
+        model = model_node(CONFIG, pose='fix')
+        return DemoGraph((self._actions, arbiter, wheels, model, robot), robot, TOPICS)
 
     def progress(self, _: float) -> tuple[float, str]:
         """Return how much of the sequence is done, and the action."""

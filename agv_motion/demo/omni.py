@@ -13,6 +13,8 @@ from std_msgs.msg import Float64
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node
 from agv_motion.demo.configured import configured_node
+from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
+from agv_motion.demo.drawn import model_node
 from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.omni_driver import OmniDriver
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
@@ -36,6 +38,7 @@ CONFIG = 'omni.yaml'
 
 TOPICS = [
     *ARBITER_TOPICS,
+    *DRAWN_TOPICS,
     RecordedTopic('wheels/command', JointState),
     RecordedTopic('wheels/state', JointState),
     RecordedTopic('wheels/free_speed', JointState),
@@ -86,7 +89,7 @@ class OmniScenario(Scenario[LocalizationRun]):
         wheels = configured_node(OmniKinematics, CONFIG, patient)
         localization = configured_node(Localization, CONFIG, common)
         arbiter = arbiter_node(CONFIG, {'timeouts__agent': 2.0})
-        nodes = arbiter, wheels, localization, self._simulator
+        nodes = arbiter, wheels, localization, model_node(CONFIG), self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
 
     def view(self, recorder: DemoRecorder) -> DriveView:

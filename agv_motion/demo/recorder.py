@@ -10,11 +10,13 @@ from rclpy.lifecycle import LifecycleNode
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
+from agv_motion.bag.recording.recorded_transforms import RecordedTransforms
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import SourceError
 from agv_motion.ros.endpoints import offer, offered
 from agv_motion.ros.messages import type_name
 from agv_motion.ros.qos import LATCHED
+from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -50,6 +52,8 @@ class DemoRecorder(LifecycleNode):
         self.failure = ''
         """why the bag takes no more, so that the demo is to end; empty while it does"""
         self._writer = BagWriter(bag)
+        add = self._writer.add_topic
+        self._transforms = RecordedTransforms(lambda name, kind, qos: add(name, kind, qos=qos))
         self._now = now
         self._kinds = {topic.name: topic.kind for topic in topics}
         self._latest: dict[str, bytes] = {}
@@ -64,7 +68,9 @@ class DemoRecorder(LifecycleNode):
     def _subscribe(self, topic: RecordedTopic) -> None:
         write, latest, counts = self._writer.write, self._latest, self.counts
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
-        handles = self._handles
+        handles, transforms = self._handles, self._transforms
+        name, kind = f'/{topic.name.lstrip("/")}', type_name(topic.kind)
+        moves = not PUBLISHED and transforms.wants(name, kind)
 
         def keep(data: bytes) -> None:
             arrived.append(time.perf_counter_ns())
@@ -74,7 +80,10 @@ class DemoRecorder(LifecycleNode):
                 return
             try:
                 handle = handles.get(key) or self._add(topic)
-                write(handle, int(now() * 1e9), data)
+                stamp = int(now() * 1e9)
+                write(handle, stamp, data)
+                for handle, told in transforms.take(name, data) if moves else ():
+                    write(handle, stamp, told)
             except OSError as error:
                 self._fail(error)
 
@@ -107,6 +116,9 @@ class DemoRecorder(LifecycleNode):
             for topic in self._topics if not (self._writer.closed or self.failure) else ():
                 if topic.name not in self._handles:
                     self._add(topic)
+            if not (self._writer.closed or self.failure):
+                for handle, told in self._transforms.last():
+                    self._writer.write(handle, int(self._now() * 1e9), told)
             self._writer.close()
         except OSError as error:
             self._fail(error)

@@ -15,6 +15,8 @@ from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
+from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
+from agv_motion.demo.drawn import model_node
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.tree_view import TreeView
@@ -47,6 +49,7 @@ TOPICS = [
     RecordedTopic('granier/sap_flow', Vector3Stamped),
     RecordedTopic('granier/valid', Bool, latched=True),
     *ARBITER_TOPICS,
+    *DRAWN_TOPICS,
     RecordedTopic('goal', PoseStamped, latched=True),
     RecordedTopic('state', String, latched=True),
     RecordedTopic('path', Path, latched=True),
@@ -65,7 +68,7 @@ TOPICS = [
 
 
 class TreeScenario(Scenario[WalkRun]):
-    """One tree with its six nodes, on simulated probes or on a recording."""
+    """One tree with its seven nodes, on simulated probes or on a recording."""
 
     figure = 'walk.png'
 
@@ -87,7 +90,7 @@ class TreeScenario(Scenario[WalkRun]):
         self._place = {'zone_file': zone} if zone else {}
 
     def build(self) -> DemoGraph:
-        """Make the six nodes; the tree starts at the home of its zone."""
+        """Make the seven nodes; the tree starts at the home of its zone."""
         common = {'use_sim_time': True}
         probe = configured_node(GranierProbe, CONFIG, common | self._probes)
         motion = configured_node(
@@ -104,7 +107,8 @@ class TreeScenario(Scenario[WalkRun]):
             {'time_factor': self._time_factor, 'seed': self._seed, 'start_x': x, 'start_y': y},
         )  # fmt: skip
         self._wheels = wheels.parameters
-        nodes = probe, motion, arbiter, wheels, localization, self._simulator
+        model = model_node(CONFIG)
+        nodes = probe, motion, arbiter, wheels, localization, model, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS)
 
     def view(self, recorder: DemoRecorder) -> TreeView:

@@ -17,6 +17,8 @@ from agv_motion.arbitration.source import TwistSource
 from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import N, configured_node
+from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
+from agv_motion.demo.drawn import model_node
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.trees_view import TreesView
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.reader import BagReader
     from agv_motion.nodes.arbiter import ArbiterNode
+    from agv_motion.nodes.robot_model import RobotModelNode
     from agv_motion.ros.live_node import LiveNode
 
 CONFIG = 'tree.yaml'
@@ -47,11 +50,13 @@ NAMES = ('oak', 'ash', 'elm', 'fir', 'yew')
 OF_EACH = (
     ('granier/sap_flow', Vector3Stamped, False),
     *ARBITER_TOPICS,
+    *DRAWN_TOPICS,
     ('goal', PoseStamped, True),
     ('state', String, True),
     ('path', Path, True),
     ('turrets/command', JointState, False),
     ('turrets/state', JointState, False),
+    ('odom', Odometry, False),
     ('pose', PoseWithCovarianceStamped, False),
     ('ground_truth', Odometry, False),
 )
@@ -62,7 +67,7 @@ RATE = 5.0
 
 
 class TreesScenario(Scenario[list[RecordedWalk]]):
-    """Several trees in one zone, six nodes each."""
+    """Several trees in one zone, seven nodes each."""
 
     figure = 'trees.png'
     doing = 'walking'
@@ -130,6 +135,7 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
             arbiter_node(CONFIG, {'rate': RATE}, name),
             node(WheelKinematics, {'rate': RATE}),
             node(Localization, {}),
+            model_node(CONFIG, name),
         )
 
     def view(self, recorder: DemoRecorder) -> TreesView:
@@ -168,3 +174,4 @@ class _Minds(NamedTuple):
     arbiter: LiveNode[ArbiterNode]
     wheels: LiveNode[WheelKinematics]
     localization: LiveNode[Localization]
+    model: LiveNode[RobotModelNode]

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from agv_motion.model.transform import Quaternion
 
 NO_ANGLES: Vector = (0.0, 0.0, 0.0)
+FORWARD: Vector = (1.0, 0.0, 0.0)
+"""The axis of a joint that tells none, as URDF has it"""
 
 
 class JointKind(Enum):
@@ -60,7 +62,7 @@ class RobotJoint(NamedTuple):
     """of the child in the parent [m]"""
     angles: Vector = NO_ANGLES
     """roll, pitch and yaw of the child in the parent, while the joint is at 0 [rad]"""
-    axis: Vector = (0.0, 0.0, 1.0)
+    axis: Vector = FORWARD
     """about which it turns, or along which it slides: a unit vector in the child"""
 
     def at(self, position: float) -> tuple[Vector, Quaternion]:

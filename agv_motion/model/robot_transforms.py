@@ -44,8 +44,8 @@ class RobotTransforms:
             prefix: Before the names of its links.
             hold: How long the place of `odom` in the map counts after a pose [s]. Who steers by it
                 must notice that the pose is lost. Infinite for a recording, which is looked at:
-                then the first pose counts for the odometry before it, too, and the last one for
-                all that comes behind.
+                then what was known first, of the map and of joints, counts for the odometry before
+                it, too, and what was known last for all that comes behind.
 
         """
         self.model, self.prefix = model, prefix
@@ -56,6 +56,8 @@ class RobotTransforms:
         self._odom = ''
         self._told: dict[str, int] = {}
         """stamp of the last transform of each frame [ns]"""
+        self._positions: Mapping[str, float] = {}
+        """of joints, as they were told last"""
         self._waiting: tuple[str, _Place] | None = None
         """a pose that is newer than all odometry"""
         self._map: tuple[str, _Place] | None = None
@@ -115,11 +117,20 @@ class RobotTransforms:
         """Return what follows from the positions of joints [rad or m], by name."""
         if self.model is None:
             return []
-        return [t for t in self.model.moved(stamp, self.prefix, positions) if self._is_news(t)]
+        found: list[Transform] = []
+        if not self._positions and self._hold == inf and self._first is not None:
+            found += self.model.moved(min(self._first, stamp), self.prefix, positions)
+        self._positions = positions
+        found += self.model.moved(stamp, self.prefix, positions)
+        return [transform for transform in found if self._is_news(transform)]
 
     def last(self) -> list[Transform]:
-        """Return what there is to tell at the end, so that the map reaches as far as odometry."""
-        return self._hold_map(self._places[-1].stamp) if self._places else []
+        """Return what there is to tell at the end, so that all reach as far as odometry."""
+        if not self._places:
+            return []
+        stamp = self._places[-1].stamp
+        held = [] if self.model is None else self.model.moved(stamp, self.prefix, self._positions)
+        return [*self._hold_map(stamp), *(one for one in held if self._is_news(one))]
 
     def _locate(self, frame: str, place: _Place) -> list[Transform]:
         """Return the place of `odom` in the map, from that of the robot in both."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.model.robot_model import (
+    FORWARD,
     NO_ANGLES,
     JointKind,
     RobotJoint,
@@ -27,8 +28,6 @@ LONGEST = 10_000_000
 """Characters of a document"""
 MOST = 2000
 """Joints of a robot"""
-FORWARD: Vector = (1.0, 0.0, 0.0)
-"""The axis of a joint that tells none"""
 
 
 def read_urdf(text: str) -> RobotModel:

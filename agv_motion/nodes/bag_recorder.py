@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
+from agv_motion.bag.recording.recorded_transforms import RecordedTransforms
 from agv_motion.bag.recording.recording import Recording, TopicReport
 from agv_motion.bag.recording.storage_parameters import StorageParameters
 from agv_motion.bag.selection import Selection
 from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.model.transform_message import TF
 from agv_motion.parameters import Spec, check
 from agv_motion.ros.arrivals import TICK, Arrivals
 from agv_motion.ros.clock_guard import CLOCK_TOPIC
@@ -24,6 +26,7 @@ from agv_motion.ros.endpoints import message_class, offered
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.raw_subscription import ListenerNodes, RawSubscription
 from agv_motion.ros.run import run
+from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,6 +102,8 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         self._unusable: set[tuple[str, str]] = set()
         self._arrivals: Arrivals | None = None
         """where time is simulated"""
+        self._transforms: RecordedTransforms | None = None
+        """that nobody publishes; None where tf2_msgs is installed, or none are wanted"""
         self._listeners = ListenerNodes(port.name, port.node.context)
         port.close_later(self._listeners.close)
         port.every(given.polling_interval, self._watch, steady=True)
@@ -121,15 +126,21 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         self.report, self.failure = [], ''
         self.paused = self.parameters.start_paused
         self.recording = Recording(self.parameters.folder(), self.parameters.storage)
+        makes = not PUBLISHED and self._selection.takes(TF)
+        self._transforms = RecordedTransforms(self.recording.add_topic) if makes else None
         self.port.info(f'recording into {self.recording.path}')
         self._watch()
 
     def halt(self) -> None:
         """Finish the bag, and tell what was lost."""
         self._take()
+        now = self.port.nanoseconds()
         if self._arrivals is not None:
             self._arrivals.pass_on()
-            self._arrivals = None
+            now, self._arrivals = self._arrivals.now, None
+        if self._transforms is not None and self.recording is not None:
+            for handle, told in self._transforms.last():
+                self.recording.put(handle, now, told, now)
         for subscription, _ in self._subscriptions.values():
             subscription.close()
         self._subscriptions.clear()
@@ -234,16 +245,21 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
             )
         message = message_class(kind)
         handle = recording.add_topic(name, kind, offers)
-        put, arrivals = recording.put, self._arrivals
+        put, arrivals, transforms = recording.put, self._arrivals, self._transforms
+        moves = transforms if transforms and transforms.wants(name, kind) else None
 
         def take(data: bytes, info: dict[str, Any]) -> None:
             if not self.paused:
                 sent, received = info['source_timestamp'], info['received_timestamp']
                 put(handle, received, data, sent, info['publication_sequence_number'] or 0)
+                for other, told in moves.take(name, data) if moves else ():
+                    put(other, received, told, sent)
 
         def take_simulated(data: bytes, info: dict[str, Any]) -> None:
             if not self.paused and arrivals is not None:
                 arrivals.add(handle, data, info)
+                for other, told in moves.take(name, data) if moves else ():
+                    arrivals.add(other, told, info | {'publication_sequence_number': 0})
 
         node = self._listeners.node(len(others))
         return RawSubscription(

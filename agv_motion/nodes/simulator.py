@@ -11,6 +11,7 @@ from sensor_msgs.msg import Illuminance, JointState
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PlatformParameters
 from agv_motion.kinematics.turrets import Turrets
+from agv_motion.model.rolling import WheelTurns
 from agv_motion.nodes.simulated import SimulatedNode, SimulatedParameters, require_possible
 from agv_motion.parameters import Spec
 from agv_motion.ros.messages import TurretJoints, fill_pose
@@ -87,13 +88,17 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         """Return a platform at its start, its turrets straight."""
         given = self.parameters
         self._platform = TurretPlatform(Turrets.of(given), given.motors, given.start())
+        self._turned = WheelTurns(len(given.turret_x))
         self._fix_sensor = FixSensor(given.fixes, given.seed)
         self._wanted = list(self._platform.angles), list(self._platform.speeds)
         return self._platform
 
     def step(self, duration: float) -> None:
         """Let the motors follow their commands."""
+        before, half = self._platform.speeds, 0.5 * duration / self.parameters.wheel_radius
         self._platform.step(*self._wanted, duration)
+        pairs = zip(before, self._platform.speeds, strict=True)
+        self._turned.add([half * (a + b) for a, b in pairs])
 
     def let_go(self) -> None:
         """Stop the wheels, and hold the turrets where they are."""
@@ -121,7 +126,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         message = self._joints.message()
         message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
         rates = [speed / self.parameters.wheel_radius for speed in self._platform.speeds]
-        self._joints.fill(message, self._platform.angles, rates)
+        self._joints.fill(message, self._platform.angles, rates, self._turned.angles())
         self._state.publish(message)
 
     def _publish_fix(self, stamp: Any) -> None:

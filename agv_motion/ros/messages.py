@@ -163,9 +163,15 @@ class TurretJoints:
         """Return whether ``message`` is a :meth:`standstill`, which leaves the turrets alone."""
         return list(message.name) == self._wheel and not any(message.velocity)
 
-    def fill(self, message: JointState, angles: Sequence[float], rates: Sequence[float]) -> None:
-        """Write steering angles [rad] and wheel rates [rad/s]; what a joint lacks is 0."""
-        message.position = [*angles, *self._zeros]
+    def fill(
+        self, message: JointState, angles: Sequence[float], rates: Sequence[float],
+        turned: Sequence[float] = (),
+    ) -> None:  # fmt: skip
+        """Write steering angles [rad] and wheel rates [rad/s]; what a joint lacks is 0.
+
+        A state tells by what angle each wheel has ``turned`` [rad], too.
+        """
+        message.position = [*angles, *(turned or self._zeros)]
         message.velocity = [*self._zeros, *rates]
 
     def read_state(self, message: JointState) -> TurretState:

@@ -85,6 +85,7 @@ ROBOTS = {
             _node('motion_generator', cmd_vel='cmd_vel/agent'),
             ARBITER,
             _node('why'),
+            _node('robot_model'),
             _node('wheel_kinematics'),
             _node('localization'),
             _simulator('simulator'),
@@ -95,6 +96,7 @@ ROBOTS = {
         (
             ARBITER,
             _node('why'),
+            _node('robot_model'),
             _node('omni_kinematics'),
             _node('localization'),
             _simulator('omni_simulator'),
@@ -113,6 +115,7 @@ ROBOTS = {
             _node('differential_kinematics'),
             ARBITER,
             _node('why'),
+            _node('robot_model', pose='{pose}'),
             _node('ghost_trajectory', pose='{pose}', cmd_vel='cmd_vel/page'),
             _node('route_follower', ('route_file', '{route}', str), pose='{pose}',
                   cmd_vel='cmd_vel/route'),

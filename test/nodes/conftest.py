@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import cos, hypot, sin
 
 import pytest
@@ -16,6 +17,7 @@ from std_msgs.msg import Bool, String
 
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.ros.live_node import LiveNode
+from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, LATCHED, SENSOR
 from agv_motion.ros.run import start
 
@@ -140,3 +142,60 @@ def make_senses(tester):
 def qos():
     """Return the three profiles by name."""
     return {'command': COMMAND, 'sensor': SENSOR, 'latched': LATCHED}
+
+
+NOON = 1434366000 * 10**9
+"""[ns] of a day in June on which the sap flows"""
+
+
+@dataclass(frozen=True)
+class NoParameters:
+    """Of a node that needs none."""
+
+
+@pytest.fixture(scope='session')
+def live_in_process():
+    """Return what lets robots as launch files start them live for a while, without middleware."""
+    from agv_motion.reprocess.recorded import node_class, parameters
+    from agv_motion.ros.in_process_graph import InProcessGraph
+    from agv_motion.ros.in_process_node import InProcessNode
+    from agv_motion.ros.robot_graphs import ROBOTS
+
+    class Driver(PlainNode):
+        """Drives in a circle, as the lowest of all sources."""
+
+        name, takes = 'driver', NoParameters
+
+        def __init__(self, port, parameters):
+            super().__init__(port, parameters)
+            self.command = port.publisher(TwistStamped, 'cmd_vel/agent', COMMAND)
+            port.every(0.1, self.drive)
+
+        def drive(self):
+            message = TwistStamped()
+            self.port.stamp(message)
+            message.twist.linear.x, message.twist.angular.z = 0.2, 0.3
+            self.command.publish(message)
+
+    def live(robot, namespaces, record, seconds, without=(), **given):
+        graph = InProcessGraph(record, NOON)
+        for namespace in namespaces:
+            for node in ROBOTS[robot].nodes:
+                if node.name in {'why', *without}:
+                    continue
+                values = parameters(f'{robot}.yaml', node.name, namespace)
+                values |= given.get(node.name, {}) | given.get('all', {})
+                if node.name.endswith('simulator'):
+                    values['clock'] = 'lead' if namespace == namespaces[0] else 'follow'
+                start = namespace.rstrip('/')
+                names = {f'{start}/{a}': f'{start}/{b}'.replace('{pose}', 'fix')
+                         for a, b in node.remappings}  # fmt: skip
+                InProcessNode(graph, node_class(node.name), values, names, namespace)
+            if robot != 'tree':
+                InProcessNode(graph, Driver, {}, {}, namespace)
+        graph.start()
+        graph.run(NOON + round(seconds * 10**9))
+        graph.stop()
+        return graph
+
+    return live

@@ -14,11 +14,9 @@ from nav_msgs.msg import Odometry
 from agv_motion.nodes.arbiter import ArbiterNode
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
 from agv_motion.nodes.localization import Localization
-from agv_motion.reprocess.recorded import node_class, parameters
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
-from agv_motion.ros.robot_graphs import ROBOTS
 
 SECOND = 1_000_000_000
 NOON = 1434366000 * SECOND
@@ -38,40 +36,32 @@ def frames_in(message):
             yield from frames_in(part) if hasattr(part, 'header') else ()
 
 
-def told_by(robot, namespaces, seconds=4.0, **given):
-    """Return the frames that robots say, by namespace; and what they complain of."""
-    said = {name: set() for name in namespaces}
+@pytest.fixture
+def told_by(live_in_process):
+    """Return what tells the frames that robots say, by namespace, and their complaints."""
 
-    def record(publisher, _, data):
-        message = codec(publisher.kind).decode(data) if isinstance(data, bytes) else data
-        said[publisher.port.namespace] |= set(frames_in(message))
+    def told(robot, namespaces, seconds=4.0, **given):
+        said = {name: set() for name in namespaces}
 
-    graph = InProcessGraph(record, NOON)
-    for namespace in namespaces:
-        for node in ROBOTS[robot].nodes:
-            if node.name in {'why', 'scene'}:
-                continue
-            values = parameters(f'{robot}.yaml', node.name, namespace) | given
-            if namespace != namespaces[0] and node.name.endswith('simulator'):
-                values['clock'] = 'follow'
-            names = {f'{namespace}/{a}'.replace('//', '/'): f'{namespace}/{b}'.replace('//', '/')
-                     .replace('{pose}', 'fix') for a, b in node.remappings}  # fmt: skip
-            InProcessNode(graph, node_class(node.name), values, names, namespace)
-    graph.start()
-    graph.run(NOON + round(seconds * SECOND))
-    graph.stop()
-    return said, graph.complaints
+        def record(publisher, _, data):
+            message = codec(publisher.kind).decode(data)
+            said[publisher.port.namespace] |= set(frames_in(message))
+
+        graph = live_in_process(robot, namespaces, record, seconds, all=given)
+        return said, graph.complaints
+
+    return told
 
 
 @pytest.mark.parametrize('robot', ['tree', 'omni', 'differential'])
-def test_a_robot_without_a_namespace_says_plain_frames(robot):
+def test_a_robot_without_a_namespace_says_plain_frames(robot, told_by):
     said, complaints = told_by(robot, ['/'])
     assert {'map', 'odom', 'base_link'} <= said['/'] <= OWN | {'map'}
     assert not [text for text in complaints if 'frame' in text]
 
 
 @pytest.mark.parametrize('robot', ['tree', 'omni', 'differential'])
-def test_robots_side_by_side_share_the_map_alone(robot):
+def test_robots_side_by_side_share_the_map_alone(robot, told_by):
     said, complaints = told_by(robot, ['/oak', '/ash', '/elm'], 3.0)
     assert not [text for text in complaints if 'frame' in text]
     for namespace, frames in said.items():
@@ -81,7 +71,7 @@ def test_robots_side_by_side_share_the_map_alone(robot):
 
 
 @pytest.mark.parametrize(('prefix', 'expected'), [('/', ''), ('/pine/', 'pine/'), ('a_', 'a_')])
-def test_a_prefix_that_is_given_reaches_every_node(prefix, expected):
+def test_a_prefix_that_is_given_reaches_every_node(prefix, expected, told_by):
     said, complaints = told_by('tree', ['/oak'], 2.0, frame_prefix=prefix)
     assert not [text for text in complaints if 'frame' in text]
     assert said['/oak'] <= {expected + name for name in OWN} | {'map'}
