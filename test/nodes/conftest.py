@@ -73,10 +73,21 @@ class Tester:
         self.graph.spin_until(future.done)
         return future.result()
 
-    def wait(self, inbox, condition=lambda message: True, timeout=60.0):
-        """Return the first message in ``inbox`` that fulfils ``condition``."""
+    def wait(self, inbox, condition=lambda message: True, timeout=60.0, saying=None):
+        """Return the first message in ``inbox`` that fulfils ``condition``.
+
+        Meanwhile ``saying()`` again and again: what is said once may be too old before it has done
+        its work, where the machine is busy.
+        """
+
+        def found():
+            return any(map(condition, inbox))
+
         try:
-            self.graph.spin_until(lambda: any(map(condition, inbox)), timeout)
+            if saying is None:
+                self.graph.spin_until(found, timeout)
+            else:
+                self.graph.repeat(saying, found, timeout=timeout)
         except AssertionError as error:
             msg = f'{error}: of {len(inbox)} messages none fits; the last: {inbox[-3:]}'
             raise AssertionError(msg) from error

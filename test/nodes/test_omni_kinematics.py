@@ -70,8 +70,9 @@ class Robot:
         watch = self.node.plain.guard.command
         before = watch.newest
         self.commands.clear()
-        self.cmd_vel.publish(twist(**components))
-        self.tester.graph.spin_until(lambda: watch.newest > before)
+        self.tester.graph.repeat(
+            lambda: self.cmd_vel.publish(twist(**components)), until=lambda: watch.newest > before
+        )
         return self.tester.wait(self.commands, lambda m: nanoseconds(m.header) >= watch.newest)
 
     def tell(self, message):
