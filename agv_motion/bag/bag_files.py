@@ -26,6 +26,10 @@ _MOST_NAMED = 5
 """Names that an error tells."""
 
 
+EXTRAS = 'extras.mcap'
+"""What a bag in sqlite3 has besides messages: attachments and named strings."""
+
+
 class BagFiles(NamedTuple):
     """Files of a bag, in their order."""
 
@@ -108,6 +112,8 @@ def _in_folder(folder: Path) -> BagFiles:
     paths = [*there, *unnamed]
     if not paths:
         raise _no_bag(folder)
+    if EXTRAS not in (path.name for path in paths) and _is_there(folder / EXTRAS):
+        paths.append(folder / EXTRAS)
     return BagFiles(paths, _mode(described) == 'message', problems, _count(described))
 
 
@@ -130,6 +136,8 @@ def _unnamed(
     notes: list[DamagedBagError] = []
     for path in sorted(folder.iterdir(), key=_number):
         if path in named or _bare(path).suffix not in SUFFIXES or not _is_there(path):
+            continue
+        if path.name == EXTRAS and kinds == {'.db3'}:
             continue
         known = [*there, *chosen]
         copy = next((other for other in known if _is_copy(path, other)), None)

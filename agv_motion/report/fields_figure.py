@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 MOST_LINES = 24
 """of one panel"""
 
+_LONGEST_NOTE = 40
+"""characters of a note that are drawn"""
 DASHES = ('-', '--', '-.', ':')
 """Of a line, by how often its colour was there before in its panel."""
 
@@ -65,8 +67,15 @@ def read_panel(
     return panel
 
 
-def draw(panels: Sequence[Sequence[FieldLine]], path: Path) -> None:
+def draw(
+    panels: Sequence[Sequence[FieldLine]], path: Path, notes: Sequence[tuple[float, str]] = ()
+) -> None:
     """Draw panels one below the other.
+
+    Args:
+        panels: What is in each.
+        path: Picture to draw.
+        notes: Words that stand at a time since the start of the bag [s], in the first panel.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -85,6 +94,14 @@ def draw(panels: Sequence[Sequence[FieldLine]], path: Path) -> None:
                 )  # fmt: skip
             axes[str(i)].legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), ncols=2)
             axes[str(i)].grid()
+        for time, words in notes:
+            for panel_axes in axes.values():
+                panel_axes.axvline(time, color=style.OTHERS[1], lw=0.8, ls=':')
+            place = (time, 1.0)
+            axes['0'].annotate(
+                words[:_LONGEST_NOTE], place, xycoords=('data', 'axes fraction'), rotation=90,
+                va='top', ha='right', fontsize='small',
+            )  # fmt: skip
         axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
 
 

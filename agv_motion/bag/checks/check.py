@@ -12,6 +12,7 @@ from agv_motion.bag.checks.silences import regular, silences
 from agv_motion.bag.checks.stamps import stamps
 from agv_motion.bag.columns.column import Ragged
 from agv_motion.bag.columns.columns import read_topic
+from agv_motion.bag.completeness import completeness
 from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ def check(
     for problem in bag.problems:
         severity = 'warning' if getattr(problem, 'harmless', False) else 'error'
         yield Finding(severity, str(getattr(problem, 'path', bag.path)), str(problem))
+    yield from _incomplete(bag)
     sound = True
     for file in bag.files:
         progress(file.path.name)
@@ -92,6 +94,13 @@ def check(
     if not sound:
         text = 'values were not looked at, as the file is damaged: agv bag recover, then check'
         yield Finding('warning', str(bag.path), text)
+
+
+def _incomplete(bag: BagReader) -> Iterator[Finding]:
+    """Yield the topics of which the recorder missed something."""
+    for topic, one in sorted(completeness(bag).items()):
+        if one.missing:
+            yield Finding('warning', topic, f'its recording is {one}')
 
 
 def _type(bag: BagReader, topic: str) -> Iterator[Finding]:

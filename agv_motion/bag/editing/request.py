@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.bag.editing.around import condition, happenings, windows
 from agv_motion.bag.editing.edit import EVERYTHING, Edit, EditReport, edit
 from agv_motion.bag.editing.moments import moment
+from agv_motion.bag.editing.to_sqlite import edit_to_sqlite
+from agv_motion.bag.file_kind import MCAP, SQLITE
+from agv_motion.bag.notes import carry
 from agv_motion.bag.reader import BagReader
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.files.unfinished import beside, told
@@ -50,6 +53,8 @@ class EditRequest:
     """[s] of each file; 0: one file"""
     part_size: float = 0.0
     """[MB] of each file, about; 0: one file"""
+    storage: str = MCAP
+    """'mcap' or 'sqlite3'; empty: the other than that of the bag"""
 
     def run(
         self, source: Path, target: Path, tell: Callable[[float], None] | None = None
@@ -82,7 +87,9 @@ class EditRequest:
             with beside(target) as made, told(target):
                 bags += map(BagReader, sources)
                 what, notes = self.resolve(bags)
-                report = edit(bags, made, what, tell or (lambda _: None))
+                write = edit_to_sqlite if self._storage(bags[0]) == SQLITE else edit
+                report = write(bags, made, what, tell or (lambda _: None))
+                carry([bag.path for bag in bags], made, what.spans)
         finally:
             for bag in bags:
                 bag.close()
@@ -109,6 +116,10 @@ class EditRequest:
             file_size=round(self.part_size * 1e6),
         )  # fmt: skip
         return replace(what, parts=self._parts(spans, start, end)), notes
+
+    def _storage(self, bag: BagReader) -> str:
+        """Return the format of the new bag."""
+        return self.storage or (SQLITE if bag.files[0].as_chunks() else MCAP)
 
     def _require_topics(self, bags: Sequence[BagReader]) -> None:
         topics = {topic for bag in bags for topic in bag.topics}

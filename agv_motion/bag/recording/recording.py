@@ -16,6 +16,7 @@ from math import inf
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.bag.completeness import NOTHING, Completeness, as_record
 from agv_motion.bag.quality_of_service import kept
 from agv_motion.bag.recording.sequence_gaps import SequenceGaps
 from agv_motion.bag.recording.storage_parameters import MEGABYTE, FullDisk
@@ -71,6 +72,13 @@ class _Topic:
     """what a latched topic tells a late listener"""
     gaps: SequenceGaps = field(default_factory=SequenceGaps)
     dropped: int = 0
+    told: Completeness = NOTHING
+    """what the finished files tell"""
+
+    def so_far(self) -> Completeness:
+        """Return what became of its messages; a dropped one leaves a gap in the numbers too."""
+        lost = max(self.gaps.lost - self.dropped, 0)
+        return Completeness(self.gaps.messages, lost, self.dropped)
 
 
 class Recording:
@@ -162,7 +170,7 @@ class Recording:
         self._thread.join()
         with self._lock:
             self._try(self._drain)
-            self._try(self._writer.close)
+            self._try(self._finish)
             if self._writer.discarded:
                 self.failure += f'; the last {self._writer.discarded} messages found no room'
         for message in self._queue:
@@ -201,8 +209,27 @@ class Recording:
         except AgvMotionError as error:
             self._end(str(error))
 
+    def _tell(self) -> None:
+        """Write into the present file how complete its topics are."""
+        if not self._topics or self._writer.closed:
+            return
+        now = [topic.so_far() for topic in self._topics]
+        told: dict[str, Completeness] = {}
+        for topic, one in zip(self._topics, now, strict=True):  # several of a name: other types
+            told[topic.name] = told.get(topic.name, NOTHING).plus(one.since(topic.told))
+        self._writer.flush(sync=False)
+        self._writer.keep(as_record(told))
+        for topic, one in zip(self._topics, now, strict=True):
+            topic.told = topic.told.plus(one.since(topic.told))
+
+    def _finish(self) -> None:
+        self._tell()
+        self._writer.close()
+
     def _end(self, reason: str) -> None:
         self.failure = f'recording {self.path} ended: {reason}'
+        with suppress(OSError):  # it takes some bytes more, or not
+            self._tell()
         with suppress(OSError):  # the same failure again; the bag is whole
             self._writer.close()
 
@@ -237,6 +264,7 @@ class Recording:
 
     def _split(self) -> None:
         """Go on in a new file, with the latched messages again: each file stands alone."""
+        self._tell()
         self._writer.flush(sync=self._given.sync)
         self._writer.split()
         self._split_at = inf

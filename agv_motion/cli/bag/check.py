@@ -37,6 +37,7 @@ def check(
     """
     from agv_motion.bag.checks.check import Limits
     from agv_motion.bag.checks.check import check as findings
+    from agv_motion.bag.completeness import completeness, together
     from agv_motion.bag.reader import BagReader
 
     limits = Limits(_rates(rate or []), tolerance, gap)
@@ -45,10 +46,10 @@ def check(
         for found in findings(reader, limits, lambda what: status.update(f'Looking at {what}')):
             counts[found.severity] += 1
             typer.echo(f'{found.severity}: {found.where}: {found.text}')
-        total = reader.message_count
+        total, told = reader.message_count, completeness(reader)
     typer.echo(
         f'{counts["error"]} errors and {counts["warning"]} warnings in {total} messages of '
-        f'{len(reader.topics)} topics'
+        f'{len(reader.topics)} topics' + (f'; the recording is {together(told)}' if told else '')
     )
     if counts['error'] or (strict and counts['warning']):
         raise typer.Exit(1)

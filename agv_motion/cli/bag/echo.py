@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from agv_motion.cli.bag.options import Bag, Duration, StartOffset, opened, span
+from agv_motion.cli.bag.options import Bag, Duration, StartOffset, moment, opened, span
 from agv_motion.cli.topic.echo_options import (
     Csv,
     Field,
@@ -21,6 +21,9 @@ from agv_motion.cli.topic.echo_options import (
 )
 from agv_motion.cli.topic.message_printer import MessagePrinter
 from agv_motion.cli.topic.message_text import MessageText
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def echo(
@@ -60,7 +63,10 @@ def echo(
     with opened(bag) as reader:
         reader.require([topic_name])
         decoders = {c: decoder(c, bag) for c in reader.connections if c.topic == topic_name}
-        for message in reader.messages([topic_name], *span(reader, start_offset, duration)):
+        limits = span(reader, start_offset, duration)
+        notes = _Notes(bag, limits[0] or reader.start, aside=csv or bool(filter_expr))
+        for message in reader.messages([topic_name], *limits):
+            notes.show(message.stamp)
             about = {
                 'source_timestamp': message.publish,
                 'received_timestamp': message.stamp,
@@ -68,3 +74,21 @@ def echo(
             }
             if printer.show(decoders[message.connection](message), about) and once:
                 break
+        else:
+            notes.show(reader.end if limits[1] is None else limits[1])
+
+
+class _Notes:
+    """Shows notes between the messages, as comments of YAML; aside where a program may read on."""
+
+    def __init__(self, bag: Path, start: int, *, aside: bool) -> None:
+        from agv_motion.bag.notes import notes_of
+
+        self._left = [note for note in notes_of(bag) if note.stamp >= start]
+        self._aside = aside
+
+    def show(self, stamp: int) -> None:
+        """Show those up to a log time [ns]."""
+        while self._left and self._left[0].stamp <= stamp:
+            note = self._left.pop(0)
+            typer.echo(f'# {moment(note.stamp)}: {note.text}', err=self._aside)

@@ -22,8 +22,12 @@ app = typer.Typer(
             'filter': 'bag.rewrite:choose',
             'merge': 'bag.merge:merge',
             'split': 'bag.rewrite:split',
+            'convert': 'bag.rewrite:convert',
             'compress': 'bag.rewrite:compress',
             'sort': 'bag.rewrite:sort',
+            'note': 'bag.note:note',
+            'list': 'bag.content:contents',
+            'du': 'bag.content:du',
         }
     ),
     no_args_is_help=True,

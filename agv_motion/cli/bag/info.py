@@ -9,6 +9,8 @@ import typer
 from agv_motion.cli.bag.options import Bag, moment, opened
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from agv_motion.bag.reader import BagReader
 
 _UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
@@ -34,9 +36,12 @@ def info(
             return
         _head(reader)
         _topics(reader, verbose=verbose)
+        _notes(bag)
 
 
 def _head(bag: BagReader) -> None:
+    from agv_motion.bag.completeness import completeness, together
+
     files = [file.path for file in bag.files]
     length = (bag.end - bag.start) * 1e-9
     rows = {
@@ -48,6 +53,9 @@ def _head(bag: BagReader) -> None:
         'End': moment(bag.end),
         'Messages': str(bag.message_count),
     }
+    told = completeness(bag)
+    if told:
+        rows['Recording'] = str(together(told))
     for title, text in rows.items():
         typer.echo(f'{title + ":":<19}{text}')
 
@@ -68,6 +76,15 @@ def _topics(bag: BagReader, *, verbose: bool) -> None:
                 for qos in connection.qos
             )
         typer.echo(row)
+        title = ''
+
+
+def _notes(bag: Path) -> None:
+    from agv_motion.bag.notes import notes_of
+
+    title = 'Notes:'
+    for note in notes_of(bag):
+        typer.echo(f'{title:<19}{moment(note.stamp)}: {note.text}')
         title = ''
 
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from agv_motion.cli.bag.options import Bag, Duration, StartOffset, opened, span
+
+if TYPE_CHECKING:
+    from agv_motion.bag.reader import BagReader
 
 
 def plot(
@@ -34,5 +37,18 @@ def plot(
 
     with opened(bag) as reader:
         limits = span(reader, start_offset, duration)
-        draw([read_panel(reader, argument, *limits) for argument in fields], output)
+        panels = [read_panel(reader, argument, *limits) for argument in fields]
+        draw(panels, output, _notes(reader, *limits))
         typer.echo(f'Figure: {output}')
+
+
+def _notes(bag: BagReader, start: int | None, stop: int | None) -> list[tuple[float, str]]:
+    """Return the notes within a span, each with its time since the start of the bag [s]."""
+    from agv_motion.bag.notes import notes_of
+
+    first, last = start or bag.start, bag.end + 1 if stop is None else stop
+    return [
+        ((note.stamp - bag.start) * 1e-9, note.text)
+        for note in notes_of(bag.path)
+        if first <= note.stamp < last
+    ]

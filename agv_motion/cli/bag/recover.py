@@ -33,6 +33,7 @@ def recover(
     """
     from agv_motion.bag.bag_files import find
     from agv_motion.bag.editing.recovery import Recovery
+    from agv_motion.bag.notes import carry
     from agv_motion.bag.writer import BagWriter
     from agv_motion.files.unfinished import beside, told
 
@@ -46,6 +47,7 @@ def recover(
         with Progress(console=terminal(stderr=True), transient=True) as bar:
             task = bar.add_task('Saving', total=1.0)
             recovery.save(damaged, lambda share: bar.update(task, completed=share))
+        carry([damaged], made, None)
     for problem in recovery.problems[:MOST_PROBLEMS]:
         typer.echo(f'found: {problem}', err=True)
     if len(recovery.problems) > MOST_PROBLEMS:

@@ -108,6 +108,40 @@ def compress(
     edit_each(bag, output, EditRequest(compression=chosen), workers, scheduler)
 
 
+def convert(
+    bag: Source,
+    output: Target,
+    *,
+    storage: Annotated[
+        str, typer.Option('--to', '-s', help='mcap or sqlite3; else the one that it is not.')
+    ] = '',
+    topics: Topics = None,
+    codec: Compression = '',
+    workers: Workers = 1,
+    scheduler: Scheduler = '',
+) -> None:
+    """Convert a bag from sqlite3 to MCAP, or back.
+
+    A file of sqlite3 has no place for times of sending and for numbers of messages: they are lost
+    there. Attachments and metadata go into extras.mcap beside it, from which they come back.
+    For example:
+
+    agv bag convert old_db3 new_mcap
+
+    agv bag convert walk for_old_tools --to sqlite3
+
+    agv bag convert archive_db3 archive_mcap --workers 4
+    """
+    from agv_motion.bag.editing.request import EditRequest
+
+    if storage not in ('', 'mcap', 'sqlite3'):
+        msg = f"--to '{storage}': choose mcap or sqlite3"
+        raise ConfigurationError(msg)
+    chosen = selection(topics, '', None, '')
+    request = EditRequest(chosen, compression=compression(codec), storage=storage)
+    edit_each(bag, output, request, workers, scheduler)
+
+
 def sort(bag: Source, output: Target, *, workers: Workers = 1, scheduler: Scheduler = '') -> None:
     """Put the messages of a bag in the order of their log time; what is in order is copied.
 

@@ -21,8 +21,11 @@ from rosbags.rosbag2 import Reader
 
 pytest.importorskip('std_msgs')
 
+from agv_motion.bag.checks.check import Limits, check
+from agv_motion.bag.completeness import completeness, together
 from agv_motion.bag.mcap.writer import McapWriter
 from agv_motion.bag.quality_of_service import OfferedQos
+from agv_motion.bag.reader import BagReader
 from agv_motion.bag.recording.recording import Recording
 from agv_motion.bag.recording.storage_parameters import StorageParameters
 from agv_motion.errors import ConfigurationError, SourceError
@@ -75,6 +78,34 @@ def test_everything_handed_over_is_in_the_bag_and_reported(tmp_path):
         messages = list(SeekingReader(stream, validate_crcs=True).iter_messages())
     assert messages[3][2].publish_time == 4 * SECOND
     assert messages[3][2].sequence == 4
+
+
+def test_each_file_tells_what_was_lost_and_dropped_of_its_messages(tmp_path):
+    one = recording(tmp_path / 'bag', cache=1.0)
+    topic = one.add_topic('/text', TEXT, VOLATILE)
+    one.add_topic('/silent', TEXT, VOLATILE)
+    for number in (1, 2, 4):
+        one.put(topic, number, text(number), number, number)
+    one.split()
+    for number in (5, 6):
+        one.put(topic, number, text(number), number, number)
+    with one._lock:  # noqa: SLF001 - a disk that takes nothing meanwhile
+        for number in (7, 8, 9):
+            one.put(topic, number, text(number, 700_000), number, number)
+    one.split()
+    one.put(topic, 12, text(12), 12, 12)
+    one.close()
+    found = []
+    for file in sorted((tmp_path / 'bag').glob('*.mcap')):
+        with BagReader(file) as bag:
+            found.append(completeness(bag))
+    assert [one['/text'] for one in found] == [(3, 1, 0), (4, 0, 1), (1, 2, 0)]
+    assert [one['/silent'] for one in found] == [(0, 0, 0)] * 3
+    with BagReader(tmp_path / 'bag') as bag:
+        told = completeness(bag)
+        warnings = [f.text for f in check(bag, Limits()) if f.where == '/text']
+    assert str(together(told)) == '66.66 % complete (3 lost on the way, 1 dropped)'
+    assert any(str(told['/text']) in warning for warning in warnings)
 
 
 def test_by_duration_a_new_file_begins_with_the_message_that_is_due(tmp_path):
