@@ -111,6 +111,7 @@ setup(
             'foxglove-sdk>=0.14',
             'mcap>=1.1',
             'mcap-ros2-support-fast>=0.8',
+            'pymcap-cli>=0.34',
             'robotpy-wpimath',
         ],
         'cluster': ['distributed>=2024.5'],

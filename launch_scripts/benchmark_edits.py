@@ -1,8 +1,8 @@
 """Benchmarks of editing bags, beside pymcap-cli and rosbags-convert, in one run.
 
-launch_scripts/benchmark_edits.py [MB]: a bag of that size (300), then each command of both, in turn,
-as a person starts it; processor time (user and system, in seconds, without that of a start that does
-nothing) and memory at its peak [MiB]. pip install "agv_motion[benchmark]" first.
+launch_scripts/benchmark_edits.py [MB]: a bag of that size (300), then each command of both, in
+turn, as a person starts it; processor time (user and system, in seconds, without that of a start
+that does nothing) and memory at its peak [MiB]. pip install "agv_motion[benchmark]" first.
 """
 
 from __future__ import annotations
@@ -124,8 +124,10 @@ def compared(bag: Path, folder: Path) -> None:
         )
         wall = [median(one.wall for one in found) for found in costs]
         peak = [max(one.peak for one in found) for found in costs]
-        print(f'{what:20} {ours:6.2f} s, {both[1][0]} {theirs:6.2f} s: {theirs / ours:.1f} times; '
-              f'wall {wall[0]:.2f} and {wall[1]:.2f} s; peak {peak[0]} and {peak[1]} MiB')  # fmt: skip
+        print(
+            f'{what:20} {ours:6.2f} s, {both[1][0]} {theirs:6.2f} s: {theirs / ours:.1f} times; '
+            f'wall {wall[0]:.2f} and {wall[1]:.2f} s; peak {peak[0]} and {peak[1]} MiB'
+        )
 
 
 def cut(bag: Path, folder: Path) -> None:

@@ -15,9 +15,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.checks.check import Limits, check
+from agv_motion.bag.checks.sizes import sizes
 from agv_motion.bag.columns.columns import read_topics
+from agv_motion.bag.completeness import completeness, together
 from agv_motion.bag.editing.recovery import Recovery
+from agv_motion.bag.editing.request import EditRequest
+from agv_motion.bag.notes import NAME as NOTES
+from agv_motion.bag.notes import notes_of
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.selection import Selection
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import AgvMotionError
 
@@ -33,6 +39,12 @@ HEADER = 'std_msgs/Header header\nstring[] name\nfloat64[] position\n' + (
     + '=' * 80 + '\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n'
 )  # fmt: skip
 WORDS = (0, 1, 2**15, 2**31 - 1, 2**32 - 1, 2**63 - 1, 2**63, 2**64 - 1)
+REQUESTS = (
+    EditRequest(), EditRequest(compression='lz4', part_size=0.0005), EditRequest(ordered=True),
+    EditRequest(Selection(topics=('/text',)), begin='0.000000005'),
+    EditRequest(around='/joints/position > -1'), EditRequest(storage='sqlite3'),
+)  # fmt: skip
+"""What is asked of every bag."""
 TEXTS = (b'string<=9999999999999999999 data', b'a/B b', b'\xff\xfe\x00', b'float64[2147483647] x')
 
 
@@ -122,8 +134,35 @@ def looked_at(path: Path, saved: Path) -> None:
         with BagWriter(saved) as writer:
             Recovery(writer).save(path)
 
-    for act in (messages, columns, careless, findings, recovery):
+    for act in (messages, columns, careless, findings, recovery, notes):
         told(path, partial(act, path))
+    for number, request in enumerate(REQUESTS):
+        told(path, partial(edited, path, saved.with_name(f'{saved.name}_{number}'), request))
+
+
+def edited(path: Path, new: Path, request: EditRequest) -> None:
+    """Make a bag of it; what is made must be whole, and hold nothing that is not read."""
+    request.make([path] * (1 + request.ordered), new)
+    with BagReader(new) as bag:
+        assert not bag.problems, bag.problems
+        made = {(m.connection.topic, m.stamp, m.data) for m in bag.messages()}
+        assert len(made) <= bag.message_count
+    with BagReader(path) as bag:
+        read = {(m.connection.topic, m.stamp, m.data) for m in bag.messages()}
+    assert made <= read, made - read
+    if not (request.begin or request.around or request.topics.topics):
+        assert made == read, read - made
+
+
+def notes(path: Path) -> None:
+    """Read the bytes as notes, and what the recorder may have told."""
+    place = path.with_name(f'{path.name}.{NOTES}')
+    place.write_bytes(path.read_bytes())
+    notes_of(path)
+    place.unlink()
+    with BagReader(path) as bag:
+        together(completeness(bag))
+        sizes(bag)
 
 
 def fuzz(seconds: float, seed: int, rounds: int = sys.maxsize) -> int:

@@ -74,6 +74,15 @@ def cases(sources: Path, cluster: str) -> list[Case]:
     results = tuple(f'results/{name}' for name in 'abc')
     found = [
         Case('bag recover', ('bag', 'recover', torn, 'saved'), (), ('saved',), status=1),
+        Case('bag cut', ('bag', 'cut', walk, 'new', '--from', '5', '--to', '15'), (), ('new',)),
+        Case('bag filter', ('bag', 'filter', walk, 'new', '--topics', '/odom'), (), ('new',)),
+        Case('bag split', ('bag', 'split', walk, 'new', '-d', '7'), (), ('new',)),
+        Case('bag merge', ('bag', 'merge', walk, walk, 'new'), (), ('new',)),
+        Case('bag convert', ('bag', 'convert', walk, 'new'), (), ('new',)),
+        Case('bag compress', ('bag', 'compress', walk, 'new', '--compression', 'lz4'), (),
+             ('new',)),
+        Case('bag filter -j 2', ('bag', 'filter', walks, 'new', '--topics', '/odom', '-j', '2'), (),
+             tuple(f'new/{name}' for name in 'abc'), forked=False, worker=True),
         Case('bag export csv', ('bag', 'export', walk, 'tables', '--topics', '/odom', '--topics',
                                 '/fix', '--topics', '/cmd_vel'), (notes,)),
         Case('bag export parquet', ('bag', 'export', walk, 'tables', '--topics', '/odom',

@@ -61,4 +61,5 @@ def _chunks(file: ChunkedFile) -> Iterator[tuple[str, int, float]]:
         sums = np.bincount(places[order], weights=lengths, minlength=len(told))
         for channel, size in zip(told, sums.tolist(), strict=True):
             share = size * chunk.length / chunk.size if chunk.size else 0.0
-            yield file.channels[channel].topic, int(size), share
+            if channel in file.channels:  # else nothing describes it, and it is not read either
+                yield file.channels[channel].topic, int(size), share

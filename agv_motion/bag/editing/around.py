@@ -89,8 +89,12 @@ def happenings(bag: BagReader, wanted: Condition) -> Happenings:
     """
     topic, field = topic_and_field(bag, wanted.name)
     columns = read_topic(bag, topic, [field] if field else None)
-    path, column = _only(wanted, columns.fields, named=bool(field))
-    met = _met(wanted, path, column)
+    try:
+        path, column = _only(wanted, columns.fields, named=bool(field))
+        met = _met(wanted, path, column)
+    except ConfigurationError as error:
+        msg = f'bag {bag.path}: {error}'
+        raise ConfigurationError(msg) from None
     order = np.argsort(columns.stamps, kind='stable')
     met = met[order]
     begins = met & ~np.concatenate((np.zeros(1, bool), met[:-1]))
@@ -155,7 +159,7 @@ def _met(wanted: Condition, path: str, column: Column) -> NDArray[np.bool_]:
     """
     if isinstance(column, Ragged):
         each = _compared(wanted, column.values)
-        flat = np.asarray(each.reshape(len(each), -1).any(axis=1))
+        flat = np.asarray(_rows(each).any(axis=1))
         if wanted.place is not None:
             long = column.lengths > wanted.place
             met = np.zeros(len(column), bool)
@@ -164,7 +168,7 @@ def _met(wanted: Condition, path: str, column: Column) -> NDArray[np.bool_]:
         before: NDArray[np.int64] = np.concatenate(([0], np.cumsum(flat))).astype(np.int64)
         return np.asarray(before[column.offsets[1:]] > before[column.offsets[:-1]])
     each = _compared(wanted, column)
-    table = each.reshape(len(each), -1)
+    table = _rows(each)
     if wanted.place is None:
         return np.asarray(table.any(axis=1))
     if each.ndim == 1 or wanted.place >= table.shape[1]:
@@ -172,6 +176,11 @@ def _met(wanted: Condition, path: str, column: Column) -> NDArray[np.bool_]:
         msg = f"'{wanted}': {path} is {size}: count its elements from 0"
         raise ConfigurationError(msg)
     return np.asarray(table[:, wanted.place])
+
+
+def _rows(each: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return all elements of each message in a row; there may be none of either."""
+    return each.reshape(len(each), int(np.prod(each.shape[1:])))
 
 
 def _compared(wanted: Condition, column: Column) -> NDArray[np.bool_]:

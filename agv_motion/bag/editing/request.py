@@ -127,7 +127,7 @@ class EditRequest:
             if topic not in topics:
                 bags[0].require([topic])
         if topics and not any(map(self.topics.takes, topics)):
-            msg = f'no topic is left of {", ".join(sorted(topics))}: choose others'
+            msg = f'no topic is left of {bags[0].path}, {", ".join(sorted(topics))}: choose others'
             raise ConfigurationError(msg)
 
     def _spans(
@@ -141,8 +141,8 @@ class EditRequest:
             raise ConfigurationError(msg)
         if (self.begin or self.end) and not (first <= end and stop > start):
             msg = (
-                f"nothing was recorded from '{self.begin or start}' to '{self.end or end}': the "
-                f'bag reaches from @{_seconds(start)} to @{_seconds(end)}'
+                f"nothing was recorded from '{self.begin or start}' to '{self.end or end}': "
+                f'{bags[0].path} reaches from @{_seconds(start)} to @{_seconds(end)}'
             )
             raise ConfigurationError(msg)
         if not self.around:

@@ -49,7 +49,7 @@ def test_parts_begin_at_multiples_of_their_duration(walk):
 
 
 @pytest.mark.parametrize(('asked', 'words'), [
-    ({'begin': '10'}, r'the bag reaches from @100.000 to @103.900'),
+    ({'begin': '10'}, r'walk reaches from @100.000 to @103.900'),
     ({'begin': '2', 'end': '1'}, 'expected the earlier one first'),
     ({'begin': 'x'}, 'is no moment'), ({'around': '/a ~ nothing'}, 'was never met'),
     ({'topics': Selection(topics=('/aa',))}, "did you mean '/a'"),
