@@ -96,7 +96,12 @@ def pick(file: ChunkedFile, chunk: Chunk, wanted: Wanted) -> NewChunk | Picked |
 
     """
     there = _look(file, chunk)
-    take = np.isin(there.channels, list(wanted.channels))
+    if not len(there.channels) or not wanted.channels:
+        return None
+    ids = np.full(max(int(there.channels.max()), *wanted.channels) + 1, -1, np.int32)
+    ids[list(wanted.channels)] = list(wanted.channels.values())
+    new = ids[there.channels]
+    take = new >= 0
     if wanted.spans is not None:
         within = np.zeros(len(take), bool)
         for start, stop in wanted.spans:
@@ -104,26 +109,29 @@ def pick(file: ChunkedFile, chunk: Chunk, wanted: Wanted) -> NewChunk | Picked |
         take &= within
     if not take.any():
         return None
-    moved = {a: b for a, b in wanted.channels.items() if a != b}
     disordered = wanted.ordered and bool((there.stamps[1:] < there.stamps[:-1]).any())
-    if (
-        take.all()
-        and not disordered
-        and not chunk.bare
-        and not (moved and np.isin(there.channels, list(moved)).any())
-        and _may_be_copied(there, wanted)
-    ):
-        head, stored = stored_content(file.data, chunk, file.path)
-        if wanted.compression in (None, head.compression):
-            entries = np.column_stack((there.stamps, there.offsets)).astype('<u8', copy=False)
-            times = int(there.stamps.min()), int(there.stamps.max())
-            crc = head.crc or crc32(there.content)
-            indexes = _by_channel(there.channels, entries)
-            return NewChunk(times, head.size, crc, head.compression, stored, indexes, fresh=False)
+    if take.all() and not (disordered or chunk.bare) and (new == there.channels).all():
+        copied = _copied(file, chunk, there, wanted)
+        if copied is not None:
+            return copied
     rows = np.flatnonzero(take)
     if disordered:
         rows = rows[np.argsort(there.stamps[rows], kind='stable')]
-    return _gathered(there, rows, moved)
+    return _gathered(there, rows, new[rows].astype(np.uint16))
+
+
+def _copied(file: ChunkedFile, chunk: Chunk, there: _Look, wanted: Wanted) -> NewChunk | None:
+    """Return the chunk as it is stored; None if it must be another in the new file."""
+    head, stored = stored_content(file.data, chunk, file.path)
+    if wanted.compression not in (None, head.compression) or not _may_be_copied(there, wanted):
+        return None
+    times = int(there.stamps.min()), int(there.stamps.max())
+    crc = head.crc or crc32(there.content)
+    indexes = {channel: rows.tobytes() for channel, rows in there.indexes.items()}
+    if not indexes:
+        entries = np.column_stack((there.stamps, there.offsets)).astype('<u8', copy=False)
+        indexes = _by_channel(there.channels, entries)
+    return NewChunk(times, head.size, crc, head.compression, stored, indexes, fresh=False)
 
 
 class _Look(NamedTuple):
@@ -137,30 +145,38 @@ class _Look(NamedTuple):
     """[bytes] where each ends in ``content``"""
     others: Sequence[tuple[int, int]]
     """ids of what else is in it, each after its opcode: descriptions of types and channels"""
+    indexes: Mapping[int, NDArray[np.uint64]]
+    """rows of the message index of each channel; empty where there is none"""
 
 
 def _look(file: ChunkedFile, chunk: Chunk) -> _Look:
     content = file.unpacked(chunk)
+    tables: dict[int, NDArray[np.uint64]] = {}
     if chunk.indexes is None:
         offsets = message_offsets(content).astype(np.uint64)
         found = file.heads(chunk, content, offsets)
+        file.require_described(chunk, found)
     else:
-        told = file.entries(chunk)
-        none = np.empty(0, np.uint64)
-        offsets = np.concatenate([none, *(one.offsets for one in told.values())])
-        stamps = np.concatenate([none, *(one.stamps for one in told.values())])
-        numbers = np.repeat(list(told), [len(one.stamps) for one in told.values()])
-        order = np.argsort(offsets, kind='stable')
-        offsets, stamps, numbers = offsets[order], stamps[order], numbers[order]
+        tables = {n: file.index_of(chunk, n, content) for n in chunk.indexes}
+        table = np.concatenate([np.empty((0, 2), np.uint64), *tables.values()])
+        numbers = np.repeat(list(tables), [len(one) for one in tables.values()])
+        if len(tables) > 1:
+            order = np.argsort(table[:, 1], kind='stable')
+            table, numbers = table[order], numbers[order]
+        offsets = table[:, 1]
         found = file.heads(chunk, content, offsets)
-        if (found['channel'] != numbers).any() or (found['stamp'] != stamps).any():
+        wrong = (found['channel'] != numbers) | (found['stamp'] != table[:, 0])
+        if wrong.any() or not tables.keys() <= file.channels.keys():
             file.require_described(chunk, found)
             finding = 'in this chunk, messages that are not those of its index'
             raise DamagedBagError(file.path, chunk.offset, finding)
-    file.require_described(chunk, found)
+    stamps = found['stamp']
+    if len(stamps) and not chunk.start <= int(stamps.min()) <= int(stamps.max()) <= chunk.end:
+        finding = f'in this chunk, messages outside of its time, {chunk.start} to {chunk.end} ns'
+        raise DamagedBagError(file.path, chunk.offset, finding)
     ends = offsets + found['length'] + np.uint64(records.PREFIX.size)
     others = _between(file, chunk, content, offsets, ends)
-    return _Look(content, found['channel'], found['stamp'], offsets, ends, others)
+    return _Look(content, found['channel'], stamps, offsets, ends, others, tables)
 
 
 def _between(
@@ -177,7 +193,7 @@ def _between(
 
     """
     begins = np.append(offsets, np.uint64(len(content)))
-    before = np.concatenate((np.zeros(1, np.uint64), ends))
+    before = np.append(np.uint64(0), ends)
     if (begins < before).any():
         finding = 'in this chunk, messages that lie in each other'
         raise DamagedBagError(file.path, chunk.offset, finding)
@@ -207,21 +223,17 @@ def _may_be_copied(there: _Look, wanted: Wanted) -> bool:
     )
 
 
-def _gathered(there: _Look, rows: NDArray[np.intp], moved: Mapping[int, int]) -> Picked:
-    """Return some messages of a chunk, those of ``moved`` channels with their new ids."""
+def _gathered(there: _Look, rows: NDArray[np.intp], channels: NDArray[np.uint16]) -> Picked:
+    """Return some messages of a chunk, with their channels in the new file."""
     begins, ends = there.offsets[rows], there.ends[rows]
     content = memoryview(there.content)
     breaks = np.flatnonzero(begins[1:] != ends[:-1]) + 1
     firsts = begins[np.concatenate(([0], breaks))].tolist()
     lasts = ends[np.concatenate((breaks - 1, [len(rows) - 1]))].tolist()
-    pieces = [content[a:b] for a, b in zip(firsts, lasts, strict=True)]
+    data = b''.join([content[a:b] for a, b in zip(firsts, lasts, strict=True)])
     sizes = ends - begins
     offsets = np.cumsum(sizes) - sizes
-    channels, data = there.channels[rows], b''.join(pieces)
-    if moved and np.isin(channels, list(moved)).any():
-        ids = np.arange(1 << 16, dtype=np.uint16)
-        ids[list(moved)] = list(moved.values())
-        channels = ids[channels]
+    if (channels != there.channels[rows]).any():
         changed = np.frombuffer(bytearray(data), np.uint8)
         places = offsets.astype(np.intp) + _CHANNEL_AT
         changed[places], changed[places + 1] = channels & 0xFF, channels >> 8
