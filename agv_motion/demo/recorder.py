@@ -55,18 +55,21 @@ class DemoRecorder(LifecycleNode):
         add = self._writer.add_topic
         self._transforms = RecordedTransforms(lambda name, kind, qos: add(name, kind, qos=qos))
         self._now = now
-        self._kinds = {topic.name: topic.kind for topic in topics}
         self._latest: dict[str, bytes] = {}
-        self._topics = topics
+        self._topics = {topic.name: topic for topic in topics}
         self._handles: dict[str, int] = {}
         """of the topics in the bag: each is added with its first message"""
-        self.counts = {topic.name: 0 for topic in topics}
         self.arrivals: dict[str, list[int]] = {topic.name: [] for topic in topics}
         for topic in topics:
             self._subscribe(topic)
 
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of messages of each topic so far."""
+        return {topic: len(arrived) for topic, arrived in self.arrivals.items()}
+
     def _subscribe(self, topic: RecordedTopic) -> None:
-        write, latest, counts = self._writer.write, self._latest, self.counts
+        write, latest = self._writer.write, self._latest
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
         handles, transforms = self._handles, self._transforms
         name, kind = f'/{topic.name.lstrip("/")}', type_name(topic.kind)
@@ -75,7 +78,6 @@ class DemoRecorder(LifecycleNode):
         def keep(data: bytes) -> None:
             arrived.append(time.perf_counter_ns())
             latest[key] = data
-            counts[key] += 1
             if self.failure:
                 return
             try:
@@ -103,7 +105,7 @@ class DemoRecorder(LifecycleNode):
     def latest(self, topic: str) -> Any | None:
         """Return the last message of a topic, None before the first."""
         data = self._latest.get(topic)
-        return None if data is None else deserialize_message(data, self._kinds[topic])
+        return None if data is None else deserialize_message(data, self._topics[topic].kind)
 
     def close(self) -> None:
         """Finish the bag; a topic on which nobody spoke is in it, too.
@@ -113,7 +115,7 @@ class DemoRecorder(LifecycleNode):
 
         """
         try:
-            for topic in self._topics if not (self._writer.closed or self.failure) else ():
+            for topic in self._topics.values() if not (self._writer.closed or self.failure) else ():
                 if topic.name not in self._handles:
                     self._add(topic)
             if not (self._writer.closed or self.failure):

@@ -47,10 +47,7 @@ class TwistRamp:
 
         """
         self._rows = [(float(a), float(b), float(c)) for a, b, c in rows]
-        self._top = limits.max_wheel_speed
-        self._up = limits.max_wheel_acceleration or inf
-        self._down = limits.max_wheel_deceleration or inf
-        self._jerk = limits.max_wheel_jerk or inf
+        self._limits = limits
         self.twist = REST
         """what is to be commanded now"""
         self.target = REST
@@ -88,7 +85,7 @@ class TwistRamp:
             raise SignalError(msg)
         if self.twist == self.target or dt == 0.0:
             self._slope = REST if dt else self._slope
-        elif self._jerk == inf:
+        elif self._limits.jerk == inf:
             self._approach(dt)
         else:
             self._ease(dt)
@@ -106,11 +103,11 @@ class TwistRamp:
     def _allowed(self, speed: float, change: float, dt: float) -> float:
         """Return by how much a wheel at ``speed`` may change in ``dt`` towards ``change``."""
         if speed * change >= 0.0:
-            return self._up * dt
+            return self._limits.speeding_up * dt
         speed = abs(speed)
-        if speed >= self._down * dt:
-            return self._down * dt
-        return speed + self._up * (dt - speed / self._down)
+        if speed >= self._limits.braking * dt:
+            return self._limits.braking * dt
+        return speed + self._limits.speeding_up * (dt - speed / self._limits.braking)
 
     def _ease(self, dt: float) -> None:
         """Change the slope by the jerk, and the twist by the slope."""
@@ -118,22 +115,22 @@ class TwistRamp:
         changes = [_speed(row, gap) for row in self._rows]
         most = max(map(abs, changes))
         # of the share of the gap [1/s]; a gap of rounding is closed in this step
-        rate = _landing_rate(most, self._jerk, dt) / most if most > NOTHING else 1.0 / dt
+        rate = _landing_rate(most, self._limits.jerk, dt) / most if most > NOTHING else 1.0 / dt
         for row, change in zip(self._rows, changes, strict=True):
             speed = _speed(row, self.twist)
             brakes = speed * change < 0.0 and abs(change) <= abs(speed)
-            limit = self._down if brakes else self._up
+            limit = self._limits.braking if brakes else self._limits.speeding_up
             if abs(change) * rate > limit:
                 rate = limit / abs(change)
         wanted = Twist(rate * gap.vx, rate * gap.vy, rate * gap.wz)
         turn = _minus(wanted, slope)
         hardest = max(abs(_speed(row, turn)) for row in self._rows)
-        if hardest <= self._jerk * dt:
+        if hardest <= self._limits.jerk * dt:
             self._slope = wanted
             there = rate * dt >= THERE
             self.twist = self.target if there else _plus(self.twist, rate * dt, gap)
             return
-        self._slope = slope = _plus(slope, self._jerk * dt / hardest, turn)
+        self._slope = slope = _plus(slope, self._limits.jerk * dt / hardest, turn)
         self.twist = self._slowed(_plus(self.twist, dt, slope))
 
     def _slowed(self, twist: Twist) -> Twist:
@@ -142,9 +139,9 @@ class TwistRamp:
         if not isfinite(fastest):
             msg = f'twist {tuple(twist)}: no wheel can be so fast; give less'
             raise SignalError(msg)
-        if fastest <= self._top:
+        if fastest <= self._limits.max_wheel_speed:
             return twist
-        scale = self._top / fastest
+        scale = self._limits.max_wheel_speed / fastest
         return Twist(scale * twist.vx, scale * twist.vy, scale * twist.wz)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated
 
 from agv_motion.errors import ConfigurationError
@@ -36,9 +37,24 @@ class WheelLimits:
         """
         check(self)
         up, down = self.max_wheel_acceleration, self.max_wheel_deceleration
-        if 0.0 < down < (up or float('inf')):
+        if 0.0 < down < (up or inf):
             msg = (
                 f'max_wheel_deceleration = {down:g} m/s2 is below max_wheel_acceleration = '
                 f'{up:g} m/s2 (0: none): a robot must brake at least as hard as it speeds up'
             )
             raise ConfigurationError(msg)
+
+    @property
+    def speeding_up(self) -> float:
+        """Highest acceleration of a rim that speeds up; infinite without limit [m/s2]."""
+        return self.max_wheel_acceleration or inf
+
+    @property
+    def braking(self) -> float:
+        """Highest deceleration of a rim that brakes; infinite without limit [m/s2]."""
+        return self.max_wheel_deceleration or inf
+
+    @property
+    def jerk(self) -> float:
+        """Highest change of an acceleration; infinite without limit [m/s3]."""
+        return self.max_wheel_jerk or inf

@@ -89,8 +89,6 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
         port.close_later(self._bag.close)
         for problem in self._bag.problems:
             port.warning(str(problem))
-        self.lossy = self._bag.lossy
-        """whether the bag has lost something"""
         self._offers = _overrides(given.qos_overrides)
         topics = Playback(self._bag, given, self._send).topics
         for topic in self._offers:
@@ -112,6 +110,11 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
             ('seek', self._seek),
         ):
             port.serve(Trigger, f'~/{name}', act)
+
+    @property
+    def lossy(self) -> bool:
+        """Whether the bag has lost something."""
+        return self._bag.lossy
 
     def begin(self) -> None:
         """Begin to play."""

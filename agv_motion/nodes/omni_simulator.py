@@ -129,10 +129,8 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
             self._publish_fix(fix)
 
     def _break(self, parameters: OmniSimulatorParameters) -> None:
-        self._robot.encoder_gains = [
-            parameters.faulty_gain if wheel == parameters.faulty_wheel else 1.0
-            for wheel in range(len(parameters.wheel_radii))
-        ]
+        for wheel, encoder in enumerate(self._robot.encoders):
+            encoder.gain = parameters.faulty_gain if wheel == parameters.faulty_wheel else 1.0
 
     def _on_command(self, message: JointState) -> None:
         rates = self._joints.read(message).rates

@@ -142,8 +142,6 @@ class Probe:
     def __init__(self, parameters: ProbeParameters) -> None:
         """Start without a past."""
         self._parameters = given = parameters
-        self._polarity = Polarity(given.polarity)
-        self._normalisation = Normalisation(given.normalisation)
         self._judge = ReadingJudge(
             given.off_below,
             given.highest,
@@ -155,7 +153,7 @@ class Probe:
         )
         self._normaliser: Normaliser = (
             RunningRange(given.opening_range)
-            if self._normalisation is Normalisation.RANGE
+            if Normalisation(given.normalisation) is Normalisation.RANGE
             else RunningQuantiles(
                 (given.low_quantile, given.high_quantile),
                 given.window_days,
@@ -196,12 +194,12 @@ class Probe:
 
     def _share(self, time: float, temperature_difference: float, flux: float) -> float | None:
         """Normalise; the raw value of the original falls when flow rises, hence its turn."""
-        if self._normalisation is Normalisation.RANGE:
+        if Normalisation(self._parameters.normalisation) is Normalisation.RANGE:
             raw = self._normaliser.update(time, temperature_difference)
             share = None if raw is None else 1.0 - raw
         else:
             share = self._normaliser.update(time, flux)
-        if share is None or self._polarity is Polarity.MORE_FLOW_IS_1:
+        if share is None or Polarity(self._parameters.polarity) is Polarity.MORE_FLOW_IS_1:
             return share
         return 1.0 - share
 

@@ -19,6 +19,21 @@ from agv_motion.errors import ConfigurationError
 DAY = 86400.0
 
 
+class _Night:
+    """A pre-dawn window that is not over yet."""
+
+    def __init__(self, day: int) -> None:
+        self.day = day
+        self.highest = 0.0
+        """[K] of the medians of three"""
+        self._last_three: list[float] = []
+
+    def add(self, temperature_difference: float) -> None:
+        self._last_three = [*self._last_three[-2:], temperature_difference]
+        if len(self._last_three) == 3:
+            self.highest = max(self.highest, median(self._last_three))
+
+
 class ZeroFlow:
     """Running pre-dawn maximum over a window of nights."""
 
@@ -38,9 +53,7 @@ class ZeroFlow:
         self._window_days = window_days
         self._offset = solar_offset * 3600.0
         self._nights: dict[int, float] = {}
-        self._open_day: int | None = None
-        self._highest = 0.0
-        self._last_three: list[float] = []
+        self._open: _Night | None = None
         self.value: float | None = None
 
     def update(self, time: float, temperature_difference: float) -> float | None:
@@ -56,13 +69,11 @@ class ZeroFlow:
         """
         day, second = divmod(time + self._offset, DAY)
         night = self._start <= second < self._end
-        if self._open_day is not None and (int(day) != self._open_day or not night):
-            self._latch(self._open_day)
+        if self._open is not None and (int(day) != self._open.day or not night):
+            self._latch(self._open)
         if night:
-            self._open_day = int(day)
-            self._last_three = [*self._last_three[-2:], temperature_difference]
-            if len(self._last_three) == 3:
-                self._highest = max(self._highest, median(self._last_three))
+            self._open = self._open or _Night(int(day))
+            self._open.add(temperature_difference)
         if self._nights and int(day) - max(self._nights) > self._window_days:
             self._nights, self.value = {}, None
         return self.value
@@ -70,17 +81,17 @@ class ZeroFlow:
     def recalibrate(self, time: float, temperature_difference: float) -> None:
         """Forget all nights and take ``temperature_difference`` as zero flow from now on."""
         self._nights = {int((time + self._offset) // DAY): temperature_difference}
-        self._open_day, self._highest, self._last_three = None, 0.0, []
+        self._open = None
         self.value = temperature_difference
 
-    def _latch(self, day: int) -> None:
-        """Let the night of ``day`` count from now on, and those out of the window no longer."""
-        if self._highest > 0.0:
-            self._nights[day] = self._highest
-            oldest = day - self._window_days
+    def _latch(self, night: _Night) -> None:
+        """Let ``night`` count from now on, and those out of the window no longer."""
+        if night.highest > 0.0:
+            self._nights[night.day] = night.highest
+            oldest = night.day - self._window_days
             self._nights = {d: value for d, value in self._nights.items() if d > oldest}
             self.value = max(self._nights.values())
-        self._open_day, self._highest, self._last_three = None, 0.0, []
+        self._open = None
 
     def state(self) -> dict[str, Any]:
         """Return what must survive a restart, ready for JSON."""

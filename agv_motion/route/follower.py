@@ -109,9 +109,7 @@ class RouteFollower:
 
         """
         self._virtual.set_radius(parameters.virtual_point_distance)
-        self._profiles = parameters.profiles()
-        self._holonomic = parameters.holonomic
-        self._arrival_speed = parameters.arrival_speed
+        self._parameters, self._profiles = parameters, parameters.profiles()
         form = CouplingForm(parameters.coupling_form)
         self._speed.set(parameters.speed_coupling_ms / 1000.0, form)
         self._turn.set(parameters.turn_coupling_ms / 1000.0, form)
@@ -141,7 +139,7 @@ class RouteFollower:
             self._turn.reset()
         limits = self._limits(pose)
         last = self.route.is_last(self.segment)
-        self.arrived = self.arrived or (last and limits.v_d <= self._arrival_speed)
+        self.arrived = self.arrived or (last and limits.v_d <= self._parameters.arrival_speed)
         if self.arrived:
             return RouteStep(REST, self._virtual.point, limits, arrived=True)
         speed = self._speed.follow(limits.speed, dt)
@@ -171,6 +169,6 @@ class RouteFollower:
         )  # fmt: skip
 
     def _twist(self, speed: float, turn_rate: float, heading_error: float) -> Twist:
-        if self._holonomic:
+        if self._parameters.holonomic:
             return Twist(speed * cos(heading_error), speed * sin(heading_error), turn_rate)
         return Twist(speed, 0.0, turn_rate)

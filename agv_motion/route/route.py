@@ -73,16 +73,25 @@ class Route:
         self.laps = laps
         self.segments = tuple(map(_segment, waypoints, waypoints[1:]))
         self._starts = tuple(accumulate((s.length for s in self.segments), initial=0.0))
-        self.lap_length = self._starts[-1]
-        """[m] of one lap"""
-        self.length = self.lap_length * laps if laps else inf
-        """[m] of all laps"""
-        self.count = len(self.segments) * laps if laps else inf
-        """Segments of all laps"""
         self._bends = [
             _bend(s, self.segments[(i + 1) % len(self.segments)])
             for i, s in enumerate(self.segments)
         ]
+
+    @property
+    def lap_length(self) -> float:
+        """Length of one lap [m]."""
+        return self._starts[-1]
+
+    @property
+    def length(self) -> float:
+        """Length of all laps [m]; infinite without end."""
+        return self.lap_length * self.laps if self.laps else inf
+
+    @property
+    def count(self) -> float:
+        """Number of the segments of all laps; infinite without end."""
+        return len(self.segments) * self.laps if self.laps else inf
 
     def segment(self, number: int) -> Segment:
         """Return segment ``number`` of all laps."""

@@ -33,6 +33,22 @@ class OmniRobotParameters:
         check(self)
 
 
+class WheelEncoder:
+    """What is measured of one wheel."""
+
+    def __init__(self, radius: float) -> None:
+        """Begin at zero; ``radius`` [m] is the real one of the wheel."""
+        self._radius = radius
+        self.gain = 1.0
+        """what it measures of its wheel's motion: 1 sound, 0 dead"""
+        self.angle = 0.0
+        """[rad]"""
+
+    def roll(self, travel: float) -> None:
+        """Let the rim roll so far [m]."""
+        self.angle += self.gain * travel / self._radius
+
+
 class OmniRobot:
     """The simulated robot: its wheels, and where they have carried it."""
 
@@ -55,12 +71,10 @@ class OmniRobot:
 
         """
         self._wheels = wheels
-        self._radii = tuple(wheel_radii)
         self._given = parameters
         self._random = random.Random(seed)  # noqa: S311 - a simulation, no secret
-        self._turned = [0.0] * len(wheels)
-        self.encoder_gains = [1.0] * len(wheels)
-        """(n,) what each encoder measures of its wheel's motion: 1 sound, 0 dead"""
+        self.encoders = [WheelEncoder(radius) for radius in wheel_radii]
+        """(n,) of the wheels"""
         self.speeds = [0.0] * len(wheels)
         """(n,) [m/s] rim speeds"""
         self.pose = pose
@@ -69,9 +83,8 @@ class OmniRobot:
     def angles(self) -> list[float]:
         """Return (n,) what the encoders tell [rad]."""
         tick = self._given.encoder_resolution
-        if tick == 0.0:
-            return list(self._turned)
-        return [tick * round(angle / tick) for angle in self._turned]
+        turned = [encoder.angle for encoder in self.encoders]
+        return turned if tick == 0.0 else [tick * round(angle / tick) for angle in turned]
 
     def step(self, speeds: Sequence[float], duration: float) -> None:
         """Follow commanded rim speeds (n,) [m/s] for ``duration`` [s].
@@ -86,10 +99,11 @@ class OmniRobot:
         ]
         self.twist = self._wheels.twist(self.speeds).twist
         self.pose = integrate(self.pose, self.twist, duration)
-        for i, speed in enumerate(self._wheels.command(self.twist).speed):
+        rolling = self._wheels.command(self.twist).speed
+        for encoder, speed in zip(self.encoders, rolling, strict=True):
             travel = speed * duration
             slip = self._random.gauss(0.0, self._given.wheel_noise * sqrt(abs(travel)))
-            self._turned[i] += self.encoder_gains[i] * (travel + slip) / self._radii[i]
+            encoder.roll(travel + slip)
 
     def carry_to(self, pose: Pose) -> None:
         """Lift the robot and set it down elsewhere, its wheels still: kidnapping."""

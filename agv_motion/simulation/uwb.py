@@ -55,6 +55,26 @@ class UwbParameters:
         return Covariance(variance, 0.0, 0.0, variance, 0.0, self.heading_noise**2)
 
 
+class _Spells:
+    """When something happens that comes at random and lasts a while."""
+
+    def __init__(self, chance: random.Random, interval: float, begin: float) -> None:
+        """Let nothing happen yet; ``interval`` [s] is the mean time between, 0: never."""
+        self._random, self._mean = chance, interval
+        self.end = 0.0
+        """of the present or the last one [s]"""
+        self.next = begin + self._interval()
+        """when the next one begins [s]"""
+
+    def last_until(self, end: float) -> None:
+        """Begin one that ends at ``end`` [s]."""
+        self.end = end
+        self.next = end + self._interval()
+
+    def _interval(self) -> float:
+        return self._random.expovariate(1.0 / self._mean) if self._mean > 0.0 else float('inf')
+
+
 class Uwb:
     """The localisation system: sees the robot now, tells of it later."""
 
@@ -65,10 +85,8 @@ class Uwb:
         self._on_the_way: list[tuple[float, int, Fix]] = []
         self._measured = 0
         self._shift = 0.0, 0.0
-        self._spell_ends = 0.0
-        self._next_spell = begin + self._interval(parameters.multipath_interval)
-        self._dropout_ends = 0.0
-        self._next_dropout = begin + self._interval(parameters.dropout_interval)
+        self._multipath = _Spells(self._random, parameters.multipath_interval, begin)
+        self._dropouts = _Spells(self._random, parameters.dropout_interval, begin)
 
     def measure(self, time: float, pose: Pose) -> None:
         """See the robot at ``pose``, at a time [s] later than before."""
@@ -81,7 +99,7 @@ class Uwb:
         heading = None
         if given.heading_noise > 0.0:
             heading = wrap(pose.theta + chance.gauss(0.0, given.heading_noise))
-        if time < self._dropout_ends:
+        if time < self._dropouts.end:
             return
         x, y = x + self._shift[0], y + self._shift[1]
         fix = Fix(time, pose.x + x, pose.y + y, given.covariance(), heading)
@@ -98,19 +116,15 @@ class Uwb:
     def _befall(self, time: float) -> None:
         """Begin and end spells of multipath and drop-outs."""
         given = self._given
-        if time >= self._next_dropout:
-            self._dropout_ends = time + given.dropout_duration
-            self._next_dropout = self._dropout_ends + self._interval(given.dropout_interval)
-        if time >= self._next_spell:
-            self._spell_ends = time + self._random.expovariate(1.0 / given.multipath_duration)
-            self._next_spell = self._spell_ends + self._interval(given.multipath_interval)
+        if time >= self._dropouts.next:
+            self._dropouts.last_until(time + given.dropout_duration)
+        if time >= self._multipath.next:
+            duration = self._random.expovariate(1.0 / given.multipath_duration)
+            self._multipath.last_until(time + duration)
             reach, direction = self._random.uniform(0.0, given.multipath_reach), self._direction()
             self._shift = reach * cos(direction), reach * sin(direction)
-        elif time >= self._spell_ends:
+        elif time >= self._multipath.end:
             self._shift = 0.0, 0.0
 
     def _direction(self) -> float:
         return self._random.uniform(-pi, pi)
-
-    def _interval(self, mean: float) -> float:
-        return self._random.expovariate(1.0 / mean) if mean > 0.0 else float('inf')

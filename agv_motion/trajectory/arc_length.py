@@ -104,11 +104,8 @@ class ArcLength:
         if not at_start[slowest] > LEAST * reached[-1]:
             raise GeometryError(_cusp(int(which[slowest]), float(u[slowest])))
         guess = _guess(u, widths, lengths, (1.0 / at_start, 1.0 / at_end))
-        self._curves, self._which = curves, which
-        self._starts: list[float] = start.tolist()
-        # a row a cell: way and u at its start, width in u, four coefficients of u over the way
-        # since then, c_1 ... c_6 of equation (2)
-        self._cells = np.column_stack((start, u, widths, guess, integral))
+        cells = np.column_stack((start, u, widths, guess, integral))
+        self._inverse = _Inverse(curves, which, cells)
         self.length = float(reached[-1])
         # every curve has one node more than cells, and that one stands at ``last``
         last, nodes = ends + numbers, len(which) + len(curves)
@@ -126,6 +123,27 @@ class ArcLength:
 
     def locate(self, way: float) -> tuple[CubicBezier, float]:
         """Return the curve and its parameter at ``way`` [m] from the start of the chain."""
+        return self._inverse.locate(way)
+
+
+class _Inverse:
+    """From the way back to the parameter of a curve, cell by cell."""
+
+    def __init__(self, curves: Sequence[CubicBezier], which: Numbers, cells: Column) -> None:
+        """Keep the table.
+
+        Args:
+            curves: The chain.
+            which: (n,) number of the curve of each cell.
+            cells: (n, 13) way and u at its start, width in u, four coefficients of u over the way
+                since then, c_1 ... c_6 of equation (2).
+
+        """
+        self._curves, self._which, self._cells = curves, which, cells
+        self._starts: list[float] = cells[:, 0].tolist()
+
+    def locate(self, way: float) -> tuple[CubicBezier, float]:
+        """Return the curve and its parameter at ``way`` [m]."""
         number = bisect_right(self._starts, way) - 1
         curve = self._curves[self._which[number]]
         start, first, width, g0, g1, g2, g3, c1, c2, c3, c4, c5, c6 = self._cells[number].tolist()

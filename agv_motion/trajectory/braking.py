@@ -28,11 +28,19 @@ class Braking:
         self._begin = begin
         self._rate = rate
         self.duration = duration
-        self.rotating = stopped.rotating(begin)
         self.end = self.pose(duration)
         self.end_speeds = self._at(duration)
+
+    @property
+    def rotating(self) -> bool:
+        """Whether it turns on the spot."""
+        return self._stopped.rotating(self._begin)
+
+    @property
+    def length(self) -> float:
+        """Way driven [m]."""
         mean = 0.5 * (abs(self._at(0.0).linear) + abs(self.end_speeds.linear))
-        self.length = mean * duration
+        return mean * self.duration
 
     def pose(self, time: float) -> Pose:
         """Return the pose at ``time`` [s]."""

@@ -20,9 +20,7 @@ class Circle:
     Attributes:
         length: [m].
         way: (2,) its two ends [m].
-        curvature: (2,) along the way, left positive [1/m].
         middle_way: (1,) [m].
-        middle_curvature: (1,) [1/m].
 
     """
 
@@ -33,9 +31,17 @@ class Circle:
         self._tangent = rect(copysign(1.0, arc.speed), start.theta)
         self._curvature = copysign(1.0 / arc.radius, arc.angle * arc.speed)
         self.way: Column = np.array([0.0, arc.length])
-        self.curvature: Column = np.full(2, self._curvature)
         self.middle_way: Column = np.array([0.5 * arc.length])
-        self.middle_curvature: Column = np.full(1, self._curvature)
+
+    @property
+    def curvature(self) -> Column:
+        """(2,) at the ends, left positive [1/m]."""
+        return np.full(2, self._curvature)
+
+    @property
+    def middle_curvature(self) -> Column:
+        """(1,) in the middle [1/m]."""
+        return np.full(1, self._curvature)
 
     def locate(self, way: float) -> tuple[Circle, float]:
         """Return the curve and its parameter, which is the way itself."""

@@ -41,12 +41,16 @@ class ArcLengthCurve(Protocol):
     """[m]"""
     way: Column
     """(n,) nodes [m], not decreasing; at a joint of two curves it stands twice"""
-    curvature: Column
-    """(n,) at each node, left positive [1/m]"""
     middle_way: Column
     """(n - 1,) a place within each cell [m]"""
-    middle_curvature: Column
-    """(n - 1,) there [1/m]"""
+
+    @property
+    def curvature(self) -> Column:
+        """(n,) at each node, left positive [1/m]."""
+
+    @property
+    def middle_curvature(self) -> Column:
+        """(n - 1,) at each `middle_way` [1/m]."""
 
     def locate(self, way: float) -> tuple[Curve, float]:
         """Return the curve and its parameter at ``way`` [m] from the start."""

@@ -90,10 +90,18 @@ class DriveMotion:
         self.course = course
         self.start, self.end = ends
         self.profile = profile
-        self.duration = profile.duration
-        self.length = profile.at(profile.duration).way
         self._ramp = ramp
         self._sense = -1.0 if backward else 1.0
+
+    @property
+    def duration(self) -> float:
+        """Until it rests [s]."""
+        return self.profile.duration
+
+    @property
+    def length(self) -> float:
+        """Way driven [m]."""
+        return self.profile.at(self.profile.duration).way
 
     def pose(self, time: float) -> Pose:
         """Return the pose at ``time`` [s]."""

@@ -50,7 +50,7 @@ def test_slip_is_a_random_walk_over_the_distance():
 
 def test_encoders_round_and_break():
     driven = robot(OmniRobotParameters(traction_lag=0.0, wheel_noise=0.0, encoder_resolution=0.3))
-    driven.encoder_gains[1] = 0.0
+    driven.encoders[1].gain = 0.0
     driven.step([1.0] * 4, 0.1)
     assert driven.angles() == pytest.approx([0.9, 0.0, 0.9, 0.6], abs=1e-12)
 

@@ -54,7 +54,7 @@ def test_the_inverse_gives_back_the_way(curve, share):
         return
     way = share * course.length
     _, u = course.locate(way)
-    nodes = course._cells[:, 1]  # noqa: SLF001 - where |P'| is tame
+    nodes = course._inverse._cells[:, 1]  # noqa: SLF001 - where |P'| is tame
     ends = np.append(nodes[nodes < u], u)
     inside = ends[:-1, None] + np.diff(ends)[:, None] * GAUSS_NODES
     back = float((np.diff(ends)[:, None] * np.abs(curve.velocity(inside)) @ GAUSS_WEIGHTS).sum())

@@ -39,6 +39,10 @@ _WHOLE = "typeof(timestamp) = 'integer' and timestamp >= 0 and typeof(data) = 'b
 class SqliteFile:
     """Reads a ``.db3`` file; definitions that it lacks are taken from the installed types."""
 
+    indexed = counted = True
+    unpacked_size = 0
+    """[bytes] unknown"""
+
     def __init__(self, path: Path, unpacked: Path | None = None) -> None:
         """Open the file.
 
@@ -52,9 +56,6 @@ class SqliteFile:
         """
         self.path = path
         self.problems: list[SourceError] = []
-        self.indexed = self.counted = True
-        self.unpacked_size = 0
-        """[bytes] unknown"""
         self._closed = False
         self._held = ExitStack()
         """the open database, and the folder that it is set aside in"""

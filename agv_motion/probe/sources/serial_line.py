@@ -67,12 +67,16 @@ class SerialSource:
     def __init__(self, parameters: SerialParameters) -> None:
         """Start with a closed line; `read` opens it and keeps trying."""
         self._given = parameters
-        self.period = parameters.period
         self._line: serial.Serial | None = None
         self._buffer = b''
         self._problems: list[str] = []
         self._told: set[str] = set()
         self._pause, self._retry_at = 1.0, 0.0
+
+    @property
+    def period(self) -> float:
+        """Usual time between samples [s]."""
+        return self._given.period
 
     def history(self, now: float) -> Iterable[ProbeSample]:  # noqa: ARG002 - a line has no past
         """Return nothing: a serial line remembers nothing; use the node's state file."""

@@ -21,8 +21,9 @@ class ProbeSample(NamedTuple):
 class ProbeSource(Protocol):
     """Delivers samples as they fall due."""
 
-    period: float
-    """[s] usual time between samples on the node's clock"""
+    @property
+    def period(self) -> float:
+        """Usual time between samples on the node's clock [s]."""
 
     def history(self, now: float) -> Iterable[ProbeSample]:
         """Return what was measured before ``now`` [s], in order, to learn from."""

@@ -118,7 +118,7 @@ class Crowd:
         self, zone: Zone, parameters: CrowdParameters, places: list[Point] | None = None
     ) -> None:
         """Put the trees at ``places``, or at random ones that keep clear of each other."""
-        self.zone, self.parameters = zone, parameters
+        self.parameters = parameters
         chance = random.Random(parameters.seed)  # noqa: S311 - a simulation, no secret
         self.candidates = grid(zone, 0.5)
         clearance = parameters.traffic.clearance
@@ -138,8 +138,6 @@ class Crowd:
         """Least distance between two centres less what is allowed [m]."""
         self.least_held_gap = inf
         """Least distance between two ways held less the clearance [m]."""
-        self.least_floor = inf
-        """Least distance of a centre from the edge of its walkable floor; negative outside [m]."""
 
     def run(self, seconds: float) -> None:
         """Let time pass."""

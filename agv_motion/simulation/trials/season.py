@@ -94,6 +94,14 @@ class Tally(NamedTuple):
     """share of the reachable floor the first tree has stood over, after each day"""
 
 
+class _Seen:
+    """What has been seen of all days so far; see `Tally`."""
+
+    def __init__(self) -> None:
+        self.least_gap = self.least_inside = inf
+        self.coverage: list[float] = []
+
+
 class Season:
     """Trees, zone, weather, network."""
 
@@ -113,11 +121,9 @@ class Season:
             agent = Agent(planner, _agent(given, chance))
             navigator = SharedNavigator(RightOfWay(name, home, given.traffic), planner)
             self.trees.append(SeasonTree(name, agent, navigator, home, chance))
-        self._by_name = {tree.name: tree for tree in self.trees}
         self._radio = Radio(names, given.radio, given.seed)
         self._chance = chance
-        self._least_gap = self._least_inside = inf
-        self._coverage: list[float] = []
+        self._seen = _Seen()
 
     def run(self, told: Callable[[], None] = lambda: None) -> Tally:
         """Let all days pass; ``told`` is called after each."""
@@ -130,13 +136,13 @@ class Season:
         """Return what has come of the days so far."""
         trees = self.trees
         return Tally(
-            len(self._coverage),
+            len(self._seen.coverage),
             sum(tree.walked for tree in trees),
             sum(tree.goals for tree in trees),
-            self._least_inside,
-            self._least_gap,
+            self._seen.least_inside,
+            self._seen.least_gap,
             max(tree.longest_stand for tree in trees),
-            tuple(self._coverage),
+            tuple(self._seen.coverage),
         )
 
     def _day(self, opening: float) -> None:
@@ -159,7 +165,7 @@ class Season:
             now += given.step if moving else PERIOD
         memory = self.trees[0].agent.memory
         assert memory is not None
-        self._coverage.append(memory.coverage()[0])
+        self._seen.coverage.append(memory.coverage()[0])
 
     def _speak_all_night(self, now: float) -> None:
         """Bring every tree's last word to every other, as in all the hours left out."""
@@ -181,8 +187,9 @@ class Season:
     def _step(self, now: float, sky: Sun) -> bool:
         """Let one step pass; return whether any tree moves."""
         given = self.parameters
+        by_name = {tree.name: tree for tree in self.trees}
         for receiver, reservation in self._radio.receive(now):
-            self._by_name[receiver].navigator.right.receive(reservation, now)
+            by_name[receiver].navigator.right.receive(reservation, now)
 
         def light(x: float, y: float) -> float:
             return light_factor(x, y, sky, self._obstacles)
@@ -192,11 +199,11 @@ class Season:
             moving |= tree.live(now, light, given.step, given.error)
             if len(self.trees) > 1:
                 self._radio.send(tree.navigator.reservation(now), now)
-            self._least_inside = min(self._least_inside, self._inside(tree.pose))
+            self._seen.least_inside = min(self._seen.least_inside, self._inside(tree.pose))
         allowed = 2.0 * given.traffic.body + given.traffic.margin
         for a, b in combinations(self.trees, 2):
             gap = hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) - allowed
-            self._least_gap = min(self._least_gap, gap)
+            self._seen.least_gap = min(self._seen.least_gap, gap)
         return moving
 
     def _inside(self, pose: Pose) -> float:

@@ -66,18 +66,29 @@ class EpisodeOutcome(NamedTuple):
     """of the network, in words"""
 
 
+class _WrongFixes:
+    """When a tree believes to be elsewhere, and by how much."""
+
+    def __init__(self) -> None:
+        self.until = self.next = -inf
+        self.by = (0.0, 0.0)
+
+
 class _Tree:
     """One tree, its clock, and what it keeps on disk."""
 
-    def __init__(self, name: str, walker: Walker, chance: random.Random) -> None:
-        self.name, self.walker = name, walker
+    def __init__(self, walker: Walker, chance: random.Random) -> None:
+        self.walker = walker
         self.known: set[str] = set()
         self.clock = chance.uniform(-1e4, 1e4)
         self.lived = LivedTime(2.0 * STEP)
         self.off_until = -inf
         self.starts_again = False
-        self.wrong_until = self.wrong_next = -inf
-        self.wrong_by = (0.0, 0.0)
+        self.wrong = _WrongFixes()
+
+    @property
+    def name(self) -> str:
+        return self.walker.name
 
 
 class Episode:
@@ -105,7 +116,7 @@ class Episode:
         for i, (name, place) in enumerate(zip(self._names, places, strict=True)):
             right = self._right(i, place, expects=True)
             walker = Walker(name, place, SharedNavigator(right, self._planner), given.seed + i)
-            self.trees.append(_Tree(name, walker, chance))
+            self.trees.append(_Tree(walker, chance))
         if late:
             self.trees[-1].off_until = chance.uniform(0.0, given.seconds / 2.0)
             self.trees[-1].starts_again = True
@@ -178,15 +189,15 @@ class Episode:
         """
         given = tree.walker.navigator.right.parameters
         longest = given.silent_after - 3.0 * STEP
-        if self.now > tree.wrong_next and longest > 0.0 and self._chance.random() < 0.01:
+        if self.now > tree.wrong.next and longest > 0.0 and self._chance.random() < 0.01:
             far = given.tolerance + 10.0 ** self._chance.uniform(-0.3, 1.3)
             angle = self._chance.uniform(0.0, tau)
-            tree.wrong_by = (far * cos(angle), far * sin(angle))
-            tree.wrong_until = self.now + self._chance.uniform(0.0, longest)
+            tree.wrong.by = (far * cos(angle), far * sin(angle))
+            tree.wrong.until = self.now + self._chance.uniform(0.0, longest)
             again = self._chance.choice((0.0, 0.0, 600.0))  # now and then to and fro at once
-            tree.wrong_next = tree.wrong_until + STEP + again
+            tree.wrong.next = tree.wrong.until + STEP + again
             self.wrong_fixes += 1
-        return tree.wrong_by if self.now <= tree.wrong_until else (0.0, 0.0)
+        return tree.wrong.by if self.now <= tree.wrong.until else (0.0, 0.0)
 
     def _start_again(self, tree: _Tree) -> None:
         """Begin a new run, with memory or with a list of the others, where the tree stands."""
