@@ -99,6 +99,7 @@ setup(
             'pandas>=2',
             'playwright>=1.45',
             'pyarrow>=14',
+            'pyte>=0.8',
             'pytest>=8',
             'pytest-timeout>=2.3',
             'pytest-xdist>=3.7',

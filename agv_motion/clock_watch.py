@@ -27,8 +27,12 @@ SOON = 1e-3
 GEAR = 10.0
 """[-] A clock whose speed seems to rise by more than that at one look is taken to have leapt."""
 
-WAITING = 'no time has come on /clock yet'
-"""The one fault that is none yet: a simulation takes its time to begin"""
+WAITING = (
+    'no time has come on /clock yet',
+    'the clock has told its first time and does not run yet',
+    'the clock begins to run',
+)
+"""Faults that are none yet: a simulation takes its time to begin"""
 
 WENT_BACK = 'the clock went back to zero'
 
@@ -68,7 +72,7 @@ class ClockWatch:
         if time <= 0.0:
             self._time = None
             self._speeds.clear()
-            self.fault, self._calm_from = WENT_BACK if self._begun else WAITING, inf
+            self.fault, self._calm_from = WENT_BACK if self._begun else WAITING[0], inf
         elif self._time is None:
             self._begun, self._time, self._moved_at = True, time, steady
             if self._calm_from == inf:  # how fast it runs, the next look will tell
@@ -90,7 +94,12 @@ class ClockWatch:
             if passed >= self.stands_after:
                 self._calm_from = steady + CALM
                 if steady >= self._told_until:  # what was said of it goes first
-                    self.fault = f'the clock stands still at {time:.3f} s'
+                    stands = f'the clock stands still at {time:.3f} s'
+                    self.fault = stands if self._speeds else WAITING[1]
+            return
+        if self.fault == WAITING[1]:  # it begins now: how long it took tells nothing of its speed
+            self._time, self._moved_at, self._calm_from = time, steady, steady + SOON
+            self.fault = WAITING[2]
             return
         if gained < -BACK:
             self.distrust(f'the clock leapt back by {-gained:.3g} s', steady)

@@ -18,12 +18,11 @@ import os
 import sys
 from pathlib import Path
 
-import numpy as np
-from matplotlib import pyplot as plt
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from agv_motion.report.season_figure import Coverage, draw
 from agv_motion.simulation.trials.season import Season, SeasonParameters, Tally
 from agv_motion.simulation.trials.season_zones import MOST_TREES
 
@@ -74,32 +73,17 @@ def report(outcomes: list[tuple[SeasonParameters, Tally]]) -> Table:
     return table
 
 
-def draw(pool: multiprocessing.pool.Pool, path: Path, seed: int) -> None:
-    """Draw the share of the floor covered over 20 days, by both choices of goals."""
+def coverages(pool: multiprocessing.pool.Pool, seed: int) -> dict[str, Coverage]:
+    """Return the shares of three floors stood on over 20 days, by both choices of goals."""
     kinds, seeds = ('square', 'garden', 'rooms'), range(seed, seed + 3)
     wanted = [
         SeasonParameters(kind=kind, trees=1, days=20, seed=each, strategy=strategy)
         for kind, strategy, each in itertools.product(kinds, ('memory', 'straight'), seeds)
     ]
-    outcomes = list(track(pool.imap(spend, wanted), 'Coverage', len(wanted)))
-    figure, axes = plt.subplots(1, len(kinds), figsize=(11, 3.5), sharey=True)
-    days = np.arange(21)
-    for axis, kind in zip(axes, kinds, strict=True):
-        for strategy, colour in (('memory', 'tab:green'), ('straight', 'tab:red')):
-            curves = [
-                [0.0, *tally.coverage]
-                for given, tally in outcomes
-                if (given.kind, given.strategy) == (kind, strategy)
-            ]
-            for i, curve in enumerate(curves):
-                label = strategy if i == 0 else None
-                axis.plot(days, 100.0 * np.array(curve), color=colour, lw=1.2, label=label)
-        axis.set(title=kind, xlabel='opening days', ylim=(0, 103), xlim=(0, 20))
-        axis.grid(alpha=0.3)
-    axes[0].set(ylabel='floor covered [%]')
-    axes[0].legend()
-    figure.tight_layout()
-    figure.savefig(path, dpi=90)
+    found: dict[tuple[str, str], list[list[float]]] = {}
+    for given, tally in track(pool.imap(spend, wanted), 'Coverage', len(wanted)):
+        found.setdefault((given.kind, given.strategy), []).append([0.0, *tally.coverage])
+    return {kind: Coverage(found[kind, 'memory'], found[kind, 'straight']) for kind in kinds}
 
 
 def main() -> None:
@@ -121,7 +105,7 @@ def main() -> None:
             if not kept(tally):
                 print(f'not kept: {given.kind}, {given.trees} trees, seed {given.seed}: {tally}')
         if asked.plot:
-            draw(pool, asked.plot, asked.seed)
+            draw(coverages(pool, asked.seed), asked.plot)
     sys.exit(not all(kept(tally) for _, tally in outcomes))
 
 

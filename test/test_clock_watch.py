@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.clock_watch import CALM, ClockWatch
+from agv_motion.clock_watch import CALM, WAITING, ClockWatch
 
 PERIOD = 0.1
 
@@ -71,6 +71,13 @@ def test_a_clock_that_has_not_begun_and_then_runs():
     assert not any(faults[6:])
 
 
+def test_a_clock_that_has_told_one_time_has_not_begun_to_run():
+    faults = looked(ClockWatch(0.5), [0.0, *[7.0] * 20, *running(8.0, 20)])
+    assert set(faults[1:6]) == {'', WAITING[0]}
+    assert set(faults[7:21]) == {WAITING[1]}
+    assert not any(faults[-10:])
+
+
 def test_two_clocks_by_turns_are_never_believed():
     to_and_fro = [1000.0 + 0.1 * i + (500.0 if i % 2 else 0.0) for i in range(100)]
     assert all(looked(ClockWatch(), to_and_fro)[3:])
@@ -102,6 +109,7 @@ def test_a_clock_may_gain_a_second_and_three_times_what_passed(leap, told):
 
 def test_a_clock_that_stands_while_it_is_distrusted_keeps_its_first_fault():
     watch = ClockWatch(stands_after=0.2)
+    watch.look(9.9, -0.1)
     watch.look(10.0, 0.0)
     watch.distrust('/clock told -5 s', 0.05)
     watch.look(10.0, 0.3)

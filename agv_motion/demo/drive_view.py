@@ -6,7 +6,7 @@ from datetime import datetime, timezone
 from math import pi
 from typing import TYPE_CHECKING
 
-from agv_motion.demo.readout import lines, number, pace, pose_text
+from agv_motion.demo.readout import NOT_YET, lines, number, pace, pose_text
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:
@@ -39,9 +39,9 @@ class DriveView:
         rows = [('time', f'{moment:%H:%M:%S} UTC, {pace(factor)}')]
         for name, topic in self._poses.items():
             told = latest(topic)
-            rows.append((name, '...' if told is None else pose_text(pose_of(told.pose.pose))))
+            rows.append((name, NOT_YET if told is None else pose_text(pose_of(told.pose.pose))))
         twist = latest('cmd_vel')
-        moves = '...'
+        moves = NOT_YET
         if twist is not None:
             forward, left = twist.twist.linear.x, twist.twist.linear.y
             turn = number(twist.twist.angular.z * 180.0 / pi, 5, 1, sign=True)
@@ -52,5 +52,5 @@ class DriveView:
         rows.append(('twist', moves))
         if self._state:
             state = latest(self._state)
-            rows.append(('state', '...' if state is None else state.data))
+            rows.append(('state', NOT_YET if state is None else state.data))
         return lines(rows, min(room.columns, WIDEST))

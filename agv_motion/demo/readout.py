@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 LABEL = 6
 """Characters of the word before each number"""
 
+NOT_YET = 'not yet'
+"""What stands where nothing has come"""
+
 DOING = 30
 """Characters of what a robot does, before the bar"""
 

@@ -7,7 +7,7 @@ from math import hypot, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.demo.map_view import NUMBERS, MapView, Room
-from agv_motion.demo.readout import lines, number, pace, pose_text
+from agv_motion.demo.readout import NOT_YET, lines, number, pace, pose_text
 from agv_motion.ros.messages import TurretJoints, pose_of
 from agv_motion.simulation.shade import sunlit
 from agv_motion.simulation.sun import sun
@@ -76,23 +76,23 @@ class TreeView:
         for name, axis in (('speed', 'x'), ('turn', 'y'), ('places', 'z')):
             value = 0.0 if flow is None else getattr(flow.vector, axis)
             bar = '█' * round(BAR * min(max(value, 0.0), 1.0))
-            rows.append((name, '...' if flow is None else f'{bar:<{BAR}} {number(value, 5, 2)}'))
+            rows.append((name, NOT_YET if flow is None else f'{bar:<{BAR}} {number(value, 5, 2)}'))
         speed = turn = 0.0
         if twist is not None:
             speed = hypot(twist.twist.linear.x, twist.twist.linear.y) * 60.0
             turn = twist.twist.angular.z * 60.0 * 180.0 / pi
         moves = f'{number(speed, 5, 2)} m/min {number(turn, 4, 0, sign=True)}°/min'
-        rows += [('twist', '...' if twist is None else moves), *self._turrets()]
+        rows += [('twist', NOT_YET if twist is None else moves), *self._turrets()]
         truth = latest('ground_truth')
-        rows.append(('pose', '...' if truth is None else pose_text(pose_of(truth.pose.pose))))
-        rows.append(('state', '...' if state is None else state.data))
+        rows.append(('pose', NOT_YET if truth is None else pose_text(pose_of(truth.pose.pose))))
+        rows.append(('state', NOT_YET if state is None else state.data))
         return rows
 
     def _turrets(self) -> list[tuple[str, str]]:
         """One line a turret: which way it points and how fast it rolls."""
         state = self._recorder.latest('turrets/state')
         if state is None:
-            return [('wheels', '...')]
+            return [(f'wheel{i}', NOT_YET) for i in range(len(self._place.turret_x))]
         angles, rates = TurretJoints(len(state.name) // 2).read(state)
         return [
             (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from rich.console import Group
 
 from agv_motion.demo.map_view import NUMBERS, MapView, Room
-from agv_motion.demo.readout import lines, number, pace, pose_text
+from agv_motion.demo.readout import NOT_YET, lines, number, pace, pose_text
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class TreesView:
         flows = flow and ' '.join(number(n, 4, 2) for n in (flow.vector.x, flow.vector.y,
                                                              flow.vector.z))  # fmt: skip
         return [
-            (name, '...' if truth is None else pose_text(pose_of(truth.pose.pose))),
-            ('sap', flows or '...'),
-            ('', '...' if state is None else state.data),
+            (name, NOT_YET if truth is None else pose_text(pose_of(truth.pose.pose))),
+            ('sap', flows or NOT_YET),
+            ('', NOT_YET if state is None else state.data),
         ]

@@ -26,7 +26,7 @@ SELDOM = 5.0
 """[s] between two words in the log on what is wrong with the clock."""
 
 WAITS = 100
-"""Number of looks for which a node waits for the first /clock without a word: 10 s, and longer
+"""Number of looks for which a node waits for /clock to begin without a word: 10 s, and longer
 where it does not come to look, since then others may not come to publish either."""
 
 
@@ -114,9 +114,9 @@ class ClockGuard:
             act()
 
     def _tell(self, steady: float) -> None:
-        """Log that a fault has begun or ended; to wait for the first time is none."""
+        """Log that a fault has begun or ended; to wait for it to begin is none."""
         fault, port = self.watch.fault, self._port
-        if fault == WAITING:
+        if fault in WAITING:
             self._waited += 1
             if self._waited == WAITS:
                 self._told = True

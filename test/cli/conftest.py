@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import ctypes
+import fcntl
 import json
 import os
+import pty
+import re
+import select
 import socket
+import struct
 import subprocess
 import sys
+import termios
+import time
+from functools import partial
 from pathlib import Path
 
+import pyte
 import pytest
 
 ADOPT_ORPHANS = 36
@@ -97,6 +106,91 @@ class Agv:
             process.communicate()
 
 
+JARRING = re.compile(r'-0\.?0*(?![\d.])|\.\.\.|\b0\.0 times')
+"""Numbers that round to zero with a minus, what was cut off, and a pace of nothing"""
+
+
+class Terminal:
+    """Runs a command of `agv` in a real terminal (a pty), and reads its screen as it changes."""
+
+    def __init__(self, agv, *words, columns=80, rows=24, **options):
+        self._master, self._slave = pty.openpty()
+        self._modes = termios.tcgetattr(self._slave)
+        self.screen = pyte.HistoryScreen(columns, rows, history=5000)
+        self._stream = pyte.ByteStream(self.screen)
+        self.pictures = []
+        """the screen after each thing that was written, size and lines"""
+        self._resize(columns, rows)
+        streams = dict.fromkeys(('stdin', 'stdout', 'stderr'), self._slave)
+        self.process = agv.start(*words, start_new_session=True, **streams, **options)
+
+    def _resize(self, columns, rows):
+        fcntl.ioctl(self._slave, termios.TIOCSWINSZ, struct.pack('4H', rows, columns, 0, 0))
+
+    def resize(self, columns, rows):
+        """Drag the corner of the window: what stood there is gone."""
+        self._resize(columns, rows)
+        self.screen.resize(rows, columns)
+        self.screen.erase_in_display(2)
+        self.screen.cursor_position()
+
+    def read(self, seconds=0.1):
+        """Show what is written now; return whether anything was."""
+        if not select.select([self._master], [], [], seconds)[0]:
+            return False
+        self._stream.feed(os.read(self._master, 65536))
+        self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
+        return True
+
+    def wait(self, seen, limit=120.0):
+        """Read until ``seen`` of the text on the screen; return its lines."""
+        end = time.monotonic() + limit
+        while not seen('\n'.join(self.screen.display)):
+            assert self.read(1.0) or self.process.poll() is None, self.told()
+            assert time.monotonic() < end, self.told()
+        return self.screen.display[:]
+
+    def press(self, keys):
+        """Press keys."""
+        os.write(self._master, keys)
+
+    def end(self, limit=180.0):
+        """Read until the command has ended; return its status and all that the terminal shows.
+
+        The terminal must be as it was: its modes, and a cursor that can be seen.
+        """
+        until = time.monotonic() + limit
+        while self.process.poll() is None:
+            assert time.monotonic() < until, self.told()
+            self.read(0.2)
+        while self.read():
+            pass
+        assert termios.tcgetattr(self._slave) == self._modes
+        assert not self.screen.cursor.hidden
+        os.close(self._slave)
+        os.close(self._master)
+        return self.process.returncode, self.told()
+
+    def told(self):
+        """Return the text of the whole terminal, also of what has scrolled away."""
+        columns = range(self.screen.columns)
+        past = (''.join(line[x].data for x in columns) for line in self.screen.history.top)
+        return '\n'.join([line.rstrip() for line in (*past, *self.screen.display)])
+
+    def frames(self):
+        """Return for each size of the terminal the columns at which the map's frame ended.
+
+        None may jump, and no number may be cut off or show a minus before zero.
+        """
+        found = {}
+        for size, lines in self.pictures:
+            for line in lines:
+                assert not JARRING.search(line), line
+                if line.startswith('│'):
+                    found.setdefault(size, set()).add(line.find('│', 1))
+        return found
+
+
 @pytest.fixture(scope='session')
 def warm_python():
     """Return what makes processes of `agv` at once."""
@@ -111,6 +205,12 @@ def alone(warm_python):
     agv = Agv(warm_python)
     yield agv
     agv.end()
+
+
+@pytest.fixture
+def terminal(alone):
+    """Return what runs the command in a terminal."""
+    return partial(Terminal, alone)
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ is a child of who asked, since its parent here ends at once.
 
 from __future__ import annotations
 
+import fcntl
 import gc
 import json
 import os
@@ -15,6 +16,7 @@ import pkgutil
 import runpy
 import socket
 import sys
+import termios
 from importlib import import_module
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
@@ -85,6 +87,8 @@ def become(given, streams):
     sys.stderr = open(2, 'w', buffering=1, errors='backslashreplace', closefd=False)  # noqa: SIM115
     if given['session']:
         os.setsid()
+        if os.isatty(0):  # whose Ctrl-C is for us
+            fcntl.ioctl(0, termios.TIOCSCTTY, 0)
     os.chdir(given['folder'])
     os.environ.clear()
     os.environ.update(given['environment'])

@@ -42,6 +42,9 @@ def test_a_start_in_which_all_take_their_time_says_nothing():
     node.now += 60.0
     assert looked(node, guard, 20, period=3.0) == []
     assert guard.watch.fault
+    node.time = 50.0
+    assert looked(node, guard, 5, period=3.0) == []  # the first time, and long no second
+    assert guard.watch.fault
     assert looked(node, guard, 20, speed=60.0) == []
     assert not guard.watch.fault
 

@@ -15,14 +15,17 @@ actions:
 """
 
 
-def test_a_short_sequence_leaves_a_bag_and_a_figure(alone, tmp_path):
+def test_a_short_sequence_leaves_a_bag_and_a_figure(terminal, tmp_path):
     file = tmp_path / 'short.yaml'
     file.write_text(SEQUENCE, encoding='utf-8')
-    status, out, errors = alone(
+    screen = terminal(
         'demo', 'differential', '--sequence', file, '--time-factor', 4,
-        '--no-page', '--output', tmp_path, timeout=180.0,
+        '--no-page', '--output', tmp_path, columns=200, rows=50,
     )  # fmt: skip
-    assert status == 0, out + errors
+    status, out = screen.end()
+    assert status == 0, out
+    assert 'm/s forward' in str(screen.pictures)
+    screen.frames()
     x, y = map(float, re.search(r'ends at (-?[\d.]+) m, (-?[\d.]+) m', out).groups())
     assert (x, y) == pytest.approx((0.6, 0.2), abs=0.05)
     assert (tmp_path / 'run.png').stat().st_size > 10_000

@@ -15,12 +15,15 @@ from agv_motion.report.localization import read_localization
 from agv_motion.report.stamped_columns import pose_columns
 
 
-def test_a_short_drive_leaves_a_bag_and_a_figure(alone, tmp_path):
-    status, out, errors = alone(
+def test_a_short_drive_leaves_a_bag_and_a_figure(terminal, tmp_path):
+    screen = terminal(
         'demo', 'omni', '--minutes', 0.5, '--time-factor', 15, '--no-carry',
-        '--no-page', '--output', tmp_path, timeout=180.0,
+        '--no-page', '--output', tmp_path,
     )  # fmt: skip
-    assert status == 0, errors
+    status, out = screen.end()
+    assert status == 0, out
+    assert 'm/s forward' in str(screen.pictures)
+    screen.frames()
     assert (tmp_path / 'path.png').stat().st_size > 10_000
     with BagReader(tmp_path / 'bag') as bag:
         run = read_localization(bag)
