@@ -19,7 +19,8 @@ STANDS_AFTER = 2.0
 """[s] without progress after which a clock stands still, where no input has a limit."""
 
 LOOKS = 9
-"""Number of looks whose median tells how fast the clock runs: one leap does not change it."""
+"""Number of looks whose median tells how fast the clock runs: one leap does not change it. Before
+that no pace is known: a simulation that begins on a busy machine stutters, and has not leapt."""
 
 SOON = 1e-3
 """[s] Less than the time between two looks."""
@@ -103,7 +104,7 @@ class ClockWatch:
             return
         if gained < -BACK:
             self.distrust(f'the clock leapt back by {-gained:.3g} s', steady)
-        elif self._speeds and gained > self.speed * (AHEAD + 3.0 * passed):
+        elif len(self._speeds) == LOOKS and gained > self.speed * (AHEAD + 3.0 * passed):
             self.distrust(f'the clock leapt ahead by {gained:.3g} s', steady)
         if passed > 0.0:
             speed = gained / passed

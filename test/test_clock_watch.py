@@ -78,6 +78,11 @@ def test_a_clock_that_has_told_one_time_has_not_begun_to_run():
     assert not any(faults[-10:])
 
 
+def test_a_simulation_that_stutters_as_it_begins_has_not_leapt():
+    times = [50.0, 50.1, 50.1, 50.2, 56.2, 68.2, 68.3, 80.0, *running(86.0, 30, speed=60.0)]
+    assert not any(looked(ClockWatch(), times))
+
+
 def test_two_clocks_by_turns_are_never_believed():
     to_and_fro = [1000.0 + 0.1 * i + (500.0 if i % 2 else 0.0) for i in range(100)]
     assert all(looked(ClockWatch(), to_and_fro)[3:])

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from html import escape
-from math import isfinite
+from math import floor, isfinite, log10
 from typing import TYPE_CHECKING, Any
+
+from agv_motion.report import style
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -15,13 +17,14 @@ if TYPE_CHECKING:
 Ring = list[tuple[float, float]]
 
 COLOURS = {
-    'walking': '#009E73', 'driving': '#009E73', 'turning': '#56B4E9', 'waiting': '#F0E442',
-    'paused': '#E69F00', 'resting': '#0072B2', 'closed': '#999999', 'arrived': '#56B4E9',
-    'starting': '#CC79A7', 'stopped': '#D55E00', 'blocked': '#D55E00', 'failed': '#D55E00',
+    'walking': style.PATH, 'driving': style.PATH, 'turning': style.OTHERS[0],
+    'waiting': style.WAITING, 'paused': style.HINDERED, 'resting': '#CFCFCF',
+    'closed': style.OTHERS[1], 'arrived': style.OTHERS[3], 'starting': style.SUN,
+    'stopped': style.GOAL, 'blocked': style.GOAL, 'failed': style.GOAL,
 }  # fmt: skip
-"""of activities: those of Okabe and Ito, for all eyes; words stand beside them"""
+"""of activities, as on every picture; words stand beside them"""
 
-OTHER = '#CCCCCC'
+OTHER = '#E8E8E8'
 GOALS_SHOWN = 60
 WIDTH, HEIGHT = 1000.0, 36.0
 """of the bar"""
@@ -45,14 +48,14 @@ def map_of(robot: RobotDay) -> str:
     parts.append(_rings(edges.get('translation_only', []), '#fbe3c0', '#E69F00', unit))
     if len(robot.trail) > 1:
         parts.append(
-            f'<polyline points="{_points(robot.trail)}" fill="none" stroke="#0072B2" '
+            f'<polyline points="{_points(robot.trail)}" fill="none" stroke="{style.ROBOT}" '
             f'stroke-width="{0.6 * unit:.4f}"/>'
         )
-    for number, goal in list(enumerate(robot.goals, 1))[-GOALS_SHOWN:]:
-        parts.append(_goal(number, goal.x, -goal.y, unit))
     if robot.trail:
-        x, y = robot.trail[-1]
-        parts.append(f'<circle cx="{x:.3f}" cy="{-y:.3f}" r="{1.6 * unit:.4f}" fill="#009E73"/>')
+        parts += [_end(robot.trail[0], '#ffffff', unit), _end(robot.trail[-1], style.ROBOT, unit)]
+    for x, y, number in style.grouped([(g.x, g.y) for g in robot.goals], 4.5 * unit)[-GOALS_SHOWN:]:
+        parts.append(_goal(number, x, -y, unit))
+    parts.append(_ruler(west, south - 0.6 * margin, east - west, unit))
     width, height = east - west + 2.0 * margin, north - south + 2.0 * margin
     return (
         f'<svg viewBox="{west - margin:.3f} {-north - margin:.3f} {width:.3f} {height:.3f}" '
@@ -119,10 +122,34 @@ def _points(line: Sequence[tuple[float, float]]) -> str:
     return ' '.join(f'{x:.2f},{-y:.2f}' for x, y in line)
 
 
-def _goal(number: int, x: float, y: float, unit: float) -> str:
+def _goal(number: str, x: float, y: float, unit: float) -> str:
+    """Return a disc with the number of a goal, or the numbers of those that lie together."""
+    half = (1.3 + 0.75 * len(number)) * unit
     return (
-        f'<circle cx="{x:.3f}" cy="{y:.3f}" r="{2.2 * unit:.4f}" fill="#ffffff" '
-        f'stroke="#D55E00" stroke-width="{0.5 * unit:.4f}"/>'
+        f'<rect x="{x - half:.3f}" y="{y - 2.0 * unit:.3f}" width="{2.0 * half:.3f}" '
+        f'height="{4.0 * unit:.3f}" rx="{2.0 * unit:.3f}" fill="{style.GOAL}"/>'
         f'<text x="{x:.3f}" y="{y + 0.9 * unit:.3f}" font-size="{2.6 * unit:.3f}" '
-        f'text-anchor="middle">{number}</text>'
+        f'font-weight="bold" fill="#ffffff" text-anchor="middle">{number}</text>'
+    )
+
+
+def _end(place: tuple[float, float], fill: str, unit: float) -> str:
+    """Return one end of the way: a ring at the start, a disc at the end."""
+    return (
+        f'<circle cx="{place[0]:.3f}" cy="{-place[1]:.3f}" r="{1.4 * unit:.4f}" fill="{fill}" '
+        f'stroke="{style.ROBOT}" stroke-width="{0.5 * unit:.4f}"/>'
+    )
+
+
+def _ruler(west: float, south: float, width: float, unit: float) -> str:
+    """Return a bar of a round length below the map, with its length in metres."""
+    rough = max(0.2 * width, 1e-3)
+    decade = 10.0 ** floor(log10(rough))
+    length = max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= rough)
+    end = west + length
+    return (
+        f'<path d="M{west:.3f} {-south:.3f}H{end:.3f}" stroke="#1a1a1a" '
+        f'stroke-width="{0.4 * unit:.4f}"/>'
+        f'<text x="{end + unit:.3f}" y="{-south + 0.8 * unit:.3f}" font-size="{2.4 * unit:.3f}">'
+        f'{length:g} m</text>'
     )

@@ -35,7 +35,7 @@ p.note { color: #444; font-size: .9rem; }
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """The page loads nothing, and runs nothing."""
 
-MAP = 'Blue: its way. Numbers: goals, in turn. Green: where it was at the end.'
+MAP = 'Blue: its way, from the ring to the disc. Numbers: goals, in turn.'
 
 REST = 60.0
 """[s] A shorter time without motion is no rest worth a row."""

@@ -6,8 +6,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from agv_motion.report import style
 from agv_motion.report.daily_drawing import bar_of, map_of, rings
-from agv_motion.report.daily_robot import RobotDay, Spans
+from agv_motion.report.daily_robot import GoalOfDay, RobotDay, Spans
 
 
 @pytest.mark.parametrize(
@@ -27,6 +28,22 @@ def test_a_name_with_markup_is_a_name():
     robot.trail = [(0.0, 0.0), (1.0, 1.0)]
     assert '&lt;oak&gt;' in map_of(robot)
     ET.fromstring(map_of(robot))  # noqa: S314 - our own
+
+
+def test_a_way_has_two_ends_a_length_and_goals_that_lie_together_share_a_disc():
+    robot = RobotDay('oak')
+    robot.trail = [(0.0, 0.0), (12.0, 0.0)]
+    robot.goals = [GoalOfDay(0.0, x, 5.0) for x in (2.0, 9.0, 2.1)]
+    drawn = ET.fromstring(map_of(robot))  # noqa: S314 - our own
+    assert [text.text for text in drawn.iter('text')] == ['1\u2009·\u20093', '2', '2 m']
+    assert [end.get('fill') for end in drawn.iter('circle')] == ['#ffffff', style.ROBOT]
+
+
+def test_a_robot_that_stood_is_drawn_too():
+    robot = RobotDay('oak')
+    robot.trail = [(3.0, 3.0)]
+    assert 'NaN' not in map_of(robot)
+    assert 'inf' not in map_of(robot)
 
 
 def test_spans_end_where_nobody_has_told_for_long():
