@@ -109,6 +109,9 @@ class Agv:
 JARRING = re.compile(r'-0\.?0*(?![\d.])|\.\.\.|\b0\.0 times')
 """Numbers that round to zero with a minus, what was cut off, and a pace of nothing"""
 
+PAUSE = 0.12
+"""[s] A picture that is being written does not pause for so long; half of the time between two"""
+
 
 class Terminal:
     """Runs a command of `agv` in a real terminal (a pty), and reads its screen as it changes."""
@@ -127,19 +130,13 @@ class Terminal:
     def _resize(self, columns, rows):
         fcntl.ioctl(self._slave, termios.TIOCSWINSZ, struct.pack('4H', rows, columns, 0, 0))
 
-    def resize(self, columns, rows):
-        """Drag the corner of the window: what stood there is gone."""
-        self._resize(columns, rows)
-        self.screen.resize(rows, columns)
-        self.screen.erase_in_display(2)
-        self.screen.cursor_position()
-
     def read(self, seconds=0.1):
-        """Show what is written now; return whether anything was."""
+        """Show what is written now; return whether anything was. A picture is what is whole."""
         if not select.select([self._master], [], [], seconds)[0]:
             return False
         self._stream.feed(os.read(self._master, 65536))
-        self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
+        if not select.select([self._master], [], [], PAUSE)[0]:
+            self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
         return True
 
     def wait(self, seen, limit=120.0):
@@ -186,7 +183,7 @@ class Terminal:
         for size, lines in self.pictures:
             for line in lines:
                 assert not JARRING.search(line), line
-                if line.startswith('│'):
+                if line.startswith('│') and '│' in line[1:]:
                     found.setdefault(size, set()).add(line.find('│', 1))
         return found
 
