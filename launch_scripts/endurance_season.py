@@ -22,7 +22,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from agv_motion.report.season_figure import Coverage, draw
+from agv_motion.report.season_figure import FloorCoverage, draw
 from agv_motion.simulation.trials.season import Season, SeasonParameters, Tally
 from agv_motion.simulation.trials.season_zones import MOST_TREES
 
@@ -73,7 +73,7 @@ def report(outcomes: list[tuple[SeasonParameters, Tally]]) -> Table:
     return table
 
 
-def coverages(pool: multiprocessing.pool.Pool, seed: int) -> dict[str, Coverage]:
+def coverages(pool: multiprocessing.pool.Pool, seed: int) -> dict[str, FloorCoverage]:
     """Return the shares of three floors stood on over 20 days, by both choices of goals."""
     kinds, seeds = ('square', 'garden', 'rooms'), range(seed, seed + 3)
     wanted = [
@@ -83,7 +83,7 @@ def coverages(pool: multiprocessing.pool.Pool, seed: int) -> dict[str, Coverage]
     found: dict[tuple[str, str], list[list[float]]] = {}
     for given, tally in track(pool.imap(spend, wanted), 'Coverage', len(wanted)):
         found.setdefault((given.kind, given.strategy), []).append([0.0, *tally.coverage])
-    return {kind: Coverage(found[kind, 'memory'], found[kind, 'straight']) for kind in kinds}
+    return {kind: FloorCoverage(found[kind, 'memory'], found[kind, 'straight']) for kind in kinds}
 
 
 def main() -> None:

@@ -17,7 +17,7 @@ WHOLE = 0.99
 """Share of a floor from which it counts as all of it"""
 
 
-class Coverage(NamedTuple):
+class FloorCoverage(NamedTuple):
     """Shares of one floor that were stood on at the end of each day, a row for each season."""
 
     memory: Sequence[Sequence[float]]
@@ -26,7 +26,7 @@ class Coverage(NamedTuple):
     """where it goes straight or not at all"""
 
 
-def finding(floors: Mapping[str, Coverage]) -> str:
+def finding(floors: Mapping[str, FloorCoverage]) -> str:
     """Return what the seasons showed, in one line, from their numbers."""
     slowest = max(_day_of_all(row) for floor in floors.values() for row in floor.memory)
     least = min(row[-1] for floor in floors.values() for row in floor.straight)
@@ -37,7 +37,7 @@ def finding(floors: Mapping[str, Coverage]) -> str:
     )
 
 
-def draw(floors: Mapping[str, Coverage], path: Path, *, theme: str = 'light') -> None:
+def draw(floors: Mapping[str, FloorCoverage], path: Path, *, theme: str = 'light') -> None:
     """Draw the shares over the days, a picture for each floor, beside each other.
 
     Raises:
@@ -57,7 +57,7 @@ def draw(floors: Mapping[str, Coverage], path: Path, *, theme: str = 'light') ->
         axes[names[0]].set(ylabel='floor stood on [%]')
 
 
-def _draw_floor(axes: Any, name: str, floor: Coverage) -> None:
+def _draw_floor(axes: Any, name: str, floor: FloorCoverage) -> None:
     """Draw one floor: straight in broad lines below, memory in thin ones on top."""
     below, above = style.OTHERS[0], style.ROBOT
     for rows, color, width in ((floor.straight, below, 3.2), (floor.memory, above, 1.3)):
