@@ -7,7 +7,6 @@ knows: handing each message from one thread to the other would cost more than th
 
 from __future__ import annotations
 
-import asyncio
 import time
 from collections import deque
 from contextlib import suppress
@@ -22,12 +21,14 @@ from agv_motion.dashboard.foxglove.transforms import HOLD, DerivedTransforms
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.nodes.foxglove_acts import FoxgloveActs
 from agv_motion.nodes.foxglove_connections import connections
+from agv_motion.nodes.promise import guarded, promise
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.channel_subscription import ChannelSubscription, terms
 from agv_motion.ros.endpoints import message_class
 from agv_motion.ros.raw_subscription import ListenerNodes
 
 if TYPE_CHECKING:
+    import asyncio
     from collections.abc import Callable, Iterator, Mapping
 
     from agv_motion.ros.live_port import LivePort
@@ -116,13 +117,13 @@ class FoxgloveGraph:
 
     def call(self, service: str, kind: str, data: bytes) -> asyncio.Future[bytes]:
         """Call a service with a request in CDR, in the thread of the node."""
-        future, answer = _promise()
+        future, answer = promise()
 
         def begin() -> bool:
             self._acts.call(service, kind, data, answer)
             return True
 
-        self._asked.append(_guarded(begin, answer))
+        self._asked.append(guarded(begin, answer))
         return future
 
     @staticmethod
@@ -137,7 +138,7 @@ class FoxgloveGraph:
 
     def _ask(self, act: Callable[[], bool]) -> asyncio.Future[str]:
         """Return what comes of an act, which is tried until it returns that it is done."""
-        future, answer = _promise()
+        future, answer = promise()
 
         def tried() -> bool:
             done = act()
@@ -145,7 +146,7 @@ class FoxgloveGraph:
                 answer('')
             return done
 
-        self._asked.append(_guarded(tried, answer))
+        self._asked.append(guarded(tried, answer))
         return future
 
     def _hear(self, topic: str, data: bytes) -> None:
@@ -259,41 +260,6 @@ def _topic(name: str, types: list[str], publishers: list[Any]) -> GraphTopic:
     message_class(kind)
     slots, latched = terms(publishers)
     return GraphTopic(name, kind, installed(kind).text, slots, latched)
-
-
-def _promise() -> tuple[asyncio.Future[Any], Callable[[Any], None]]:
-    """Return a future, and what ends it from another thread with a result or an error."""
-    loop = asyncio.get_running_loop()
-    future: asyncio.Future[Any] = loop.create_future()
-
-    def settle(found: Any) -> None:
-        if future.done():
-            return
-        if isinstance(found, Exception):
-            future.set_exception(found)
-        else:
-            future.set_result(found)
-
-    def answer(found: Any) -> None:
-        with suppress(RuntimeError):  # the loop has ended meanwhile
-            loop.call_soon_threadsafe(settle, found)
-
-    return future, answer
-
-
-def _guarded(act: Callable[[], bool], answer: Callable[[Any], None]) -> Callable[[], bool]:
-    """Return an act whose errors are told to who has asked."""
-
-    def guarded() -> bool:
-        try:
-            return act()
-        except AgvMotionError as error:
-            answer(error)
-        except Exception as error:  # noqa: BLE001 - of rclpy, told to who has asked
-            answer(ConfigurationError(f'{type(error).__name__}: {error}'))
-        return True
-
-    return guarded
 
 
 def _plain(value: Any) -> Any:

@@ -12,16 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 from agv_motion.bag.last_messages import last_before
 from agv_motion.bag.playback.timeline import Timeline
-from agv_motion.bag.reader import BagReader
 from agv_motion.dashboard.foxglove.protocol import PlaybackStatus
 from agv_motion.dashboard.foxglove.requests import ProtocolError
 from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
     from agv_motion.bag.connection import Message
+    from agv_motion.bag.reader import BagReader
 
 SLOWEST, FASTEST = 0.01, 100.0
 """[s] of the bag in a second"""
@@ -37,14 +36,18 @@ SECOND = 1_000_000_000
 class BagViewing:
     """One bag, played for one client."""
 
-    def __init__(self, path: Path, rate: float = 1.0) -> None:
+    def __init__(self, bag: BagReader, rate: float = 1.0) -> None:
         """Stand at the beginning.
 
+        Args:
+            bag: For this client alone; closed by `close`.
+            rate: Seconds of it in a second.
+
         Raises:
-            AgvMotionError: There is no bag, it cannot be read at all, or the rate is out of range.
+            ProtocolError: The rate is out of range.
 
         """
-        self._bag = BagReader(path)
+        self._bag = bag
         self.begin, self.end = self._bag.start, self._bag.end
         require_rate(rate)
         self._timeline = Timeline(self.begin, rate)

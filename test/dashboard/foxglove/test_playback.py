@@ -18,7 +18,7 @@ BOTH = '/count', '/description'
 
 @pytest.fixture
 def player(counted):
-    made = BagViewing(counted)
+    made = BagViewing(BagReader(counted))
     yield made
     made.close()
 
@@ -97,7 +97,7 @@ def test_a_bag_that_is_torn_plays_up_to_where_it_is(counted, tmp_path):
         (file,) = (one.path for one in bag.files)
     torn = tmp_path / 'torn.mcap'
     torn.write_bytes(file.read_bytes()[:-200])
-    made = BagViewing(torn)
+    made = BagViewing(BagReader(torn))
     made.choose(BOTH, 0.0)
     made.play(0.0)
     assert words(made.due(100.0))[:2] == ['urdf', '1']

@@ -32,6 +32,8 @@ PERIOD = 0.005
 """[s] between two looks for messages"""
 SHORTEST = 0.001
 """[s] that are left for others between two looks, whatever a look has taken"""
+AFTER_FAILURE = 1.0
+"""[s] without a look after one that has failed: what fails again is told once a second"""
 GRAPH_PERIOD = 0.25
 """[s] between two looks for what has come and gone"""
 
@@ -107,6 +109,7 @@ class FoxgloveHub:
                     self._renew()
             except Exception:  # noqa: BLE001 - told; the others must go on
                 _LOG.exception('a look at the graph has failed')
+                await asyncio.sleep(AFTER_FAILURE)
             await asyncio.sleep(max(PERIOD - (time.monotonic() - begun), SHORTEST))
 
     def _pass_on(self) -> None:
