@@ -14,7 +14,7 @@ from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
-from agv_motion.demo.drawn import model_node
+from agv_motion.demo.drawn import model_node, scene_node
 from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
@@ -70,7 +70,7 @@ class DifferentialScenario(Scenario[RunBag]):
         self._status: Status | None = None
 
     def build(self) -> DemoGraph:
-        """Make the five nodes."""
+        """Make the six nodes."""
         patient = {'use_sim_time': True, 'report_after': 1.0, 'stop_after': 2.0}
         robot = configured_node(
             DifferentialSimulator, CONFIG, {'time_factor': self._time_factor, 'seed': self._seed}
@@ -82,7 +82,9 @@ class DifferentialScenario(Scenario[RunBag]):
         wheels = configured_node(DifferentialKinematics, CONFIG, patient)
         arbiter = arbiter_node(CONFIG, {'timeouts__sequence': 2.0})
         model = model_node(CONFIG, pose='fix')
-        return DemoGraph((self._actions, arbiter, wheels, model, robot), robot, TOPICS)
+        seen = 'pose:=fix', 'path:=sequence/path', 'state:=sequence/state'
+        scene = scene_node(CONFIG, '', *seen)
+        return DemoGraph((self._actions, arbiter, wheels, model, scene, robot), robot, TOPICS)
 
     def progress(self, _: float) -> tuple[float, str]:
         """Return how much of the sequence is done, and the action."""

@@ -14,7 +14,7 @@ from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
-from agv_motion.demo.drawn import model_node
+from agv_motion.demo.drawn import model_node, scene_node
 from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.omni_driver import OmniDriver
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
@@ -89,7 +89,14 @@ class OmniScenario(Scenario[LocalizationRun]):
         wheels = configured_node(OmniKinematics, CONFIG, patient)
         localization = configured_node(Localization, CONFIG, common)
         arbiter = arbiter_node(CONFIG, {'timeouts__agent': 2.0})
-        nodes = arbiter, wheels, localization, model_node(CONFIG), self._simulator
+        nodes = (
+            arbiter,
+            wheels,
+            localization,
+            model_node(CONFIG),
+            scene_node(CONFIG),
+            self._simulator,
+        )
         return DemoGraph(nodes, self._simulator, TOPICS, others=[OmniDriver(self._seed)])
 
     def view(self, recorder: DemoRecorder) -> DriveView:

@@ -16,7 +16,7 @@ from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import configured_node
 from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
-from agv_motion.demo.drawn import model_node
+from agv_motion.demo.drawn import model_node, scene_node
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.tree_view import TreeView
@@ -68,7 +68,7 @@ TOPICS = [
 
 
 class TreeScenario(Scenario[WalkRun]):
-    """One tree with its seven nodes, on simulated probes or on a recording."""
+    """One tree with its eight nodes, on simulated probes or on a recording."""
 
     figure = 'walk.png'
 
@@ -90,7 +90,7 @@ class TreeScenario(Scenario[WalkRun]):
         self._place = {'zone_file': zone} if zone else {}
 
     def build(self) -> DemoGraph:
-        """Make the seven nodes; the tree starts at the home of its zone."""
+        """Make the eight nodes; the tree starts at the home of its zone."""
         common = {'use_sim_time': True}
         probe = configured_node(GranierProbe, CONFIG, common | self._probes)
         motion = configured_node(
@@ -107,8 +107,8 @@ class TreeScenario(Scenario[WalkRun]):
             {'time_factor': self._time_factor, 'seed': self._seed, 'start_x': x, 'start_y': y},
         )  # fmt: skip
         self._wheels = wheels.parameters
-        model = model_node(CONFIG)
-        nodes = probe, motion, arbiter, wheels, localization, model, self._simulator
+        model, scene = model_node(CONFIG), scene_node(CONFIG)
+        nodes = probe, motion, arbiter, wheels, localization, model, scene, self._simulator
         return DemoGraph(nodes, self._simulator, TOPICS)
 
     def view(self, recorder: DemoRecorder) -> TreeView:

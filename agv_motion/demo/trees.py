@@ -18,7 +18,7 @@ from agv_motion.demo.arbitrated import TOPICS as ARBITER_TOPICS
 from agv_motion.demo.arbitrated import arbiter_node, drives_as
 from agv_motion.demo.configured import N, configured_node
 from agv_motion.demo.drawn import TOPICS as DRAWN_TOPICS
-from agv_motion.demo.drawn import model_node
+from agv_motion.demo.drawn import model_node, scene_node
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
 from agv_motion.demo.trees_view import TreesView
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from agv_motion.bag.reader import BagReader
     from agv_motion.nodes.arbiter import ArbiterNode
     from agv_motion.nodes.robot_model import RobotModelNode
+    from agv_motion.nodes.scene import Scene
     from agv_motion.ros.live_node import LiveNode
 
 CONFIG = 'tree.yaml'
@@ -67,7 +68,7 @@ RATE = 5.0
 
 
 class TreesScenario(Scenario[list[RecordedWalk]]):
-    """Several trees in one zone, seven nodes each."""
+    """Several trees in one zone, eight nodes each."""
 
     figure = 'trees.png'
     doing = 'walking'
@@ -136,6 +137,7 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
             node(WheelKinematics, {'rate': RATE}),
             node(Localization, {}),
             model_node(CONFIG, name),
+            scene_node(CONFIG, name),
         )
 
     def view(self, recorder: DemoRecorder) -> TreesView:
@@ -175,3 +177,4 @@ class _Minds(NamedTuple):
     wheels: LiveNode[WheelKinematics]
     localization: LiveNode[Localization]
     model: LiveNode[RobotModelNode]
+    scene: LiveNode[Scene]

@@ -13,15 +13,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
-from agv_motion.kinematics.omni_platform import OmniBaseParameters
-from agv_motion.kinematics.platform import PlatformParameters
-from agv_motion.model.frames import FrameParameters
 from agv_motion.model.robot_transforms import RobotTransforms
-from agv_motion.model.robots import differential_model, omni_model, tree_model
 from agv_motion.model.rolling import CountedWheels
 from agv_motion.model.urdf import write_urdf
-from agv_motion.parameters import Spec, check, rows
+from agv_motion.nodes.platform_parameters import STEERING, Platform, RobotPlatformParameters
+from agv_motion.parameters import Spec, check
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import pose_of
 from agv_motion.ros.plain_node import PlainNode
@@ -32,22 +28,12 @@ from agv_motion.ros.transforms import Transforms
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.model.robot_model import RobotModel
     from agv_motion.ros.port import Port
 
-STEERING = '_steering'
 HOLD = 3.0
 """[s] How long the place of `odom` in the map counts on /tf after the last pose"""
 ON_TIME = 0.99
 """[-] Share of the period after which joints are told again: stamps are rounded."""
-
-
-class Platform(Enum):
-    """What the robot stands on."""
-
-    TREE = 'tree'
-    OMNI = 'omni'
-    DIFFERENTIAL = 'differential'
 
 
 class ToldOnTf(Enum):
@@ -60,30 +46,10 @@ class ToldOnTf(Enum):
     NONE = 'none'
 
 
-BASES: dict[Platform, Any] = {
-    Platform.TREE: PlatformParameters,
-    Platform.OMNI: OmniBaseParameters,
-    Platform.DIFFERENTIAL: DifferentialBaseParameters,
-}
-MODELS: dict[Platform, Any] = {
-    Platform.TREE: tree_model,
-    Platform.OMNI: omni_model,
-    Platform.DIFFERENTIAL: differential_model,
-}
-
-Numbers = tuple[float, ...]
-Texts = tuple[str, ...]
-
-
 @dataclass(frozen=True)
-class RobotModelParameters(FrameParameters):
-    """The platform, as the nodes that drive its wheels have it; what is empty is theirs, too."""
+class RobotModelParameters(RobotPlatformParameters):
+    """What the robot stands on, and how often its joints are told."""
 
-    platform: Annotated[
-        str,
-        Spec('what the robot stands on: turrets, omni wheels, or two wheels',
-             choices=tuple(each.value for each in Platform)),
-    ] = Platform.TREE.value  # fmt: skip
     rate: Annotated[
         float,
         Spec('joint_states at most so often; 0: with each state of the wheels', 'Hz', (0, 1000)),
@@ -96,51 +62,10 @@ class RobotModelParameters(FrameParameters):
             choices=tuple(each.value for each in ToldOnTf),
         ),
     ] = ToldOnTf.JOINTS.value
-    turret_x: Annotated[Numbers, Spec('turret centres, forward', 'm', (-100, 100))] = ()
-    turret_y: Annotated[Numbers, Spec('turret centres, left', 'm', (-100, 100))] = ()
-    platform_radius: Annotated[
-        float, Spec('rim of the platform; 0: the farthest turret', 'm', (0.0, 100.0))
-    ] = 0.0
-    wheel_radius: Annotated[
-        float, Spec('rolling radius of all wheels under turrets', 'm', (0.001, 10.0))
-    ] = PlatformParameters.wheel_radius
-    wheel_angles: Annotated[
-        Numbers, Spec('where each omni wheel stands, from the x axis', 'rad', (-7.0, 7.0))
-    ] = ()
-    wheel_distances: Annotated[
-        Numbers, Spec('of each omni wheel from the centre', 'm', (0.0, 100.0))
-    ] = ()
-    wheel_directions: Annotated[
-        Numbers, Spec('in which the motor of each omni wheel drives', 'rad', (-7.0, 7.0))
-    ] = ()
-    slide_angles: Annotated[
-        Numbers, Spec('from there to the direction that the rollers leave free', 'rad', (-7.0, 7.0))
-    ] = ()
-    wheel_radii: Annotated[
-        Numbers, Spec('of each omni wheel, or left and right', 'm', (0.001, 10.0))
-    ] = ()
-    joint_names: Annotated[Texts, Spec('of omni wheels, or left and right')] = ()
-    track: Annotated[float, Spec('distance between two wheels', 'm', (0.001, 100.0))] = (
-        DifferentialBaseParameters.track
-    )
 
     def __post_init__(self) -> None:
         """Check every row."""
         check(self)
-
-    def model(self) -> RobotModel:
-        """Return links and joints of the robot, whose names have no prefix.
-
-        Raises:
-            AgvMotionError: The platform is none, or the base has the name of another part.
-
-        """
-        platform = Platform(self.platform)
-        own = [name for name, _, _ in rows(BASES[platform]) if hasattr(self, name)]
-        given = {name: getattr(self, name) for name in own if getattr(self, name) != ()}
-        base = self.base_frame.removeprefix(self.prefix)
-        model: RobotModel = MODELS[platform](BASES[platform](**given), base)
-        return model
 
 
 class RobotModelNode(PlainNode[RobotModelParameters]):

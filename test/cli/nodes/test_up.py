@@ -95,4 +95,6 @@ def test_a_robot_is_up_and_ends_with_its_wheels_at_rest(alone, tmp_path):
     assert (process.returncode, errors) == (0, ''), rest
     names = {line.partition(']')[0].strip('[') for line in [*lines, *rest.splitlines()]}
     assert {'omni_kinematics', 'localization'} <= names
-    assert names <= {'arbiter', 'why', 'robot_model', 'omni_kinematics', 'localization'}
+    assert names <= {
+        'arbiter', 'why', 'robot_model', 'scene', 'omni_kinematics', 'localization',
+    }  # fmt: skip
