@@ -11,10 +11,11 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from agv_motion.bag.notes import notes_of
 from agv_motion.dashboard.core.replay import Replay
 from agv_motion.dashboard.server.door import Asked, Door, acting, looking
 from agv_motion.dashboard.server.live import PERIOD, Client
-from agv_motion.dashboard.server.marks import marks
+from agv_motion.dashboard.server.marks import marks, show
 from agv_motion.dashboard.server.requests import RequestError, number
 from agv_motion.errors import AgvMotionError
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from starlette.routing import Route
     from starlette.websockets import WebSocket
 
+    from agv_motion.bag.notes import Note
     from agv_motion.dashboard.server.alerts import AlertDesk
     from agv_motion.dashboard.server.history_bag import History
     from agv_motion.dashboard.server.site import Site
@@ -63,7 +65,12 @@ def history_doors(site: Site, desk: AlertDesk) -> list[Route]:
 
 async def keep_told(site: Site) -> None:
     """Tell on the board how far the bag reaches, as long as the page is served."""
+    noted: list[Note] = []
     while site.history is not None:
+        notes = await asyncio.to_thread(notes_of, site.history.bag)
+        if notes != noted:
+            noted = notes
+            show(site)
         begin, end = await site.history.span()
         if end > 0.0:
             board, now = site.fleet.board, site.fleet.now()

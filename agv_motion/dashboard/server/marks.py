@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from agv_motion.bag.notes import notes_of
 from agv_motion.dashboard.server.door import Asked, Door, acting
 from agv_motion.dashboard.server.requests import RequestError, text
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 SHOWN = 200
 """newest marks that the page shows"""
+SECOND = 1_000_000_000
 LONGEST = 300
 """characters of a mark"""
 
@@ -30,11 +32,21 @@ def show(site: Site) -> None:
 
 
 def marks(site: Site) -> list[dict[str, Any]]:
-    """Return the newest marks, newest first."""
+    """Return the newest marks, newest first, and then what is noted in the bag that is recorded."""
+    noted = [] if site.history is None else notes_of(site.history.bag)[-SHOWN:]
+    notes = [
+        {
+            'id': -number,
+            'at': note.stamp / SECOND,
+            'text': note.text[:LONGEST],
+            'by': 'agv bag note',
+        }
+        for number, note in enumerate(reversed(noted), 1)
+    ]
     if site.store is None:
-        return []
+        return notes
     rows = site.store.rows('SELECT id, at, text, by FROM marks ORDER BY id DESC LIMIT ?', (SHOWN,))
-    return [{'id': i, 'at': at, 'text': words, 'by': by} for i, at, words, by in rows]
+    return [{'id': i, 'at': at, 'text': words, 'by': by} for i, at, words, by in rows] + notes
 
 
 def _mark(asked: Asked) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from agv_motion.bag import BagReader, BagWriter, OfferedQos
+from agv_motion.bag.notes import Note, add_note
 from agv_motion.dashboard.server.bag_fleet import BagFleet
 from agv_motion.dashboard.server.history_bag import History
 
@@ -49,6 +50,13 @@ def first_state(live):
 def test_it_is_told_how_far_back_one_can_look(past):
     told = past.get('/history').json()
     assert (told['begin'], told['end']) == (BEGIN, BEGIN + 99)
+
+
+def test_what_is_noted_in_the_bag_is_a_mark(past, walk):
+    add_note(walk, Note((BEGIN + 7) * SECOND, 'rain began'))
+    marks = past.get('/history').json()['marks']
+    noted = [{key: mark[key] for key in ('at', 'text', 'by')} for mark in marks]
+    assert noted == [{'at': BEGIN + 7, 'text': 'rain began', 'by': 'agv bag note'}]
 
 
 def test_frames_of_then_are_as_those_of_now(past):
