@@ -110,16 +110,15 @@ class McapOutput:
         sizes = len(chunk.stored), chunk.size
         head = records.chunk_head(chunk.times, sizes, chunk.crc, chunk.compression)
         length = len(head) + len(chunk.stored)
-        offsets, pieces, position = {}, [head, chunk.stored], self.size + length
+        offsets, indexes, after = {}, [], 0
         for channel, entries in sorted(chunk.indexes.items()):
-            offsets[channel] = position
-            pieces.append(records.message_index(channel, entries))
-            position += len(pieces[-1])
-        after = position - self.size - length
+            offsets[channel] = self.size + length + after
+            indexes.append(records.message_index(channel, entries))
+            after += len(indexes[-1])
         index = records.ChunkIndex(
             *chunk.times, self.size, length, offsets, after, chunk.compression, *sizes
         )
-        self._put(*pieces)
+        self._put(head, chunk.stored, b''.join(indexes))
         counts = {channel: len(entries) // 16 for channel, entries in chunk.indexes.items()}
         self._chunks.append((index, counts))
 
