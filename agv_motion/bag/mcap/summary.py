@@ -11,12 +11,15 @@ from agv_motion.bag.mcap import record_parsing as parsing
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
 from agv_motion.bag.mcap.chunk import Chunk
+from agv_motion.bag.mcap.mapped import release
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
 _FOOT = Struct('<QQI')
+_LOOKED_AT = 512
+"""Chunks; the system maps some pages around each, which a large file would have many of"""
 
 
 class Summary(NamedTuple):
@@ -73,6 +76,8 @@ def _records(data: memoryview, path: Path, start: int, foot: int) -> Summary:
             statistics = parsing.statistics(body)
         elif opcode == records.CHUNK_INDEX:
             chunks.append(_chunk(parsing.chunk_index(body), data, path, at))
+            if not len(chunks) % _LOOKED_AT:
+                release(data, 0, start)
     if position != foot:
         raise DamagedBagError(path, position, 'a record of the summary that has no end')
     chunks.sort(key=lambda chunk: chunk.offset)
