@@ -2,6 +2,7 @@
 #
 # use_environment EXTRAS  makes .venv where it is missing, installs this package with the extras
 # that are asked for, and puts it on the PATH. AGV_MOTION_VENV names another place.
+# use_pytest              after it: lets pytest start quickly, with the plugins of these tests.
 
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -40,4 +41,14 @@ use_environment() {
     AMENT_PREFIX_PATH="$venv${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}"
     ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}
     export PATH AMENT_PREFIX_PATH ROS_AUTOMATIC_DISCOVERY_RANGE
+}
+
+use_pytest() {
+    # bytecode is kept, whatever the machine's habit, and away from the sources: without it each of
+    # some hundred processes compiles all that it imports
+    unset PYTHONDONTWRITEBYTECODE
+    export PYTHONPYCACHEPREFIX="$venv/bytecode"
+    # the plugins that these tests need, and none of those that happen to be installed
+    export PYTEST_DISABLE_PLUGIN_AUTOLOAD=1
+    export PYTEST_PLUGINS=_hypothesis_pytestplugin,pytest_timeout,xdist.plugin
 }

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 
 SMALL = 1e-6
 """Numbers below it are rounding guards: twice as much is no change of behaviour."""
+MANY = 1000
+"""Whole numbers from here on are limits of size: one more is no change of behaviour."""
 
 OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult,
@@ -65,6 +67,8 @@ def mutated(source: str, site: Site) -> ast.Module:
 def _nodes(node: ast.AST) -> Iterator[Any]:
     """Yield what may be changed: no annotations, docstrings, messages or checks for types."""
     for child in ast.iter_child_nodes(node):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.LShift):
+            return  # a size of memory, which makes nothing wrong
         if _is_left_alone(node, child):
             continue
         yield child
@@ -156,7 +160,7 @@ def _number(node: Any, *, apply: bool) -> str:
     if isinstance(value, bool):
         after: Any = not value
     elif isinstance(value, int):
-        after = value + 1
+        after = value + 1 if value < MANY else 2 * value
     elif isinstance(value, float) and not 0.0 < value < SMALL:
         after = 2.0 * value or 1.0
     else:

@@ -16,22 +16,19 @@ from __future__ import annotations
 
 import argparse
 import os
-import random
 import sys
 import time
+from hashlib import sha256
 from importlib.machinery import SourceFileLoader
 from importlib.util import spec_from_loader
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from hypothesis import Phase, settings
 from mutants import Site, mutated, sites
 from rich.console import Console
 from rich.progress import Progress
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[1]
 CORE = (
@@ -55,18 +52,23 @@ class Mutant(NamedTuple):
         parts = self.path.relative_to(ROOT).with_suffix('').parts
         return '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
 
-    def tests(self) -> Iterator[list[str]]:
-        """Yield the tests to ask, the nearest first: the mirrored file, the folder, the room."""
+    def tests(self) -> list[list[str]]:
+        """Return the tests to ask, the nearest first, each once.
+
+        The file that mirrors the module, those of its room that name it, those beside it, its room.
+        """
         inside = self.path.relative_to(ROOT / 'agv_motion')
-        folder = ROOT / 'test' / inside.parent
+        folder, room = ROOT / 'test' / inside.parent, ROOT / 'test' / inside.parts[0]
         near = [folder / f'test_{inside.name}', folder / 'test_golden.py']
-        room = ROOT / 'test' / inside.parts[0]
-        asked: list[list[Path]] = [near, sorted(folder.glob('test_*.py'))]
-        if len(inside.parts) > 1:
-            asked.append([room])
-        for paths in asked:
-            if existing := [str(path) for path in paths if path.exists()]:
-                yield existing
+        beside = sorted(folder.glob('test_*.py'))
+        all_of_room = sorted(room.rglob('test_*.py'))
+        named = [path for path in all_of_room if self.module in path.read_text()]
+        asked: set[Path] = set()
+        stages = []
+        for paths in (near, named, beside, all_of_room):
+            stages.append([str(path) for path in paths if path.exists() and path not in asked])
+            asked.update(paths)
+        return [stage for stage in stages if stage]
 
 
 class Loader(SourceFileLoader):
@@ -140,14 +142,27 @@ def child(mutant: Mutant | None, stages: list[list[str]]) -> int:
 
 
 def draw(paths: list[Path], count: int, seed: int) -> list[Mutant]:
-    """Return a seeded sample of all changes of the files in ``paths``."""
+    """Return a seeded sample of all changes of the files in ``paths``.
+
+    A change has its lot of its own, so that code written elsewhere does not draw others: who has
+    mended what survived asks the same again.
+    """
     files = [
         file for path in paths for file in (sorted(path.rglob('*.py')) if path.is_dir() else [path])
     ]
-    every = [Mutant(file, site) for file in files for site in sites(file.read_text())]
-    chosen = random.Random(seed).sample(every, min(count, len(every)))  # noqa: S311 - no secret
+    every: dict[str, Mutant] = {}
+    for mutant in (Mutant(file, site) for file in files for site in sites(file.read_text())):
+        key = ' '.join((str(seed), mutant.module, mutant.site.what, mutant.site.source))
+        while key in every:  # twice in one line, or in two that are alike
+            key += ' again'
+        every[key] = mutant
+    chosen = [every[key] for key in sorted(every, key=_lot)[:count]]
     print(f'{len(chosen)} of {len(every)} changes in {len(files)} files, seed {seed}')
     return chosen
+
+
+def _lot(key: str) -> bytes:
+    return sha256(key.encode()).digest()
 
 
 def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> int:
@@ -158,7 +173,7 @@ def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> int:
         while left or running:
             while left and len(running) < jobs:
                 mutant = left.pop()
-                running[child(mutant, list(mutant.tests())[:stages])] = mutant
+                running[child(mutant, mutant.tests()[:stages])] = mutant
             pid, status = os.wait()
             if (asked := running.pop(pid, None)) is None:
                 continue
@@ -178,7 +193,7 @@ def judge(mutants: list[Mutant], jobs: int, stages: int | None) -> int:
 
 def pass_as_they_are(mutants: list[Mutant], stages: int | None) -> bool:
     """Return whether all tests that are asked pass where nothing is changed."""
-    every = {test for each in mutants for tests in list(each.tests())[:stages] for test in tests}
+    every = {test for each in mutants for tests in each.tests()[:stages] for test in tests}
     _, status = os.waitpid(child(None, [sorted(every)]), 0)
     return os.waitstatus_to_exitcode(status) == SURVIVED
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import ast
+import os
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 FOLDER = Path(__file__).parents[1] / 'launch_scripts'
 sys.path.insert(0, str(FOLDER))
+import mutation
 from mutants import mutated, sites
 
 SOURCE = '''
@@ -55,34 +55,60 @@ def test_every_kind_of_change_is_found_and_made():
     ]
 
 
-def run(*arguments):
-    return subprocess.run(  # noqa: S603 - our own interpreter
-        [sys.executable, *arguments], capture_output=True, text=True, check=False, timeout=200
-    )
+def changes(source):
+    return [site.what for site in sites(source)]
 
 
-def test_changes_of_the_steering_planner_are_noticed():
-    file = 'agv_motion/kinematics/steering/rolling.py'
-    how = ('--count', '3', '--seed', '4', '--trust', '--jobs', '1')
-    result = run(str(FOLDER / 'mutation.py'), file, *how)
-    assert result.stdout.splitlines()[-1].startswith('0 of 3 survived'), result.stdout
-    assert result.returncode == 0
+def test_what_is_a_matter_of_size_alone_is_no_behaviour():
+    assert changes('PIECE = 1 << 20') == []
+    assert changes('MOST = 500_000') == ['500000 -> 1000000']
+    assert changes('FEW = 999') == ['999 -> 1000']
 
 
-@pytest.mark.parametrize(
-    ('check', 'verdict'), [('FARTHEST > 0.0', 'SURVIVED'), ('FARTHEST == 1e7', 'KILLED')]
-)
-def test_a_change_is_noticed_by_a_test_that_fails(tmp_path, check, verdict):
-    """FARTHEST is doubled, which a weak test takes for right."""
-    test = tmp_path / 'test_farthest.py'
-    test.write_text(f'from agv_motion.planar import FARTHEST\ndef test_it(): assert {check}\n')
-    code = (
-        f'import os, sys; sys.path.insert(0, {str(FOLDER)!r})\n'
-        'from mutation import *\n'
-        'file = ROOT / "agv_motion" / "planar.py"\n'
-        'site = next(site for site in sites(file.read_text()) if "FARTHEST" in site.source)\n'
-        f'pid = child(Mutant(file, site), [[{str(test)!r}]])\n'
-        f'assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == {verdict}\n'
-    )
-    result = run('-c', code)
-    assert result.returncode == 0, result.stderr
+def test_code_written_elsewhere_draws_no_other_changes(tmp_path, monkeypatch):
+    """Who has mended what survived asks the same again; alike lines are told apart."""
+    for name, before in (('first', ''), ('second', '"""More."""\n\n\n')):
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / 'a.py').write_text(f'{before}x = 1 + 2\ny = 3 * 4\nz = 5 - 6\nz = 5 - 6\n')
+    drawn = []
+    for folder in ('first', 'second'):
+        monkeypatch.setattr(mutation, 'ROOT', tmp_path / folder)
+        drawn.append(
+            [
+                [(m.site.what, m.site.source) for m in mutation.draw([mutation.ROOT], 5, seed)]
+                for seed in (0, 0, 1)
+            ]
+        )
+    assert drawn[0] == drawn[1]
+    once, again, other = drawn[0]
+    assert once == again != other
+    assert len(once) == 5
+
+
+def test_changes_are_noticed_by_tests_that_fail_and_by_no_others(tmp_path):
+    """FARTHEST is doubled, which a weak test takes for right; changes of the planner are seen."""
+    for name, check in (('weak', 'FARTHEST > 0.0'), ('sharp', 'FARTHEST == 1e7')):
+        test = tmp_path / f'test_{name}.py'
+        test.write_text(f'from agv_motion.planar import FARTHEST\ndef test_it(): assert {check}\n')
+    code = f"""
+import os
+from mutation import *
+os.chdir(ROOT)
+def verdict(mutant, tests):
+    return os.waitstatus_to_exitcode(os.waitpid(child(mutant, tests), 0)[1])
+file = ROOT / 'agv_motion' / 'planar.py'
+site = next(site for site in sites(file.read_text()) if 'FARTHEST' in site.source)
+for name in ('weak', 'sharp'):
+    print(verdict(Mutant(file, site), [[{str(tmp_path)!r} + f'/test_{{name}}.py']]))
+judged = draw([ROOT / 'agv_motion/kinematics/steering/rolling.py'], 2, 0)
+print(judge(judged, 1, 1))
+"""
+    environment = os.environ | {'PYTHONPATH': os.pathsep.join([str(FOLDER), str(FOLDER.parent)])}
+    result = subprocess.run(  # noqa: S603 - our own interpreter
+        [sys.executable, '-c', code],
+        capture_output=True, text=True, check=False, timeout=200, env=environment,
+    )  # fmt: skip
+    assert result.stdout.splitlines() == [
+        '0', '1', '2 of 137 changes in 1 files, seed 0', '0'
+    ], result.stdout + result.stderr  # fmt: skip

@@ -131,10 +131,10 @@ class GraphTransforms:
             return []
         return robot.transforms.take_pose(stamp, frame, pose)
 
-    def expect_pose(self, topic: str) -> None:
-        """Note that a topic ``pose`` has a publisher: where it is silent, no fix stands in."""
-        namespace = topic.rpartition('/')[0]
-        if len(self._robots) < MOST:
+    def expect(self, topic: str) -> None:
+        """Note that a topic has a publisher: where a ``pose`` is silent, no fix stands in."""
+        namespace, _, name = topic.rpartition('/')
+        if name == 'pose' and len(self._robots) < MOST:
             self._robots.setdefault(namespace, _Robot(namespace, self._hold)).is_located = True
 
 

@@ -78,10 +78,14 @@ def test_a_fix_with_a_heading_stands_in_where_no_pose_is_told(say):
     graph.take('/odom', say.odometry(2.0, (0, 0, 0)))
     graph.take('/pose', say.pose(2.0, (3, 4, 0)))
     assert graph.take('/fix', say.pose(2.0, (1, 2, 0))) == []
-    other = GraphTransforms()
-    other.expect_pose('/pose')
-    other.take('/odom', say.odometry(1.0, (0, 0, 0)))
-    assert other.take('/fix', say.pose(1.0, (1, 2, 0))) == []
+
+
+@pytest.mark.parametrize(('publisher', 'count'), [('/odom', 1), ('/fix', 1), ('/pose', 0)])
+def test_where_a_pose_has_a_publisher_no_fix_stands_in(say, publisher, count):
+    graph = GraphTransforms()
+    graph.expect(publisher)
+    graph.take('/odom', say.odometry(1.0, (0, 0, 0)))
+    assert len(graph.take('/fix', say.pose(1.0, (1, 2, 0)))) == count
 
 
 @pytest.mark.parametrize('topic', ['/robot_description', '/odom', '/pose', '/joint_states'])

@@ -7,19 +7,21 @@ from math import dist
 import pytest
 
 from agv_motion.motion.behavior.agent import Agent
+from agv_motion.motion.behavior.decision import Decision
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
 from agv_motion.motion.behavior.homing import HomeParameters
 from agv_motion.motion.behavior.parameters import AgentParameters
 from agv_motion.motion.behavior.sap_flow import SapFlow
 from agv_motion.motion.behavior.schedule import ScheduleParameters
 from agv_motion.motion.command.polar import to_twist
+from agv_motion.motion.navigation.navigator import Guidance
 from agv_motion.motion.navigation.path_planner import PathPlanner
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.motion.navigation.reservations.shared_navigator import SharedNavigator
 from agv_motion.motion.navigation.zone import Zone
-from agv_motion.motion.pilot import Pilot
+from agv_motion.motion.pilot import Pilot, motion_command
 from agv_motion.planar import Pose, integrate
 
 CORRIDOR = Zone([[0, 0], [30, 0], [30, 2.5], [0, 2.5]], margin=1.0)
@@ -95,3 +97,12 @@ def test_nobody_steps_aside_before_opening():
     oak = Oak((10.0, 1.25), schedule=ScheduleParameters(enabled=True)).live(ASLEEP, 300)
     assert (oak.pose.x, oak.pose.y) == (10.0, 1.25)
     assert (oak.going, oak.giving_way) == ({0.0}, set())
+
+
+def test_who_goes_on_to_a_goal_while_its_sap_stands_does_not_hurry_for_others():
+    """The least speed is for giving way alone."""
+    resting = Decision('resting', None, yield_speed=SPEED)
+    for gives_way, speed in ((False, 0.0), (True, SPEED)):
+        guidance = Guidance((3.0, 4.0), gives_way=gives_way)
+        assert motion_command(resting, guidance, Pose(0.0, 0.0, 0.0)).wanted.v == speed
+    assert motion_command(resting, Guidance((3.0, 4.0)), Pose(0.0, 0.0, 0.0)).wanted.v == 0.0

@@ -118,6 +118,20 @@ def test_noise_by_columns_equals_that_of_steps(way):
         np.testing.assert_allclose(found, reckoning.origin_covariance, rtol=1e-9, atol=1e-9)
 
 
+@given(WAYS, st.floats(-3, 3))
+def test_steps_carried_by_columns_are_those_carried_one_by_one(way, heading):
+    singly, at_once = DeadReckoning(), DeadReckoning()
+    for each in (singly, at_once):
+        each.set(Pose(1.0, 2.0, heading), NOISE)
+    variance = 0.1 * np.arange(len(way))
+    poses, covariances = at_once.carry_columns(tuple(np.array(way).T), NOISE, variance)
+    for i, step in enumerate(way):
+        singly.carry(step, NOISE, float(variance[i]))
+        assert singly.pose == tuple(column[i] for column in poses)
+        assert singly.covariance() == tuple(column[i] for column in covariances)
+    assert (at_once.pose, at_once.covariance()) == (singly.pose, singly.covariance())
+
+
 def test_what_is_not_finite_is_refused():
     with pytest.raises(SignalError, match='pose must be finite'):
         DeadReckoning().set(Pose(0.0, float('nan'), 0.0))

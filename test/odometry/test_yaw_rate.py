@@ -87,3 +87,12 @@ def test_a_turn_is_stretched_to_the_time_of_the_wheels():
 def test_a_rate_that_is_not_finite_is_refused():
     with pytest.raises(SignalError, match='yaw rate and its stamp must be finite'):
         YawRate().add(0.0, float('nan'))
+
+
+@pytest.mark.parametrize(('duration', 'variance'), [(0.0, 1e-4), (0.1, 0.0), (-0.1, 1e-4)])
+def test_a_turn_that_tells_nothing_leaves_the_bias(duration, variance):
+    """Over no time, or beside wheels that are sure because they stand."""
+    gyroscope = YawRate()
+    known = gyroscope.bias, gyroscope.bias_variance
+    gyroscope.compare(GyroTurn(0.1, 1e-4, duration), 0.0, variance)
+    assert (gyroscope.bias, gyroscope.bias_variance) == known

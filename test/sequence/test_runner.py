@@ -99,6 +99,17 @@ def test_progress_counts_up():
     assert shares[-1] == 2.0
 
 
+def test_the_time_of_each_action_is_its_own():
+    drive, begun = Drive(Wait(1.0), Wait(0.5), Wait(1.0)), [0.0]
+    while not drive.runner.ended:
+        assert drive.runner.status.elapsed == pytest.approx(drive.time - begun[-1])
+        before = drive.runner.status.number
+        drive.tick()
+        if drive.runner.status.number != before:
+            begun.append(drive.time)
+    assert begun == pytest.approx([0.0, 1.0, 1.5], abs=0.11)
+
+
 def test_a_timeout_stops_the_robot_with_a_ramp_and_ends_it():
     drive = Drive(GoTo(9.0, 0.0, 0.0), Wait(1.0), timeout=5.0)
     drive.run(5.0)

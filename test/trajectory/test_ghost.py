@@ -228,7 +228,9 @@ def test_aborted_it_brakes_on_its_way(goal, delta, rounding, share):
     planned = made.trajectory
     made.advance(share * planned.duration)
     linear, angular = made.speeds
+    had_arrived = made.finished
     made.brake_and_end()
+    assert made.aborted is not had_arrived
     assert made.speeds == pytest.approx((linear, angular), abs=1e-9)
     left = made.trajectory.duration - made.time
     assert left <= max(abs(linear) / 0.5, abs(angular) / 2.0) + 1.5 * rounding + 1e-9

@@ -38,8 +38,8 @@ class RecordedTransforms:
     def wants(self, topic: str, message_type: str) -> bool:
         """Return whether transforms follow from a topic; one that is recorded, from now on."""
         wanted = self._transforms.wants(topic, message_type)
-        if wanted and topic.endswith('/pose'):
-            self._transforms.expect_pose(topic)
+        if wanted:
+            self._transforms.expect(topic)
         return wanted
 
     def take(self, topic: str, data: bytes) -> list[tuple[int, bytes]]:

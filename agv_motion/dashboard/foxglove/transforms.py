@@ -45,8 +45,7 @@ class DerivedTransforms:
             return {}  # geometry_msgs is not installed either
         self._sources = sources
         for name in sources:
-            if name.endswith('/pose'):
-                self._transforms.expect_pose(name)
+            self._transforms.expect(name)
         return {
             TF: GraphTopic(TF, TYPE, definition, len(sources)),
             TF_STATIC: GraphTopic(TF_STATIC, TYPE, definition, latched=True),

@@ -28,13 +28,15 @@ def vector(stamp, x=1.0):
     )
 
 
-def write(path, stamps, *, headers=None, xs=None):
+def write(path, stamps, *, headers=None, xs=None, numbers=None):
     text = STORE.generate_msgdef(VECTOR, ros_version=2)[0]
     with BagWriter(path, chunk_size=2000) as writer:
         topic = writer.add_topic('/flow', VECTOR, text, type_hash='')
         for i, stamp in enumerate(stamps):
             header = stamp if headers is None else headers[i]
-            writer.write(topic, int(stamp), vector(header, 1.0 if xs is None else xs[i]))
+            data = vector(header, 1.0 if xs is None else xs[i])
+            number = 0 if numbers is None else int(numbers[i])
+            writer.write(topic, int(stamp), data, sequence=number)
     return path
 
 
@@ -58,6 +60,15 @@ def test_a_stamp_that_goes_back(tmp_path, steady):
     (finding,) = found(write(tmp_path / 'bag', steady, headers=headers))
     assert (finding.severity, finding.where) == ('error', '/flow')
     assert 'header.stamp goes back 1 times, first by 0.100000000 s at message 200' in finding.text
+
+
+@pytest.mark.parametrize(('talkers', 'severity'), [(1, 'error'), (2, 'warning')])
+def test_stamps_of_two_who_number_their_messages_may_go_back(tmp_path, steady, talkers, severity):
+    headers = steady.copy()
+    headers[200] = headers[198]
+    numbers = np.arange(COUNT) // talkers + 1
+    (finding,) = found(write(tmp_path / 'bag', steady, headers=headers, numbers=numbers))
+    assert (finding.severity, finding.where) == (severity, '/flow')
 
 
 def test_log_times_that_go_back_are_a_warning(tmp_path, steady):

@@ -97,3 +97,17 @@ def test_a_bit_outside_of_chunks_is_seen_by_the_crc_of_the_data(tmp_path, bit):
         assert bag.lossy
     end, _ = found(data, records.DATA_END)[0]
     assert f'byte {end - records.PREFIX.size}: all bytes before have CRC' in str(problem)
+
+
+@pytest.mark.parametrize('longer', [1, 4])
+def test_a_message_that_reaches_over_the_end_of_its_chunk(tmp_path, longer):
+    """Into the next chunk, which is decoded beside it."""
+    data = file_of(ROWS)
+    at, end = found(data, records.CHUNK)[0]
+    (length,) = unpack_from('<Q', data, end - 30 - records.PREFIX.size + 1)
+    assert length == 30
+    pack_into('<Q', data, end - 30 - 8, length + longer)
+    data[at + 24 : at + 28] = bytes(4)  # a CRC of 0 says that there is none
+    (channel,) = unpack_from('<H', data, end - 30)
+    with opened(tmp_path, data) as bag, pytest.raises(DamagedBagError, match='of the index'):
+        read_topic(bag, ('/a', '/b')[channel - 1])

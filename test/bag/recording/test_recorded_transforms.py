@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 pytest.importorskip('geometry_msgs')
@@ -29,12 +30,38 @@ def description():
 def joints(seconds):
     time = STORE.types['builtin_interfaces/msg/Time'](seconds, 0)
     kind = STORE.types['sensor_msgs/msg/JointState']
-    import numpy as np
-
     header = STORE.types['std_msgs/msg/Header'](time, 'base_link')
     names, nothing = [f'turret_{i}_steering' for i in range(3)], np.array([])
     message = kind(header, names, np.zeros(3), nothing, nothing)
     return bytes(STORE.serialize_cdr(message, 'sensor_msgs/msg/JointState'))
+
+
+def located(message_type, child=(), twist=()):
+    """Return a message of a robot that is sure of its place."""
+    make = STORE.types
+    header = make['std_msgs/msg/Header'](
+        make['builtin_interfaces/msg/Time'](1, 0), 'odom' if child else 'map'
+    )
+    place = make['geometry_msgs/msg/Point'](1.0, 2.0, 0.0)
+    turned = make['geometry_msgs/msg/Quaternion'](0.0, 0.0, 0.0, 1.0)
+    known = make['geometry_msgs/msg/Pose'](place, turned)
+    pose = make['geometry_msgs/msg/PoseWithCovariance'](known, np.full(36, 0.01))
+    return bytes(
+        STORE.serialize_cdr(make[message_type](header, *child, pose, *twist), message_type)
+    )
+
+
+@pytest.mark.parametrize(('recorded', 'count'), [('/oak/fix', 1), ('/oak/pose', 0)])
+def test_a_fix_stands_in_where_no_pose_is_recorded(recorded, count):
+    fix = 'geometry_msgs/msg/PoseWithCovarianceStamped'
+    transforms = RecordedTransforms(lambda *_: 0)
+    assert transforms.wants(recorded, fix)
+    assert not transforms.wants('/oak/pose', 'geometry_msgs/msg/PoseStamped')  # of no use here
+    still = STORE.types['geometry_msgs/msg/Vector3'](0.0, 0.0, 0.0)
+    twist = STORE.types['geometry_msgs/msg/Twist'](still, still)
+    twist = STORE.types['geometry_msgs/msg/TwistWithCovariance'](twist, np.zeros(36))
+    transforms.take('/oak/odom', located('nav_msgs/msg/Odometry', ['base_link'], [twist]))
+    assert len(transforms.take('/oak/fix', located(fix))) == count
 
 
 def test_each_file_begins_with_what_holds_for_good(tmp_path):

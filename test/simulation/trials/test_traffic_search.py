@@ -40,6 +40,16 @@ def test_no_order_of_events_lets_two_hold_the_same_floor(given):
     assert found.complete or found.states == 1500
 
 
+@pytest.mark.parametrize('what', ['parked', 'restarted', 'requested', ''])
+def test_a_search_begins_as_asked_and_not_otherwise(what):
+    given = SearchParameters(cells=(0, 2), **({what: True} if what else {}))
+    trees = Search(given)._start.trees  # noqa: SLF001
+    assert {tree.parked for tree in trees} == {what == 'parked'}
+    assert [tree.run for tree in trees] == [2 if what == 'restarted' else 1, 1]
+    towards = [((0.0, 0.0), (1.0, 0.0)), ((2.0, 0.0), (1.0, 0.0))]
+    assert [tree.requested for tree in trees] == (towards if what == 'requested' else [(), ()])
+
+
 @pytest.mark.parametrize(
     ('given', 'states'),
     [({'cells': (0, 2), **MUTUAL}, 1500), (THREE, 3000), (THREE_PARKED, 3000)],

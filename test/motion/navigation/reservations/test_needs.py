@@ -44,6 +44,7 @@ def test_the_next_metres_of_who_goes_first_are_left_and_of_no_other(right):
 def test_one_that_requests_floor_is_no_standing_one(right):
     needs = hear_ash(right, 2, requested=((6.0, 0.0), (7.0, 0.0)))
     assert needs.of_all(standing=True) == []
+    assert len(needs.of_all()) == 3  # where it is, what it requests, and what it plans
 
 
 def test_a_piece_is_cut_where_it_comes_nearer_than_the_clearance(right):
