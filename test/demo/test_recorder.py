@@ -25,7 +25,7 @@ TOPICS = [
 
 
 def test_topics_are_kept_with_the_quality_of_service_that_they_were_offered_with(graph, tmp_path):
-    speaker = graph.add(rclpy.create_node('speaker', context=graph.context))
+    speaker = graph.node('speaker')
     offers = {'way': LATCHED, 'fix': SENSOR, 'turned': LATCHED}
     publishers = [speaker.create_publisher(String, name, qos) for name, qos in offers.items()]
     recorder = DemoRecorder(tmp_path / 'bag', TOPICS, lambda: 5.0, context=graph.context)
@@ -47,7 +47,7 @@ def test_topics_are_kept_with_the_quality_of_service_that_they_were_offered_with
 
 
 def test_a_full_disk_ends_the_bag_whole_and_is_told(graph, tmp_path, monkeypatch):
-    speaker = graph.add(rclpy.create_node('speaker', context=graph.context))
+    speaker = graph.node('speaker')
     publisher = speaker.create_publisher(String, 'fix', 10)
     taken, write = [], BagWriter.write
 

@@ -28,7 +28,7 @@ class Tester:
     def __init__(self, graph):
         """Join the graph."""
         self.graph = graph
-        self.node = graph.add(rclpy.create_node('tester', context=graph.context))
+        self.node = graph.node('tester')
         self.received = {}
 
     def start(self, kind, *, activate=True, remap=(), **parameters):

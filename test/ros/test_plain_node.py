@@ -46,7 +46,7 @@ def test_in_process(page):
 
 def test_live(page, graph):
     node = graph.add(LiveNode(page['Echo'], context=graph.context))
-    tester = graph.add(rclpy.create_node('tester', context=graph.context))
+    tester = graph.node('tester')
     heard = []
     tester.create_subscription(Float64, 'out', heard.append, 10)
     publisher = tester.create_publisher(Float64, 'in', 10)

@@ -90,7 +90,7 @@ def test_twice_in_each_phase_of_a_start(phase):
 
 
 def test_a_node_whose_terminal_is_closed_says_zero_first(graph):
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     commands = []
     node.create_subscription(JointState, 'wheels/command', commands.append, 1)
     process = subprocess.Popen(

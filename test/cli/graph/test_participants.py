@@ -37,8 +37,7 @@ def test_participants_of_a_domain_are_counted_by_their_ports(
 
 
 def test_a_node_alone_has_heard_itself(graph):
-    rclpy = pytest.importorskip('rclpy')
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     graph.spin_until(lambda: participants.heard(participants.ends_of(node)) >= 1)
     assert participants.on_this_machine(graph.context.get_domain_id()) >= 1
     graph.spin_until(lambda: participants.missing(node) == 0)

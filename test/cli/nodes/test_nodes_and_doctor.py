@@ -59,7 +59,7 @@ def test_a_node_that_cannot_start_says_why_and_ends_with_1(alone, arguments, wor
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize('executor', ['events', 'single_threaded'])
 def test_a_stopped_node_says_zero_and_ends_with_0(agv, graph, number, executor):
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     commands = []
     node.create_subscription(JointState, 'turrets/command', commands.append, 1)
     process = agv.start('run', 'wheel_kinematics', '--ros-args', '-p', f'executor:={executor}')

@@ -18,7 +18,7 @@ from std_msgs.msg import Int32
 
 @pytest.fixture
 def publisher(graph):
-    node = graph.add(rclpy.create_node('talker', context=graph.context))
+    node = graph.node('talker')
     return node.create_publisher(Int32, 'number', QoSProfile(depth=1000))
 
 

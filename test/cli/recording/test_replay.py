@@ -39,7 +39,7 @@ def bag(tmp_path):
 @pytest.fixture
 def inbox(graph):
     """Return the numbers that come on /other."""
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     numbers = []
     node.create_subscription(
         Int32, '/other', lambda m: numbers.append(m.data), QoSProfile(depth=1000)

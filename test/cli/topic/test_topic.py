@@ -86,7 +86,7 @@ def test_hz_and_bw(alone, talker):
 
 
 def test_pub(agv, graph):
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     heard = []
     node.create_subscription(TwistStamped, 'cmd_vel', heard.append, 10)
     status, out, _ = agv(
@@ -102,7 +102,7 @@ def test_pub(agv, graph):
 
 def test_pub_some_times_with_arrays(agv, graph):
     """The first may come before the listener has found its sender: two seconds are enough."""
-    node = graph.add(rclpy.create_node('listener', context=graph.context))
+    node = graph.node('listener')
     heard = []
     node.create_subscription(Float64MultiArray, 'array', heard.append, 50)
     status, out, _ = agv(
