@@ -11,14 +11,13 @@ leaves anything out in silence.
 from __future__ import annotations
 
 import os
-from collections import Counter, deque
+from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
-from hashlib import sha256
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from agv_motion.bag.damage import DamagedBagError
+from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.latched import latched_before
 from agv_motion.bag.editing.new_bag import NewBag
 from agv_motion.bag.editing.new_channels import NewChannels
@@ -26,7 +25,6 @@ from agv_motion.bag.editing.picking import Picked, Wanted, joined
 from agv_motion.bag.editing.steps import CHUNK, EditSource, Step, ids_of, plan, stream
 from agv_motion.bag.mcap import record_parsing
 from agv_motion.bag.mcap.chunk_content import stored_content
-from agv_motion.bag.mcap.records import Attachment
 from agv_motion.bag.selection import Selection
 
 if TYPE_CHECKING:
@@ -34,7 +32,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.bag.mcap.output import NewChunk
-    from agv_motion.bag.mcap.records import Metadata
     from agv_motion.bag.reader import BagReader
 
     Span = tuple[int, int]
@@ -62,17 +59,6 @@ class Edit:
     """[ns] each goes into a file of its own"""
     file_size: int = 0
     """[bytes] after which a new file begins; 0: never"""
-
-
-class EditReport(NamedTuple):
-    """What was done."""
-
-    messages: int
-    copied: int
-    """chunks that are as they were"""
-    made: int
-    """chunks that are new"""
-    files: int
 
 
 def edit(
@@ -118,47 +104,6 @@ def edit(
             new.abandon()
         raise
     return EditReport(new.messages, work.copied, work.made, new.file_count)
-
-
-def require_sound(bags: Iterable[BagReader], *, whole: bool) -> None:
-    """Refuse bags in which something is known to be damaged.
-
-    Args:
-        bags: Open.
-        whole: All of each is wanted: compare it with the CRC of the whole, where it has one.
-
-    Raises:
-        SourceError: One of them.
-
-    """
-    for bag in bags:
-        for problem in bag.problems:
-            if not getattr(problem, 'harmless', False):
-                raise problem
-        for file in bag.files if whole else ():
-            file.require_whole()
-
-
-def extras(bags: Iterable[BagReader]) -> Iterator[Attachment | Metadata]:
-    """Yield attachments and named strings of all bags, once where several have the same.
-
-    Raises:
-        DamagedBagError: One is damaged.
-
-    """
-    kept: Counter[bytes] = Counter()
-    for bag in bags:
-        mine: Counter[bytes] = Counter()
-        for file in bag.files:
-            for extra in file.extras():
-                if isinstance(extra, DamagedBagError):
-                    raise extra
-                if isinstance(extra, Attachment) or extra.name != 'rosbag2':
-                    key = _digest(extra)
-                    mine[key] += 1
-                    if mine[key] > kept[key]:
-                        yield extra
-        kept |= mine
 
 
 def fill_of(sources: Iterable[EditSource], what: Edit) -> str:
@@ -279,10 +224,3 @@ def _profile(bags: Sequence[BagReader]) -> str:
     """Return what the first bag says that its messages are."""
     chunks = bags[0].files[0].as_chunks()
     return 'ros2' if chunks is None else record_parsing.profile(chunks.data, chunks.path)
-
-
-def _digest(extra: Attachment | Metadata) -> bytes:
-    if not isinstance(extra, Attachment):
-        return sha256(repr((extra.name, sorted(extra.entries.items()))).encode()).digest()
-    about = repr(extra[:-1]).encode()
-    return sha256(about).digest() + sha256(extra.data).digest()

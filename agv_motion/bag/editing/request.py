@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.editing.around import condition, happenings, windows
-from agv_motion.bag.editing.edit import EVERYTHING, Edit, EditReport, edit
+from agv_motion.bag.editing.edit import EVERYTHING, Edit, edit
 from agv_motion.bag.editing.moments import moment
 from agv_motion.bag.editing.to_sqlite import edit_to_sqlite
 from agv_motion.bag.file_kind import MCAP, SQLITE
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from agv_motion.bag.editing.edited_bags import EditReport
     from agv_motion.bag.selection import Selection
 
     Span = tuple[int, int]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.bag import metadata
 from agv_motion.bag.bag_files import EXTRAS
-from agv_motion.bag.editing.edit import EditReport, extras, require_sound
+from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.mcap.output import McapOutput
 from agv_motion.bag.sqlite.writer import SqliteWriter

@@ -69,7 +69,6 @@ class Homing:
             top: Speed at v = 1 [m/s].
 
         """
-        self.home = None if planner is None else planner.zone.home
         self.why = ''
         """Why the tree goes home, in words; empty while it does not."""
         self.because = Cause.PERSON
@@ -77,6 +76,11 @@ class Homing:
         self._planner, self._given = planner, parameters
         self._speed = parameters.speed * top
         self._looked_at, self._distance = -inf, 0.0
+
+    @property
+    def home(self) -> Point | None:
+        """Where it is [m]; None: there is none."""
+        return None if self._planner is None else self._planner.zone.home
 
     def send(self, why: str, because: Cause = Cause.PERSON) -> None:
         """Go home and stay there.
