@@ -82,8 +82,8 @@ def read_line(text: str, utc_offset: float = 0.0) -> LoggerLine:
             msg = f'no time that can be known: {EXPECTED}'
             raise SignalError(msg)
         time = float(found['epoch'])
-    words, decimal_comma = _words(text[found.end() :])
-    return LoggerLine(time, tuple(_number(word) for word in words), decimal_comma)
+    words, decimal_comma = words_of(text[found.end() :])
+    return LoggerLine(time, tuple(number_of(word) for word in words), decimal_comma)
 
 
 def _moment(found: re.Match[str], utc_offset: float) -> float:
@@ -120,7 +120,7 @@ def _moment(found: re.Match[str], utc_offset: float) -> float:
     return (moment + timedelta(days=midnight)).timestamp() + second - offset
 
 
-def _words(rest: str) -> tuple[list[str], bool]:
+def words_of(rest: str) -> tuple[list[str], bool]:
     """Return the words of the values, and whether their commas are decimal.
 
     Raises:
@@ -164,7 +164,7 @@ def _pointed(words: list[str]) -> tuple[list[str], bool]:
     return words, comma
 
 
-def _number(word: str) -> float:
+def number_of(word: str) -> float:
     """Return the number of a word; NaN where it is none, or stands for none."""
     number = float(word) if _NUMBER.fullmatch(word) else nan
     return nan if number in MISSING else number

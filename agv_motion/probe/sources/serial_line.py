@@ -15,7 +15,9 @@ import serial
 
 from agv_motion.errors import SignalError
 from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.logger_line import EPOCHS, LoggerLine, cleaned, read_line
+from agv_motion.probe.sources.checksum import Checksum, checked
+from agv_motion.probe.sources.line_formats import Arrival, line_reader
+from agv_motion.probe.sources.logger_line import EPOCHS, LoggerLine, cleaned
 from agv_motion.probe.sources.source import (
     KELVIN_PER_MILLIVOLT,
     UNITS,
@@ -36,6 +38,12 @@ OFF_CLOCK = 86400.0
 MOST_TOLD = 3
 """Problems in one complaint; the others are counted."""
 
+SILENT = 3.0
+"""Usual times between lines after which silence is told."""
+
+GARBAGE = 0.3
+"""Share of a line that is no letter, from which on the speed of the line may be another."""
+
 LONGEST_PAUSE = 30.0
 """[s] Between two attempts to open a line that is gone; the first comes after one second."""
 
@@ -55,10 +63,34 @@ class SerialParameters:
     )
     utc_offset: Annotated[float, Spec('time of the logger minus UTC', 'h', (-14, 14))] = 0.0
     period: Annotated[float, Spec('usual time between lines', 's', (0.01, 3600.0))] = 30.0
+    format: Annotated[
+        str,
+        Spec(
+            'of the lines: auto (date and clock, or seconds since 1970, then values), arrival '
+            '(values alone, with labels or without), campbell_comma, campbell_printable, '
+            'datataker, or a regular expression with groups time and values, or v1, v2, ...'
+        ),
+    ] = 'auto'
+    time_format: Annotated[
+        str, Spec('of the group time of a regular expression, as of csv.time_format')
+    ] = 'iso'
+    checksum: Annotated[
+        str,
+        Spec(
+            'behind each line as hexadecimal digits, after * or a comma',
+            choices=tuple(each.value for each in Checksum),
+        ),
+    ] = 'none'
 
     def __post_init__(self) -> None:
-        """Check every row."""
+        """Check every row.
+
+        Raises:
+            ConfigurationError: A value is not allowed, or the format is none.
+
+        """
         check(self)
+        line_reader(self.format, self.time_format)
 
 
 class SerialSource:
@@ -71,7 +103,8 @@ class SerialSource:
         self._buffer = b''
         self._problems: list[str] = []
         self._told: set[str] = set()
-        self._pause, self._retry_at = 1.0, 0.0
+        self._attempts = _Attempts()
+        self._hearing = _Hearing(parameters)
 
     @property
     def period(self) -> float:
@@ -84,7 +117,7 @@ class SerialSource:
 
     def read(self, now: float) -> list[ProbeSample]:
         """Return the samples of all whole lines that have come, whatever their time."""
-        self._fill()
+        self._hearing.note(self._fill(), now)
         *lines, self._buffer = re.split(rb'[\r\n]', self._buffer)
         if len(self._buffer) > LONGEST_LINE:
             self._note(f'{len(self._buffer)} bytes without a line end were dropped')
@@ -93,13 +126,16 @@ class SerialSource:
         for line in lines:
             text = cleaned(line)
             if text:
+                self._hearing.last = text
                 try:
-                    read = _read(text, self._given)
+                    read = _read(text, self._given, now)
                     samples.append(_sample(text, read, self._given))
                 except SignalError as error:
                     self._note(str(error))
                 else:
                     self._tell_oddities(text, read, now)
+        if self._line is not None and (silence := self._hearing.silence(now)):
+            self._note(silence)
         return samples
 
     def _tell_oddities(self, text: str, line: LoggerLine, now: float) -> None:
@@ -133,40 +169,89 @@ class SerialSource:
     def _note(self, problem: str) -> None:
         self._problems.append(problem)
 
-    def _fill(self) -> None:
-        """Read what is there; open the line if it is not, with growing pauses."""
+    def _fill(self) -> int:
+        """Read what is there, and return how much; open the line if it is not, with pauses."""
         try:
             if self._line is None:
-                if wall.monotonic() < self._retry_at:
-                    return
+                if not self._attempts.due():
+                    return 0
                 self._line = serial.Serial(self._given.port, self._given.baud, timeout=0)
-                self._buffer, self._pause = b'', 1.0
-            self._buffer += self._line.read(65536)
+                self._buffer = b''
+                self._attempts = _Attempts()
+            data: bytes = self._line.read(65536)
         except (OSError, serial.SerialException) as error:
             self.close()
-            self._retry_at = wall.monotonic() + self._pause
             self._note(
                 f'{self._given.port} is not readable ({error}): check cable and permissions; '
-                f'trying again in {self._pause:.0f} s'
+                f'trying again in {self._attempts.fail():.0f} s'
             )
-            self._pause = min(2.0 * self._pause, LONGEST_PAUSE)
+            return 0
+        self._buffer += data
+        return len(data)
 
 
-def parse_line(text: str, parameters: SerialParameters) -> ProbeSample:
-    """Return the sample of one line; a field that is no number is NaN.
+class _Attempts:
+    """When to try again to open a line that is gone: after pauses that grow."""
+
+    def __init__(self) -> None:
+        self._pause, self._at = 1.0, 0.0
+
+    def due(self) -> bool:
+        return wall.monotonic() >= self._at
+
+    def fail(self) -> float:
+        """Return after how long to try again [s]."""
+        pause, self._pause = self._pause, min(2.0 * self._pause, LONGEST_PAUSE)
+        self._at = wall.monotonic() + pause
+        return pause
+
+
+class _Hearing:
+    """When something last came over the line, and what."""
+
+    def __init__(self, given: SerialParameters) -> None:
+        self._given = given
+        self._at: float | None = None
+        self._told = False
+        self.last = ''
+
+    def note(self, count: int, now: float) -> None:
+        """Note that ``count`` bytes came."""
+        if count or self._at is None or now < self._at:
+            self._at, self._told = now, False
+
+    def silence(self, now: float) -> str:
+        """Return once that nothing has come for long, and what came last."""
+        silent = now - (now if self._at is None else self._at)
+        if self._told or silent <= SILENT * self._given.period:
+            return ''
+        self._told = True
+        if self.last:
+            return f"nothing has come for {silent:.0f} s; the last was '{self.last:.80}'"
+        return (
+            f'nothing has come from {self._given.port} in {silent:.0f} s at {self._given.baud} '
+            'baud: look whether the logger is on, and at the cable'
+        )
+
+
+def parse_line(text: str, parameters: SerialParameters, now: float = 0.0) -> ProbeSample:
+    """Return the sample of one line that arrives ``now`` [s]; a field that is no number is NaN.
 
     Raises:
         SignalError: The line has no one reading, or a field is missing; the line is quoted.
 
     """
-    return _sample(text, _read(text, parameters), parameters)
+    return _sample(text, _read(text, parameters, now), parameters)
 
 
-def _read(text: str, parameters: SerialParameters) -> LoggerLine:
+def _read(text: str, given: SerialParameters, now: float) -> LoggerLine:
     try:
-        return read_line(text, parameters.utc_offset)
+        line = checked(text, Checksum(given.checksum))
+        return line_reader(given.format, given.time_format)(line, Arrival(now, given.utc_offset))
     except SignalError as error:
-        msg = f"unreadable line '{text:.80}': {error}"
+        garbage = sum(not ' ' <= letter <= '~' for letter in text) > GARBAGE * len(text)
+        why = f'it is no text: {given.baud} baud may not be its speed' if garbage else error
+        msg = f"unreadable line '{text:.80}': {why}"
         raise SignalError(msg) from error
 
 

@@ -218,3 +218,29 @@ def test_lines_of_another_form_are_quoted(line, word):
     with pytest.raises(SignalError, match=word) as error:
         parse_line(line, SerialParameters())
     assert line in str(error.value)
+
+
+def test_silence_is_told_once_with_what_came_last(terminal):
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port, period=10.0))
+    source.read(0.0)
+    assert source.complaint() == ''
+    source.read(31.0)
+    assert source.complaint().startswith(f'nothing has come from {port} in 31 s at 38400 baud')
+    os.write(logger, LINE.encode())
+    until(source, 1, now=40.0)
+    source.complaint()
+    source.read(69.0)
+    assert source.complaint() == ''
+    for _ in range(2):
+        source.read(71.0)
+    assert source.complaint() == f"nothing has come for 31 s; the last was '{LINE.strip()}'"
+
+
+def test_bytes_that_are_no_text_hint_at_the_speed_of_the_line(terminal):
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    os.write(logger, b'\xf3\x8f\xe1\xd0a\n' + LINE.encode())
+    until(source, 1)
+    assert 'it is no text: 38400 baud may not be its speed' in source.complaint()
