@@ -7,6 +7,7 @@ import re
 import runpy
 import subprocess
 import sys
+from functools import partial
 from math import asin, atan2, atanh, degrees, hypot, pi, sin, sqrt
 from pathlib import Path
 
@@ -233,3 +234,15 @@ def test_15_motors(graph, tmp_path):
     finally:
         motors.terminate()
         motors.wait()
+
+
+def test_16_a_script_without_a_robot_is_told_so(told, monkeypatch):
+    """Beside a robot it is run by test/client/test_robot.py."""
+    pytest.importorskip('rclpy')
+    from agv_motion import client
+    from agv_motion.errors import SourceError
+
+    impatient = partial(client.Robot, patience=0.3)
+    monkeypatch.setattr(client, 'Robot', impatient)
+    with pytest.raises(SourceError, match='no robot in the namespace'):
+        told(16)

@@ -51,7 +51,8 @@ def _arbitrated(
         return _nobody(f'cmd_vel {heard}; {driver.message}', 'cmd_vel is silent', silent)
     link, who = _told(twist, f'; {driver.message}', silent), driver.values.get('driver', '')
     if who in BY_HAND:
-        return link._replace(because='', clause=f'{link.clause}: {who} drives')
+        clause = f'{link.clause}: {who} drives' if link.clause else f'{who} drives'
+        return link._replace(because='', clause=clause)
     return link
 
 

@@ -98,7 +98,7 @@ class GhostTrajectoryParameters(DrivingParameters):
 
 
 class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
-    """`goal_pose`, `path`, `arc` and the pose -> `cmd_vel`, `ghost/pose`, `ghost/path`, ...
+    """`goal_pose`, `path`, `arc`, `turn` and the pose -> `cmd_vel`, `ghost/pose`, `ghost/path`, ...
 
     Silence of the pose, a robot that is lost, `~/abort`, arrival and the end of the node are
     explicit zeros.
@@ -122,6 +122,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         port.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
         port.listen(Path, 'path', self._on_path, COMMAND)
         port.listen(Vector3Stamped, 'arc', self._on_arc, COMMAND)
+        port.listen(Vector3Stamped, 'turn', self._on_turn, COMMAND)
         port.serve(SetBool, '~/lock', self._on_lock)
         port.serve(Trigger, '~/abort', self._on_abort)
 
@@ -204,7 +205,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _on_goal(self, message: PoseStamped) -> None:
         self.require_frame(message.header.frame_id)
-        self._go([pose_of(message.pose)])
+        self._go([pose_of(message.pose)], self.parameters.delta_curve)
 
     def _on_path(self, message: Path) -> None:
         """Drive through the poses of a path; along it where they are but places."""
@@ -215,11 +216,14 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         poses = [pose_of(stamped.pose) for stamped in message.poses]
         if are_places(poses):
             poses = with_headings(self.require_pose(), poses, backward=self.parameters.backward)
-        self._go(poses)
+            if len(poses) == 1:  # one place is no curve: straight there, turning on the spot first
+                self._go(poses, 0.0)
+                return
+        self._go(poses, self.parameters.delta_curve)
 
-    def _go(self, goals: list[Pose]) -> None:
+    def _go(self, goals: list[Pose], curve: float) -> None:
         given = self.parameters
-        shape = given.delta_curve, given.speed_ramps, given.cruising_speed
+        shape = curve, given.speed_ramps, given.cruising_speed
         self._depart(lambda ghost: ghost.compute_path(goals, *shape, backward=given.backward))
 
     def _on_arc(self, message: Vector3Stamped) -> None:
@@ -227,6 +231,11 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         angle, diameter, speed = message.vector.x, message.vector.y, message.vector.z
         ramps = self.parameters.speed_ramps
         self._depart(lambda ghost: ghost.compute_arc(angle, diameter, ramps, speed))
+
+    def _on_turn(self, message: Vector3Stamped) -> None:
+        """Turn on the spot: x is the angle [rad], y the ramps [rad/s2], z the rate [rad/s]."""
+        angle, ramps, rate = message.vector.x, message.vector.y, message.vector.z
+        self._depart(lambda ghost: ghost.compute_turn(angle, ramps, rate))
 
     def _depart(self, plan: Callable[[Ghost], Trajectory]) -> None:
         follower, pose = self._follower, self.require_pose()

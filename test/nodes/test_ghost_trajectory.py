@@ -145,6 +145,28 @@ def test_an_arc_of_half_an_hour_is_planned_and_drawn_in_few_poses(course):
     assert len(drawn.poses) <= 502
 
 
+def test_a_turn_on_the_spot_goes_the_long_way_round_if_asked(course):
+    """More than half a turn to the left; what is no turn is refused and changes nothing."""
+    message = Vector3Stamped()
+    message.vector.x, message.vector.y, message.vector.z = 4.0, 8.0, 4.0
+    publisher = course.tester.publisher(Vector3Stamped, 'turn')
+    publisher.publish(message)
+    course.says('arrived')
+    course.is_at(0.0, 0.0, 4.0 - 2.0 * pi)
+    assert all(twist.wz >= -0.05 for twist in course.robot.commands)
+    message.vector.x = nan
+    publisher.publish(message)
+    course.tester.graph.spin_until(lambda: 'finite' in course.node.complaint)
+
+
+def test_one_place_told_twice_is_straight_there_turning_first(course):
+    path = Path(poses=[stamped(-1.0, 0.0, 0.0)] * 2)
+    course.tester.publisher(Path, 'path').publish(path)
+    course.says('arrived')
+    assert hypot(course.robot.pose.x + 1.0, course.robot.pose.y) < 0.03
+    assert abs(abs(course.robot.pose.theta) - pi) < 0.06
+
+
 def test_an_arc_ends_where_it_was_predicted(course):
     """A quarter turn to the right round an inner circle of 0.6 m."""
     publisher = course.tester.publisher(Vector3Stamped, 'arc')

@@ -1,0 +1,67 @@
+"""Whole robots with their simulators on a graph of this process, spun by a thread of their own."""
+
+from __future__ import annotations
+
+import threading
+from contextlib import contextmanager
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from agv_motion.demo.configured import configured_node
+from agv_motion.reprocess.recorded import node_class
+from agv_motion.ros.robot_graphs import ROBOTS
+from agv_motion.ros.run import spin, start
+
+PATIENT = {
+    'ghost_trajectory': ('report_after', 'stop_after', 'max_age'),
+    'route_follower': ('report_after', 'stop_after', 'max_age'),
+    'sequence': ('report_after', 'stop_after', 'max_age'),
+    'differential_kinematics': ('report_after', 'stop_after', 'max_age'),
+}
+"""Limits of inputs that are wide here [s]: the machine may be busy with something else"""
+WIDE = 20.0
+
+
+@pytest.fixture(scope='session')
+def spun():
+    """Return what lets a robot live for a while."""
+    return _spun
+
+
+@contextmanager
+def _spun(robot, factor, *, without=(), **changes):
+    """Let a robot as its launch file starts it live for a while; yield its nodes by name."""
+    context = rclpy.Context()
+    rclpy.init(args=[], context=context)
+    ended, nodes = threading.Event(), {}
+    for one in ROBOTS[robot].nodes:
+        if one.name in without:
+            continue
+        kind, common = node_class(one.name), {}
+        if one.name.endswith('simulator'):
+            common = {'time_factor': factor}
+        else:
+            common = {'use_sim_time': True}
+        common |= dict.fromkeys(PATIENT.get(one.name, ()), WIDE) | changes.get(one.name, {})
+        remappings = [w for a, b in one.remappings
+                      for w in ('-r', f'{a}:={b.replace("{pose}", "fix")}')]  # fmt: skip
+        nodes[one.name] = configured_node(
+            kind, f'{robot}.yaml', common, context=context,
+            cli_args=['--ros-args', *remappings],
+        )  # fmt: skip
+    for node in nodes.values():
+        start(node)
+    thread = threading.Thread(
+        target=spin, args=(list(nodes.values()), ended.is_set, 'events', context)
+    )
+    thread.start()
+    try:
+        yield nodes
+    finally:
+        ended.set()
+        thread.join()
+        for node in nodes.values():
+            node.destroy_node()
+        rclpy.shutdown(context=context)
