@@ -67,12 +67,22 @@ def mutated(source: str, site: Site) -> ast.Module:
 def _nodes(node: ast.AST) -> Iterator[Any]:
     """Yield what may be changed: no annotations, docstrings, messages or checks for types."""
     for child in ast.iter_child_nodes(node):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.LShift):
-            return  # a size of memory, which makes nothing wrong
+        if _is_size(node):
+            return
         if _is_left_alone(node, child):
             continue
         yield child
         yield from _nodes(child)
+
+
+def _is_size(node: ast.AST) -> bool:
+    """Return whether it is a size of memory or of a whole number, which makes nothing wrong."""
+    match node:
+        case ast.BinOp(op=ast.LShift()):
+            return True
+        case ast.BinOp(left=ast.Constant(value=2), op=ast.Pow(), right=ast.Constant()):
+            return True
+    return False
 
 
 def _is_left_alone(parent: ast.AST, child: ast.AST) -> bool:
@@ -104,6 +114,8 @@ def _change(node: Any, *, apply: bool) -> str:
 
 def _operator(node: Any, *, apply: bool) -> str:
     if not isinstance(node, (ast.BinOp, ast.AugAssign)) or type(node.op) not in OPERATORS:
+        return ''
+    if _is_size(node):
         return ''
     if any(isinstance(part, (ast.JoinedStr, ast.List, ast.Tuple)) or _is_text(part)
            for part in ast.walk(node)):  # fmt: skip

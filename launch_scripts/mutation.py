@@ -16,8 +16,10 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 import time
+from functools import cache
 from hashlib import sha256
 from importlib.machinery import SourceFileLoader
 from importlib.util import spec_from_loader
@@ -55,20 +57,27 @@ class Mutant(NamedTuple):
     def tests(self) -> list[list[str]]:
         """Return the tests to ask, the nearest first, each once.
 
-        The file that mirrors the module, those of its room that name it, those beside it, its room.
+        The file that mirrors the module, those of the core that name it, those beside it, its room.
         """
         inside = self.path.relative_to(ROOT / 'agv_motion')
         folder, room = ROOT / 'test' / inside.parent, ROOT / 'test' / inside.parts[0]
         near = [folder / f'test_{inside.name}', folder / 'test_golden.py']
         beside = sorted(folder.glob('test_*.py'))
-        all_of_room = sorted(room.rglob('test_*.py'))
-        named = [path for path in all_of_room if self.module in path.read_text()]
+        name = re.compile(rf'{re.escape(self.module)}\b')
+        named = [path for path, text in texts().items() if name.search(text)]
         asked: set[Path] = set()
         stages = []
-        for paths in (near, named, beside, all_of_room):
+        for paths in (near, named, beside, sorted(room.rglob('test_*.py'))):
             stages.append([str(path) for path in paths if path.exists() and path not in asked])
             asked.update(paths)
         return [stage for stage in stages if stage]
+
+
+@cache
+def texts() -> dict[Path, str]:
+    """Return what the tests of the core say, by file."""
+    rooms = (ROOT / 'test' / name for name in CORE)
+    return {path: path.read_text() for room in rooms for path in sorted(room.rglob('test_*.py'))}
 
 
 class Loader(SourceFileLoader):

@@ -60,7 +60,8 @@ def changes(source):
 
 
 def test_what_is_a_matter_of_size_alone_is_no_behaviour():
-    assert changes('PIECE = 1 << 20') == []
+    assert changes('PIECE, ANY = 1 << 20, 2**64') == []
+    assert changes('CELLS = 2**few') == ['Pow -> Mult', '2 -> 3']
     assert changes('MOST = 500_000') == ['500000 -> 1000000']
     assert changes('FEW = 999') == ['999 -> 1000']
 

@@ -121,7 +121,7 @@ class BagReader:
             file.require_open()
         for topic in topics:
             if topic not in self.topics:
-                close = get_close_matches(topic, self.topics, n=1)
+                close = get_close_matches(topic, self.topics)
                 hint = (
                     f"did you mean '{close[0]}'?" if close else f'it has {", ".join(self.topics)}'
                 )

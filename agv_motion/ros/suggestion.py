@@ -11,5 +11,5 @@ if TYPE_CHECKING:
 
 def meant(name: str, choices: Sequence[str]) -> str:
     """Return a question for what may have been meant, or nothing."""
-    close = get_close_matches(name, choices, n=1)
+    close = get_close_matches(name, choices)
     return f"; did you mean '{close[0]}'?" if close else ''

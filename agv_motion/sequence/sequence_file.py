@@ -229,5 +229,5 @@ def _explained(name: str) -> str:
 
 
 def _meant(word: str, choices: Iterable[str]) -> str:
-    close = difflib.get_close_matches(word[:80], list(choices), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(word[:80], list(choices), cutoff=0.5)
     return f", did you mean '{close[0]}'?" if close else ''

@@ -180,6 +180,12 @@ def test_bags_of_rosbags_in_mcap_and_sqlite_with_every_compression(tmp_path, plu
         assert bag.problems == []
 
 
+def test_a_bag_without_messages_begins_and_ends_at_0(tmp_path):
+    ours(tmp_path / 'bag', [])
+    with BagReader(tmp_path / 'bag') as bag:
+        assert (bag.start, bag.end) == (0, 0)
+
+
 def test_the_files_of_a_split_bag_follow_each_other_and_metadata_may_be_missing(tmp_path):
     written = []
     for number in (0, 1, 10, 2):
@@ -191,6 +197,7 @@ def test_the_files_of_a_split_bag_follow_each_other_and_metadata_may_be_missing(
     assert read(tmp_path / 'bag') == sorted(written, key=lambda row: row[1])
     with BagReader(tmp_path / 'bag') as bag:
         assert 'no metadata' in str(bag.problems[0])
+        assert (bag.start, bag.end) == (min(row[1] for row in written), max(r[1] for r in written))
         assert [file.path.name for file in bag.files] == [
             'bag_0.mcap', 'bag_1.mcap', 'bag_2.mcap', 'bag_10.mcap',
         ]  # fmt: skip

@@ -167,6 +167,18 @@ def test_outliers_among_the_references_are_left_out():
     assert np.abs(errors).max() < 4.0
 
 
+def test_how_far_off_an_outlier_was_leaves_no_trace():
+    """Too near for a robot that was carried, too far for noise."""
+    found = []
+    for off in (0.15, 0.3):
+        model, _, recording = simulate(OMNI, 3)
+        recording.reference[0, 25] += off
+        found.append(calibrate(model, recording, SLIP))
+        assert found[-1].outliers == 1
+    first, second = ([one.value for one in each.unknowns] for each in found)
+    assert first == pytest.approx(second, rel=1e-5)
+
+
 def test_slip_that_adds_up_hides_no_outlier():
     """20 deviations off, but less than wheels that slip so might be after a minute alone."""
     model, truth, recording = simulate(OMNI, 3, Conditions(heading=False))

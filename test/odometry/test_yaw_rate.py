@@ -96,3 +96,11 @@ def test_a_turn_that_tells_nothing_leaves_the_bias(duration, variance):
     known = gyroscope.bias, gyroscope.bias_variance
     gyroscope.compare(GyroTurn(0.1, 1e-4, duration), 0.0, variance)
     assert (gyroscope.bias, gyroscope.bias_variance) == known
+
+
+def test_the_bias_becomes_less_sure_as_it_walks():
+    """Hand calculation: variances add up, 0.01 squared and 20 s of 0.002 squared."""
+    gyroscope = YawRate(YawRateParameters(bias=0.01, bias_walk=0.002))
+    for i in range(201):
+        gyroscope.add(0.1 * i, 0.3)
+    assert gyroscope.bias_variance == pytest.approx(0.01**2 + 20.0 * 0.002**2)

@@ -96,6 +96,11 @@ def test_at_the_end_it_brakes_by_the_route_to_go():
     assert not found.arrived
 
 
+@pytest.mark.parametrize('heading', [0.0, 0.7, -2.0])
+def test_on_the_very_point_no_heading_is_wrong(heading):
+    assert at_the_end(Pose(4.0, 4.0, heading)).limits.heading_error == 0.0
+
+
 def test_round_the_corner_d_is_the_way_to_the_point_and_on():
     """Robot at (3.4, 0): virtual point 0.8 up the second leg, 1 away, 3.2 from the end."""
     found = step(Pose(3.4, 0.0, 0.0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, nan, pi
+from math import inf, nan, pi, radians
 
 import pytest
 
@@ -84,3 +84,11 @@ def test_laps_without_end():
     route = Route(TRIANGLE, laps=0)
     assert route.length == inf
     assert not route.is_last(10**9)
+
+
+def test_each_bend_is_that_to_the_next_segment():
+    """Turns of 45, 90, 0 and -135 degrees, and round to the first segment."""
+    route = Route([(0, 0), (2, 0), (3, 1), (2, 2), (1, 3), (3, 3), (0, -1)], laps=2)
+    bends = [pi - abs(radians(turn)) for turn in (45.0, 90.0, 0.0, 135.0)]
+    assert [route.bend(i) for i in range(4)] == pytest.approx(bends)
+    assert route.bend(6) == pytest.approx(pi / 2)

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from agv_motion.planar import Pose, wrap
 from agv_motion.trajectory.arc import Arc
+from agv_motion.trajectory.arc_length import ArcLength
+from agv_motion.trajectory.bezier import CubicBezier
 from agv_motion.trajectory.circle import Circle
 from agv_motion.trajectory.line import Line
 from agv_motion.trajectory.motion import STILL
@@ -77,6 +79,22 @@ def test_a_drive_that_is_stopped_rests_on_its_way(backward):
     assert motion.end == pytest.approx((1.6, 2.8, motion.start.theta))
     assert motion.speeds(1.5) == pytest.approx((-0.5 if backward else 0.5, 0.0))
     assert motion.stopped(2.0) is motion
+
+
+@pytest.mark.parametrize('backward', [False, True])
+@given(st.floats(0.1, 0.9), st.floats(0.2, 3.0), st.floats(-2.0, 2.0))
+def test_the_turn_rate_of_a_drive_does_not_depend_on_how_its_curve_is_told(
+    backward, share, ahead, aside
+):
+    """Handles of any length: the curve is passed at a pace of its own."""
+    course = ArcLength([CubicBezier(0j, 4 + 1j, complex(ahead, aside), complex(ahead, -aside))])
+    start, end = Pose(0.0, 0.0, 0.0), Pose(4.0, 1.0, 0.0)
+    profile = trapezoid(4.0, 0.4, 0.3)
+    motion = DriveMotion(course, (start, end), profile, 0.3, backward=backward)
+    time, h = share * motion.duration, 1e-5
+    before, after = motion.pose(time - h), motion.pose(time + h)
+    turned = wrap(after.theta - before.theta) / (2 * h)
+    assert motion.speeds(time).angular == pytest.approx(turned, rel=1e-2, abs=1e-3)
 
 
 @settings(max_examples=40)

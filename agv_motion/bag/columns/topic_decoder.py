@@ -237,7 +237,7 @@ def _wanted(
         ]  # fmt: skip
         if not found:
             paths = sorted({leaf.path for leaf in every})
-            close = get_close_matches(field, paths, n=1)
+            close = get_close_matches(field, paths)
             hint = f"did you mean '{close[0]}'?" if close else f'it has {", ".join(paths)}'
             msg = f"{connection.type} on {connection.topic} has no field '{field}'; {hint}"
             raise ConfigurationError(msg)

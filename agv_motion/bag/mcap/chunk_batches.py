@@ -62,7 +62,7 @@ def unpacked(file: ChunkedFile, chunks: Sequence[Chunk], buffer: memoryview) -> 
         if len(content) > len(target):
             finding = f'a chunk of {len(content)} bytes, {chunk.size} by its index'
             raise DamagedBagError(file.path, chunk.offset, finding)
-        if not isinstance(content, memoryview) or content.obj is not buffer.obj:
+        if memoryview(content).obj is not buffer.obj:
             target[: len(content)] = content
         begin += len(content)
         ends.append(begin)

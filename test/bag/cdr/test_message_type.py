@@ -172,3 +172,16 @@ def test_log_times_keep_their_sign(tmp_path, far):
         assert columns.fields['x'].tolist() == [2, 1, 0]
         assert read_topic(bag, '/t', start=far).stamps.tolist() == [far]
         assert np.all(np.diff(columns.stamps.astype(object)) > 0)
+
+
+@pytest.mark.parametrize('line', ['', '===', '=== More', '=' * 80 + ' '])
+def test_only_a_line_of_equal_signs_begins_another_type(line):
+    text = f'B x\n{line}\nMSG: a/B\nuint8 y'
+    if line.strip(' ='):
+        with pytest.raises(ConfigurationError, match='is no field'):
+            unfold('a/msg/A', text, 'ros2msg')
+    elif line:
+        assert unfold('a/msg/A', text, 'ros2msg').members[0].name == 'x'
+    else:
+        with pytest.raises(ConfigurationError, match='MSG: a/B'):
+            unfold('a/msg/A', text, 'ros2msg')

@@ -90,10 +90,13 @@ def test_a_bit_outside_of_chunks_is_seen_by_the_crc_of_the_data(tmp_path, bit):
     data = file_of(ROWS, use_chunking=False, enable_data_crcs=True)
     with opened(tmp_path, data) as bag:
         assert not bag.problems
+        bag.files[0].require_whole()
     at, _ = found(data, records.MESSAGE)[5]
     data[at + 2 + 4 + 2 * bit] ^= 1 << bit
     with opened(tmp_path, data) as bag:
         (problem,) = bag.problems
+        with pytest.raises(DamagedBagError, match='all bytes before have CRC'):
+            bag.files[0].require_whole()
         assert bag.lossy
     end, _ = found(data, records.DATA_END)[0]
     assert f'byte {end - records.PREFIX.size}: all bytes before have CRC' in str(problem)

@@ -114,6 +114,17 @@ def test_goals_that_change_too_often_are_kept_until_they_are_reached():
     assert rest.goals.direction == towards(0.2)  # a nearer one is as welcome as before
 
 
+@pytest.mark.parametrize(('other', 'kept'), [(0.15, False), (0.6, True)])
+def test_which_goals_are_farther_the_turret_says_that_has_to_turn_most(other, kept):
+    """One turret stands 0.3 rad on: for 0.35 rad the first has farthest to go, and it decides."""
+    rest = AtRest.at([0.0, 0.3])
+    for i in range(FREE_CHANGES + 1):
+        align(CHASSIS, rest, towards(0.6 + 0.2 * (i % 2)), 1e-6)
+    align(CHASSIS, rest, towards(0.35), 1e-6)
+    align(CHASSIS, rest, towards(other), 1e-6)
+    assert rest.goals.direction == towards(0.35 if kept else other)
+
+
 def test_goals_of_unwinding_are_no_stance():
     """However often the goals have changed: turrets that are unwound stand for no direction."""
     rest = AtRest.at([0.4, 3.0])

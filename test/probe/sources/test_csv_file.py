@@ -9,6 +9,7 @@ import pytest
 
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, GrowingSource, load
+from agv_motion.probe.sources.source import kelvin_per
 
 DAY = 86400.0
 DAWN = 1_370_822_400.0
@@ -122,6 +123,14 @@ def test_no_number_of_a_file_becomes_infinite(tmp_path):
     for sample in (*played.read(0.0), *played.read(1.0)):
         assert isnan(sample.values[0])
         assert sample.values[1] == pytest.approx(20.0)
+
+
+def test_what_is_a_temperature_is_judged_in_kelvin(tmp_path):
+    limit = 100_000.0 / kelvin_per('mV')
+    played = source(tmp_path, seconds((0, 0.99 * limit, 0), (1, 1.01 * limit, 0)), unit='mV')
+    (first,), (second,) = played.read(0.0), played.read(1.0)
+    assert first.values[0] == pytest.approx(99_000.0)
+    assert isnan(second.values[0])
 
 
 def two_rows(first, second='2013-06-10 01:00'):

@@ -46,6 +46,15 @@ def test_turning_to_the_side_keeps_the_limits_of_the_turrets():
     assert worst.turn == pytest.approx(pi / 2 / most)
 
 
+def test_the_turret_that_turns_fastest_counts():
+    """About the one that stands, the other turns."""
+    found = trial()
+    found.turrets = Turrets([(0.5, 0.0), (0.0, 0.0)])
+    found.planner = SteeringPlanner(found.turrets, found.limits)
+    rates = [found.step(Twist(0.2, 0.0, 0.3), 0.1).steering_rate for _ in range(5)]
+    assert 0.5 < max(rates) <= 1.0 + 1e-9
+
+
 def test_the_error_is_measured_from_what_the_wheels_can_make():
     """At rest all is missing: 0.2 m/s; of 2 m/s, which they cannot, the 0.5 that they can."""
     found = trial()

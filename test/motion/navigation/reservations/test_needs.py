@@ -62,3 +62,8 @@ def test_the_last_guard_spares_half_the_tolerance(right):
 def test_plans_of_who_goes_first_are_widened(right):
     (plan,) = hear_ash(right, journey=2).plans(3.0, 0.1)
     assert (plan.path.length, plan.clearance) == (3.0, pytest.approx(CLEARANCE + 0.1))
+
+
+def test_plans_of_who_goes_later_are_not_counted(right):
+    right.set_out()
+    assert hear_ash(right, journey=2).plans(3.0, 0.1) == []
