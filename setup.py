@@ -121,6 +121,10 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (SHARE, ['package.xml']),
         (f'{SHARE}/config', files('config', '*.yaml')),
+        *(
+            (f'{SHARE}/config/{folder}', files(f'config/{folder}', f'*.{suffix}'))
+            for folder, suffix in (('foxglove', 'json'), ('rviz', 'rviz'), ('plotjuggler', 'xml'))
+        ),
         (f'{SHARE}/launch', files('launch_scripts', '*.launch.py')),
         (f'lib/{NAME}', executables()),
     ],
