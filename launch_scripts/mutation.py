@@ -123,6 +123,8 @@ def ask(mutant: Mutant | None, tests: list[str]) -> int:
     if mutant is not None:
         sys.meta_path.insert(0, Finder(mutant))
     given = ['-q', '-x', '-p', 'no:cacheprovider', '-p', 'no:xdist', f'--timeout={PATIENCE}']
+    # by a thread, which ends the process: hypothesis would try again what a signal interrupts
+    given.append('--timeout-method=thread')
     early = ['-W', 'ignore::pytest.PytestAssertRewriteWarning']  # hypothesis is here already
     return int(pytest.main([*given, *early, *tests], plugins=[Hurry()]))
 

@@ -87,13 +87,29 @@ def test_code_written_elsewhere_draws_no_other_changes(tmp_path, monkeypatch):
     assert len(once) == 5
 
 
+ENDLESS = """
+from threading import Event
+from hypothesis import given, strategies
+from agv_motion.planar import FARTHEST
+@given(strategies.just(0))
+def test_it(_):
+    if FARTHEST > 1.5e7:
+        Event().wait()
+"""
+
+
 def test_changes_are_noticed_by_tests_that_fail_and_by_no_others(tmp_path):
-    """FARTHEST is doubled, which a weak test takes for right; changes of the planner are seen."""
+    """FARTHEST is doubled, which a weak test takes for right; changes of the planner are seen.
+
+    A test that hangs notices too, though hypothesis would try again what is interrupted.
+    """
     for name, check in (('weak', 'FARTHEST > 0.0'), ('sharp', 'FARTHEST == 1e7')):
         test = tmp_path / f'test_{name}.py'
         test.write_text(f'from agv_motion.planar import FARTHEST\ndef test_it(): assert {check}\n')
+    (tmp_path / 'test_endless.py').write_text(ENDLESS)
     code = f"""
 import os
+import mutation
 from mutation import *
 os.chdir(ROOT)
 def verdict(mutant, tests):
@@ -102,6 +118,9 @@ file = ROOT / 'agv_motion' / 'planar.py'
 site = next(site for site in sites(file.read_text()) if 'FARTHEST' in site.source)
 for name in ('weak', 'sharp'):
     print(verdict(Mutant(file, site), [[{str(tmp_path)!r} + f'/test_{{name}}.py']]))
+mutation.PATIENCE = 1
+print(verdict(Mutant(file, site), [[{str(tmp_path / 'test_endless.py')!r}]]))
+mutation.PATIENCE = 120
 judged = draw([ROOT / 'agv_motion/kinematics/steering/rolling.py'], 2, 0)
 print(judge(judged, 1, 1))
 """
@@ -111,5 +130,5 @@ print(judge(judged, 1, 1))
         capture_output=True, text=True, check=False, timeout=200, env=environment,
     )  # fmt: skip
     assert result.stdout.splitlines() == [
-        '0', '1', '2 of 137 changes in 1 files, seed 0', '0'
+        '0', '1', '1', '2 of 137 changes in 1 files, seed 0', '0'
     ], result.stdout + result.stderr  # fmt: skip
