@@ -115,7 +115,7 @@ class ArcLength:
         middle, bend = start + integral @ HALF_POWERS, here.curvature(u + 0.5 * widths)
         self.middle_way: Column = _merged(nodes, inner, middle, last, reached[ends - 1])[:-1]
         self.middle_curvature: Column = _merged(nodes, inner, bend, last, at_ends)[:-1]
-        total = np.diff(reached[ends - 1], prepend=0.0)
+        total = np.bincount(which, weights=lengths)
         turns = np.abs(self.curvature[inner]) * total[which]
         worst = int(turns.argmax())
         if turns[worst] > MOST_TURN:

@@ -72,3 +72,10 @@ def test_drop_outs_last_as_long_as_told():
 def test_impossible_parameters_are_refused():
     with pytest.raises(ConfigurationError, match=r'outlier_share = 1\.5'):
         UwbParameters(outlier_share=1.5)
+
+
+def test_multipath_shifts_to_any_side_and_no_farther_than_told():
+    given = {'multipath_interval': 5.0, 'multipath_duration': 5.0, 'multipath_reach': 2.0}
+    found = errors(fixes(position_noise=0.001, **given))
+    assert 1.8 < np.hypot(*found.T).max() < 2.01
+    assert (abs(found) > 1.5).any(axis=0).all()

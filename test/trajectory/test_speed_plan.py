@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
+from agv_motion.trajectory import speed_plan
 from agv_motion.trajectory.bounds import AT_ONCE
 from agv_motion.trajectory.speed_plan import plan_speed
 
@@ -185,3 +186,13 @@ def test_a_harder_ramp_of_an_s_curve_never_takes_longer(exponent, more):
     gentle = plain(3.0, 1.0, 10.0**exponent, rounding=0.3).duration
     hard = plain(3.0, 1.0, 10.0 ** min(exponent + more, 300.0), rounding=0.3).duration
     assert hard <= gentle * (1.0 + 1e-12)
+
+
+@given(ways(), st.floats(0.0, 2.0))
+def test_the_lowest_nearby_is_that_of_a_look_at_each(way_and_values, reach):
+    """Of the nodes within reach, and one more at either end."""
+    way, values = way_and_values
+    found = speed_plan._lowest_within(way, values, np.full(len(way), reach))  # noqa: SLF001
+    for i, lowest in enumerate(found):
+        near = np.flatnonzero((way >= way[i] - reach) & (way <= way[i] + reach))
+        assert lowest == values[max(near[0] - 1, 0) : near[-1] + 2].min()

@@ -8,6 +8,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from agv_motion.bag.checks.check import Limits, check
 from agv_motion.bag.checks.silences import regular, silences
+from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import ConfigurationError
@@ -68,6 +69,18 @@ def test_stamps_of_two_who_number_their_messages_may_go_back(tmp_path, steady, t
     headers[200] = headers[198]
     numbers = np.arange(COUNT) // talkers + 1
     (finding,) = found(write(tmp_path / 'bag', steady, headers=headers, numbers=numbers))
+    assert (finding.severity, finding.where) == (severity, '/flow')
+
+
+@pytest.mark.parametrize(('talkers', 'severity'), [(1, 'error'), (2, 'warning')])
+def test_stamps_of_two_publishers_that_the_bag_tells_of_may_go_back(tmp_path, talkers, severity):
+    text = STORE.generate_msgdef(VECTOR, ros_version=2)[0]
+    with BagWriter(tmp_path / 'bag') as writer:
+        qos = [OfferedQos(depth=1)] * talkers
+        topic = writer.add_topic('/flow', VECTOR, text, type_hash='', qos=qos)
+        for i, header in enumerate((1, 3, 2, 4)):
+            writer.write(topic, i * TENTH, vector(header * TENTH))
+    (finding,) = found(tmp_path / 'bag')
     assert (finding.severity, finding.where) == (severity, '/flow')
 
 
