@@ -14,7 +14,7 @@ from agv_motion.errors import AgvMotionError
 from agv_motion.files.unfinished import beside
 from agv_motion.reprocess import provenance, wiring
 from agv_motion.reprocess.bag_clock import BagClock
-from agv_motion.reprocess.recorded import node_class, parameters
+from agv_motion.reprocess.recorded import module_of, node_class, parameters
 from agv_motion.reprocess.transcript import TOGETHER, Transcript
 from agv_motion.ros.config import find_config
 from agv_motion.ros.in_process_graph import InProcessGraph
@@ -53,6 +53,10 @@ class Plan(NamedTuple):
     ) -> ReprocessOutcome:
         """Run the nodes over a bag: :func:`reprocess`, as `agv_motion.ros.many_bags` calls it."""
         return reprocess(source, target, self, tell)
+
+    def modules(self) -> tuple[str, ...]:
+        """Return the modules of the nodes."""
+        return tuple(map(module_of, self.nodes))
 
     def lost(self, source: Path, reason: str) -> ReprocessOutcome:
         """Return the outcome of a bag whose worker died."""

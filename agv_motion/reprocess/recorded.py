@@ -27,6 +27,11 @@ FILES = {
 """parameter that names what a robot has learnt, or what holds it: that stays untouched"""
 
 
+def module_of(name: str) -> str:
+    """Return the module in which a node of this package is, for a recording."""
+    return MODULES.get(name, f'agv_motion.nodes.{name}')
+
+
 def node_class(name: str) -> Any:
     """Return the class of a node of this package, for a recording.
 
@@ -39,7 +44,7 @@ def node_class(name: str) -> Any:
         usable = ', '.join(sorted(set(available()) - LIVE_ONLY))
         msg = f'{name} works on a live graph only; there are {usable}'
         raise ConfigurationError(msg)
-    module = importlib.import_module(MODULES.get(name, f'agv_motion.nodes.{name}'))
+    module = importlib.import_module(module_of(name))
     return next(
         each
         for each in vars(module).values()

@@ -68,6 +68,10 @@ class EditRequest:
             took = time.perf_counter() - begin
             return EditOutcome(str(source), str(target), took=took, failure=str(error))
 
+    def modules(self) -> tuple[str, ...]:
+        """Return nothing: all that an edit needs is imported with this module."""
+        return ()
+
     def lost(self, source: Path, reason: str) -> EditOutcome:
         """Return the outcome of a bag whose worker died."""
         return EditOutcome(str(source), '', failure=reason)

@@ -38,7 +38,7 @@ def results(recorded, tmp_path_factory):
 
 
 def test_the_same_bytes_from_one_process_and_from_two_workers(alone, recorded, results, tmp_path):
-    """Each worker is a new interpreter, with another order of what has no order."""
+    """Workers are of a new interpreter, with another order of what has no order."""
     for name, workers in (('one', 1), ('two', 2)):
         out_folder = tmp_path / name / 'out'
         status, out, errors = alone(
