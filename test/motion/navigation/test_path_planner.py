@@ -6,7 +6,6 @@ from itertools import combinations
 from math import hypot, sqrt
 from random import Random
 
-import networkx as nx
 import pytest
 import shapely
 from hypothesis import assume, given
@@ -145,7 +144,9 @@ def crowded(seed):
 
 @pytest.mark.parametrize('seed', range(2))
 def test_no_shorter_way_than_by_an_independent_search(seed):
-    """Dijkstra over all corners, the pointless ones included, by nx."""
+    """Dijkstra over all corners, the pointless ones included, by networkx."""
+    import networkx as nx  # a quarter of a second, that only this test needs
+
     zone = crowded(seed)
     floor = zone.parts[0].buffer(TOLERANCE)
     corners = [p for ring in (floor.exterior, *floor.interiors) for p in ring.coords[:-1]]
@@ -157,10 +158,13 @@ def test_no_shorter_way_than_by_an_independent_search(seed):
     ][:6]
     graph = nx.Graph()
     shapely.prepare(floor)
-    for a, b in combinations([*corners, *ends], 2):
-        line = shapely.LineString([a, b])
-        if floor.covers(line):
-            graph.add_edge(a, b, weight=line.length)
+    pairs = list(combinations([*corners, *ends], 2))
+    lines = shapely.linestrings(pairs)
+    graph.add_weighted_edges_from(
+        (a, b, line.length)
+        for (a, b), line, is_free in zip(pairs, lines, floor.covers(lines), strict=True)
+        if is_free
+    )
     paths = PathPlanner(zone)
     for a, b in combinations(ends, 2):
         expected = nx.dijkstra_path_length(graph, a, b)
