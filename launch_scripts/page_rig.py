@@ -19,7 +19,7 @@ from pathlib import Path
 
 import rclpy
 from geometry_msgs.msg import TwistStamped
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
@@ -46,7 +46,9 @@ class Wheels:
         """Join the graph."""
         self.context = rclpy.Context()
         rclpy.init(context=self.context, signal_handler_options=SignalHandlerOptions.NO)
-        self.node = rclpy.create_node('page_trial', context=self.context)
+        self.node = rclpy.create_node(
+            'page_trial', context=self.context, start_parameter_services=False, enable_rosout=False
+        )
         self.node.create_subscription(JointState, '/oak/turrets/command', self._hear, COMMAND)
         self.agent = self.node.create_publisher(TwistStamped, '/oak/cmd_vel/agent', COMMAND)
         self.node.create_timer(0.1, self._walk)
@@ -82,7 +84,7 @@ class Wheels:
         return max(self.changes[-1][0] - moment, 0.0)
 
     def _spin(self):
-        executor = SingleThreadedExecutor(context=self.context)
+        executor = EventsExecutor(context=self.context)
         executor.add_node(self.node)
         while not self.ended:
             executor.spin_once(timeout_sec=0.05)
