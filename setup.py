@@ -125,6 +125,7 @@ setup(
             (f'{SHARE}/config/{folder}', files(f'config/{folder}', f'*.{suffix}'))
             for folder, suffix in (('foxglove', 'json'), ('rviz', 'rviz'), ('plotjuggler', 'xml'))
         ),
+        (f'{SHARE}/config/ros2_control', files('config/ros2_control', 'tree_*')),
         (f'{SHARE}/launch', files('launch_scripts', '*.launch.py')),
         (f'lib/{NAME}', executables()),
     ],

@@ -20,6 +20,10 @@ PLACES = 'pose', 'odom', 'fix'
 """Topics that tell where a robot is"""
 
 
+SAME_PLACE = 0.01
+"""[m]"""
+
+
 class Patience(NamedTuple):
     """How long a script waits for a robot, always by the steady clock."""
 
@@ -151,6 +155,12 @@ class TreeOrder(Order):
                 self.task.end(Outcome.CANCELLED, f'it has another goal: {self._told()}')
         if topic in {'goal', 'pose'} and self.task.accepted and self._reached():
             self.task.end(Outcome.SUCCEEDED, 'arrived')
+
+    def _on_path(self, heard: Heard) -> None:
+        """Take a path that leads there: as long as the tree rests, the one of before is told."""
+        points = points_of(heard.message)
+        if points and dist(points[-1], self._place) < SAME_PLACE:
+            super()._on_path(heard)
 
     def accept(self, now: float) -> None:
         """Be taken; the same goal told again is no other one."""

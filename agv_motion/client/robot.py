@@ -82,6 +82,9 @@ class Robot:
             AgvMotionError: The robot has not taken it; the message says why.
 
         """
+        # a message takes a whole number, and sends another one
+        x, y = float(x), float(y)
+        heading = None if heading is None else float(heading)
         require_finite('go_to (x, y, heading)', (x, y, heading or 0.0))
         driver = self._dispatch.first(GHOST, TREE)
         if driver is TREE:
@@ -117,7 +120,7 @@ class Robot:
             msg = f'{route}: laps = 0 never ends: give 1 or more'
             raise ConfigurationError(msg)
         path = Path()
-        fill_path(path, [Pose(*point, 0.0) for point in given.waypoints * given.laps])
+        fill_path(path, [Pose(float(x), float(y), 0.0) for x, y in given.waypoints * given.laps])
         self._dispatch.send(self._dispatch.first(ROUTE), 'route', path)
 
     def drive_arc(self, angle: float, diameter: float, speed: float = 0.3) -> None:
@@ -267,5 +270,5 @@ class Robot:
 def _vector(x: float, y: float, z: float) -> Vector3Stamped:
     require_finite('the numbers of an order', (x, y, z))
     message = Vector3Stamped()
-    message.vector.x, message.vector.y, message.vector.z = x, y, z
+    message.vector.x, message.vector.y, message.vector.z = float(x), float(y), float(z)
     return message

@@ -140,6 +140,16 @@ def test_a_tree_that_takes_another_goal_has_arrived_or_left_this_one(tree, view,
     assert tree.task.result.outcome is outcome
 
 
+@pytest.mark.parametrize(('end', 'left'), [(9.0, 5.0), (5.0, 9.0)])
+def test_the_path_of_another_goal_is_not_its_own(tree, end, left):
+    """Two metres there and back more, on the way of its own; else straight there."""
+    path = Path()
+    fill_path(path, [Pose(x, 0.0, 0.0) for x in (0.0, 7.0, end)])
+    tree.receive('path', Heard(path, 0.0))
+    tree.receive('pose', Heard(None, 0.0))
+    assert tree.distance_left() == pytest.approx(left)
+
+
 def test_the_same_goal_told_again_is_no_other(tree):
     tree.receive('goal', goal(5.0, 0.0))
     tree.receive(TREE.state, Heard(String(data='walking'), 0.0))

@@ -106,6 +106,18 @@ def test_each_order_is_taken_and_done(robot, order, arguments):
     assert robot.wait(LIMIT) == (Outcome.SUCCEEDED, 'arrived')
 
 
+def test_whole_numbers_are_numbers(robot, ears):
+    """A message of rclpy takes 1 for 1.0 without a word, and sends 0.0."""
+    robot.go_to(1, 1)
+    assert robot.wait(LIMIT).succeeded
+    assert dist(place(ears), (1.0, 1.0)) < 0.06
+    robot.follow_route([(1, 1), (1, 0)])
+    assert robot.wait(LIMIT).succeeded
+    assert dist(place(ears), (1.0, 0.0)) < 0.06
+    robot.spin(1, 2, 4)
+    assert robot.wait(LIMIT).succeeded
+
+
 def test_a_sequence_is_performed(robot, tmp_path):
     file = tmp_path / 'two.yaml'
     file.write_text('actions:\n  - rotate: {by: 20}\n  - wait: 0.1\n')
