@@ -109,6 +109,7 @@ setup(
             'yourdfpy>=0.0.56',
         ],
         'benchmark': [
+            'evo>=1.31',
             'foxglove-sdk>=0.14',
             'mcap>=1.1',
             'mcap-ros2-support-fast>=0.8',

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import atan2
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.report.stamped_columns import topics_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -25,9 +26,9 @@ DRIVEN = ('ground_truth', 'pose', 'odom/filtered', 'odom', 'fix')
 """Topics that tell a pose, by the ends of their names, the most trusted first."""
 
 POSES = {
-    'geometry_msgs/msg/PoseStamped': lambda message: message.pose,
-    'geometry_msgs/msg/PoseWithCovarianceStamped': lambda message: message.pose.pose,
-    'nav_msgs/msg/Odometry': lambda message: message.pose.pose,
+    'geometry_msgs/msg/PoseStamped': 'pose',
+    'geometry_msgs/msg/PoseWithCovarianceStamped': 'pose.pose',
+    'nav_msgs/msg/Odometry': 'pose.pose',
 }
 """Where the pose stands in each type that has one."""
 
@@ -96,9 +97,15 @@ def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -
             msg = f'no poses on {topic}: there are {", ".join(sorted(told)) or "none at all"}'
             raise ConfigurationError(msg)
         return told[topic]
-    found = [poses for end in ends for name, poses in told.items() if name.endswith(f'/{end}')]
+    found = [told[name] for name in named_so(told, ends)]
     inside = [poses for poses in found if poses.frame == frame]
     return next(iter([*inside, *found]), None)
+
+
+def named_so(topics: Iterable[str], ends: Sequence[str]) -> list[str]:
+    """Return the topics whose names end so, in the order of ``ends``."""
+    names = list(topics)
+    return [name for end in ends for name in names if name.endswith(f'/{end}')]
 
 
 def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
@@ -106,7 +113,7 @@ def _tell(reader: BagReader, topics: list[str]) -> dict[str, Poses]:
     frames: dict[str, str] = {}
     for message, content in decoded(reader, topics):
         topic = message.connection.topic
-        pose = POSES[message.connection.type](content)
+        pose = attrgetter(POSES[message.connection.type])(content)
         q, p, stamp = pose.orientation, pose.position, content.header.stamp
         heading = atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
         rows[topic].append((stamp.sec + 1e-9 * stamp.nanosec, p.x, p.y, heading))

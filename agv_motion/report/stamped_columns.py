@@ -58,7 +58,7 @@ def pose_columns(bag: BagReader, topics: Iterable[str]) -> list[PoseColumns]:
 
     """
     columns, topics = [], list(topics)
-    _require_type(bag, topics, POSES)
+    require_type(bag, topics, POSES)
     for rows in _rows(bag, topics, _pose_row):
         table = np.array(rows, dtype=float).reshape(len(rows), 10).T
         columns.append(PoseColumns(*_in_order(table[0], table[1:4], table[4:])))
@@ -74,7 +74,7 @@ def joint_columns(bag: BagReader, topic: str, names: list[str]) -> JointColumns:
             all the names.
 
     """
-    _require_type(bag, [topic], (JOINTS,))
+    require_type(bag, [topic], (JOINTS,))
     seen: set[str] = set()
 
     def row(message: Any) -> tuple[float, ...] | None:
@@ -97,7 +97,13 @@ def joint_columns(bag: BagReader, topic: str, names: list[str]) -> JointColumns:
     return JointColumns(*_in_order(table[0], table[1 : 1 + len(names)], table[1 + len(names) :]))
 
 
-def _require_type(bag: BagReader, topics: Collection[str], types: Collection[str]) -> None:
+def require_type(bag: BagReader, topics: Collection[str], types: Collection[str]) -> None:
+    """Refuse topics that are not there, or of another type than ``types``.
+
+    Raises:
+        ConfigurationError: One is; fitting ones are named.
+
+    """
     bag.require(topics)
     for connection in bag.connections:
         if connection.topic in topics and connection.type not in types:

@@ -18,6 +18,7 @@ app = typer.Typer(
             'export': 'bag.export:export',
             'recover': 'bag.recover:recover',
             'diff': 'bag.diff:diff',
+            'errors': 'bag.errors:errors',
             'cut': 'bag.cut:cut',
             'filter': 'bag.rewrite:choose',
             'merge': 'bag.merge:merge',
