@@ -32,6 +32,9 @@ from agv_motion.report.season_figure import draw as draw_season
 from agv_motion.report.season_figure import finding as season_finding
 from agv_motion.report.sequence_figure import draw as draw_sequence
 from agv_motion.report.stamped_columns import PoseColumns
+from agv_motion.report.stamped_poses import stamped_poses
+from agv_motion.report.trajectory_errors import Relation, Request, compare
+from agv_motion.report.trajectory_errors_figure import draw as draw_trajectory_errors
 from agv_motion.report.trajectory_figure import draw as draw_plan
 from agv_motion.report.walk import Remembered, WalkRun
 from agv_motion.report.walk_figure import WalkLimits, finding
@@ -251,6 +254,24 @@ def test_a_run_beside_its_ghost(sketched, tmp_path):
     texts = [text for text, _ in sketched[-1][1]]
     assert '10.0 m in 10 s, 5.0 cm from the plan, at most 5.0 cm' in texts
     assert {'along', 'across', 'plan', 'driven'} <= set(texts)
+
+
+def test_trajectories_beside_their_reference(sketched, tmp_path):
+    """One errs by 3 cm, the other by 50 cm."""
+    angle = np.linspace(0.0, 3.0, 200)
+    places = np.stack([4 * np.sin(angle), 4 * np.cos(angle), 0 * angle], axis=1)
+    stamps, turns = np.arange(200) * 10**8, np.tile([0.0, 0.0, 0.0, 1.0], (200, 1))
+    told = [
+        stamped_poses('/pose', 'map', stamps, places + np.array([0.0, error, 0.0]), turns)
+        for error in (0.0, 0.03, 0.5)
+    ]
+    request = Request(relations=tuple(Relation))
+    judged = [(f'run{i} /pose', compare(told[0], told[i], request)) for i in (1, 2)]
+    draw_trajectory_errors(judged, tmp_path / 'errors.png', theme='dark')
+    check(sketched)
+    texts = [text for text, _ in sketched[-1][1]]
+    best = 'Best of 2: run1 /pose, translation errs 0.03 m (root mean square)'
+    assert {best, 'reference', 'run1 /pose', 'run2 /pose', 'Error of rotation [°]'} <= set(texts)
 
 
 def test_a_sequence(sketched, tmp_path):

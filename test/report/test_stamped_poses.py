@@ -46,8 +46,7 @@ def test_an_offset_sets_a_clock_right():
     ('first', 'second', 'why'),
     [
         ([0, 100, 200], [5000, 5100, 5250],
-         r'do not overlap: one spans 0\.200 s, the other 0\.250 s, and /odom begins 5\.000 s after '
-         r'/truth.*--offset -5\.000'),
+         r'one spans 0\.200 s, the other 0\.250 s, .* begins 5\.000 s after .*--offset -5\.000'),
         ([5000, 5100, 5200], [0, 100, 200], r'begins 5\.000 s before /truth.*--offset 5\.000'),
         ([0, 100, 200, 300], [50, 151, 252], r'third nearest are 0\.05 s .*--within 0\.0505'),
         ([0, 100, 200], [0, 100], r'at least 3 of each: /truth has 3; /odom has 2'),
@@ -64,7 +63,7 @@ def test_why_fewer_than_three_belong_together(first, second, why):
 def test_a_limit_that_is_none_is_refused(number):
     with pytest.raises(ConfigurationError, match='--within'):
         together([0, 100, 200], [0, 100, 200], within=number)
-    with pytest.raises(ConfigurationError, match='--offset|do not overlap'):
+    with pytest.raises(ConfigurationError, match=r'--offset|do not overlap'):
         together([0, 100, 200], [0, 100, 200], offset=number)
 
 

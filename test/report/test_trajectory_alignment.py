@@ -59,12 +59,12 @@ def test_none_changes_nothing():
 def test_places_that_determine_no_rotation_are_refused(far):
     """Also far from the origin, where rounding looks like a width."""
     line = np.linspace(0.0, 1.7, 30)[:, None] * [1.0, 0.3, 0.0] + far
-    with pytest.raises(ConfigurationError, match='lie on one line.*se2 or origin'):
+    with pytest.raises(ConfigurationError, match=r'lie on one line.*se2 or origin'):
         align(poses(line), poses(line), Alignment.SE3)
     align(poses(line), poses(line), Alignment.SE2)
     there = np.full((30, 3), far + 0.1)
     for how in (Alignment.SE2, Alignment.SE3):
-        with pytest.raises(ConfigurationError, match='are all the same.*origin'):
+        with pytest.raises(ConfigurationError, match=r'are all the same.*origin'):
             align(poses(line), poses(there), how)
     with pytest.raises(ConfigurationError, match='--scale with --align origin'):
         align(poses(line), poses(line), Alignment.ORIGIN, scaled=True)

@@ -26,23 +26,22 @@ BEGIN = 1_400_000_000 * 10**9
 TENTH = 10**8
 
 
-def planar(xs, ys, headings, stamps=None, name='/odom', frame='map'):
+def planar(xs, ys, headings, frame='map'):
     """Return poses in the plane, ten a second."""
     xs, ys, half = (np.asarray(values, float) for values in (xs, ys, np.divide(headings, 2)))
-    stamps = BEGIN + TENTH * np.arange(len(xs)) if stamps is None else stamps
+    stamps = BEGIN + TENTH * np.arange(len(xs))
     turns = np.stack([0 * half, 0 * half, np.sin(half), np.cos(half)], axis=1)
-    return stamped_poses(name, frame, stamps, np.stack([xs, ys, 0 * xs], axis=1), turns)
+    return stamped_poses('/odom', frame, stamps, np.stack([xs, ys, 0 * xs], axis=1), turns)
 
 
-def wandering(count, seed, name='/odom', steps=TENTH):
+def wandering(count, seed):
     """Return poses all over space, at uneven times."""
     random = np.random.default_rng(seed)
-    stamps = BEGIN + np.cumsum(random.integers(steps // 2, 2 * steps, count))
+    stamps = BEGIN + np.cumsum(random.integers(TENTH // 2, 2 * TENTH, count))
     places = np.cumsum(random.normal(0.0, 0.1, (count, 3)), axis=0)
-    turns = np.cumsum(random.normal(0.0, 0.1, (count, 4)), axis=0) + [0, 0, 0, 1]
-    return stamped_poses(
-        name, 'map', stamps, places, turns / np.linalg.norm(turns, axis=1)[:, None]
-    )
+    turns = np.cumsum(random.normal(0.0, 0.1, (count, 4)), axis=0) + np.array([0, 0, 0, 1])
+    turns /= np.linalg.norm(turns, axis=1)[:, None]
+    return stamped_poses('/odom', 'map', stamps, places, turns)
 
 
 def test_absolute_errors_by_hand():
