@@ -55,7 +55,7 @@ class Delta(NamedTuple):
     """[-] share of ``size`` by which a pair of all pairs may be off"""
 
 
-class Statistics(NamedTuple):
+class ErrorStatistics(NamedTuple):
     """Of errors, in their unit; ``sse`` in its square."""
 
     rmse: float
@@ -69,7 +69,7 @@ class Statistics(NamedTuple):
     """sum of the squares"""
 
 
-class Comparison(NamedTuple):
+class TrajectoryComparison(NamedTuple):
     """One trajectory beside its reference."""
 
     reference: StampedPoses
@@ -84,7 +84,7 @@ class Comparison(NamedTuple):
     """(k,) each"""
 
 
-class Request(NamedTuple):
+class ComparisonRequest(NamedTuple):
     """How to compare."""
 
     within: float = 0.01
@@ -98,7 +98,9 @@ class Request(NamedTuple):
     relations: tuple[Relation, ...] = (Relation.TRANSLATION, Relation.ROTATION)
 
 
-def compare(reference: StampedPoses, driven: StampedPoses, request: Request) -> Comparison:
+def compare(
+    reference: StampedPoses, driven: StampedPoses, request: ComparisonRequest
+) -> TrajectoryComparison:
     """Return the errors of ``driven``.
 
     Raises:
@@ -117,7 +119,7 @@ def compare(reference: StampedPoses, driven: StampedPoses, request: Request) -> 
         found = pairs(driven, request.delta)
         rows = found[:, 1]
         errors = {r: relative_errors(reference, driven, found, r) for r in request.relations}
-    return Comparison(reference, driven, moved, rows, errors)
+    return TrajectoryComparison(reference, driven, moved, rows, errors)
 
 
 def _require_one_frame(reference: StampedPoses, driven: StampedPoses) -> None:
@@ -238,10 +240,10 @@ def _all_pairs(steps: NDArray[np.int64] | Array, goal: float, tolerance: float) 
     return np.stack([first[fits], second[fits]], axis=1)
 
 
-def statistics(errors: Array) -> Statistics:
+def statistics(errors: Array) -> ErrorStatistics:
     """Return the statistics of at least one error, as evo names and defines them."""
     square = errors**2
-    return Statistics(
+    return ErrorStatistics(
         float(np.sqrt(np.mean(square))), float(np.mean(errors)), float(np.median(errors)),
         float(np.std(errors)), float(np.min(errors)), float(np.max(errors)), float(np.sum(square)),
     )  # fmt: skip

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from agv_motion.report.trajectory_errors import Comparison
+    from agv_motion.report.trajectory_errors import TrajectoryComparison
 
 NAMES = {
     Relation.TRANSLATION: 'Error of place [m]',
@@ -24,7 +24,9 @@ NAMES = {
 }
 
 
-def draw(judged: Sequence[tuple[str, Comparison]], path: Path, *, theme: str = 'light') -> None:
+def draw(
+    judged: Sequence[tuple[str, TrajectoryComparison]], path: Path, *, theme: str = 'light'
+) -> None:
     """Draw some trajectories, each with its name; each with its own reference, of the same kind.
 
     Raises:
@@ -54,7 +56,7 @@ def draw(judged: Sequence[tuple[str, Comparison]], path: Path, *, theme: str = '
         axes[relations[-1].value].set_xlabel('time [s]')
 
 
-def finding(judged: Sequence[tuple[str, Comparison]]) -> str:
+def finding(judged: Sequence[tuple[str, TrajectoryComparison]]) -> str:
     """Return what was found, in one line: the root mean square, of several that of the best."""
     relation = next(iter(judged[0][1].errors))
     unit = f' {relation.unit}' if relation.unit else ''
@@ -66,7 +68,7 @@ def finding(judged: Sequence[tuple[str, Comparison]]) -> str:
     return f'{name}: {said}' if len(judged) == 1 else f'Best of {len(judged)}: {name}, {said}'
 
 
-def _draw_map(axes: Any, judged: Sequence[tuple[str, Comparison]]) -> None:
+def _draw_map(axes: Any, judged: Sequence[tuple[str, TrajectoryComparison]]) -> None:
     everywhere = [one.reference.position[:, :2] for _, one in judged]
     drawn: list[Any] = []
     for place in everywhere:

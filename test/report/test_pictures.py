@@ -33,7 +33,7 @@ from agv_motion.report.season_figure import finding as season_finding
 from agv_motion.report.sequence_figure import draw as draw_sequence
 from agv_motion.report.stamped_columns import PoseColumns
 from agv_motion.report.stamped_poses import stamped_poses
-from agv_motion.report.trajectory_errors import Relation, Request, compare
+from agv_motion.report.trajectory_errors import ComparisonRequest, Relation, compare
 from agv_motion.report.trajectory_errors_figure import draw as draw_trajectory_errors
 from agv_motion.report.trajectory_figure import draw as draw_plan
 from agv_motion.report.walk import Remembered, WalkRun
@@ -265,7 +265,7 @@ def test_trajectories_beside_their_reference(sketched, tmp_path):
         stamped_poses('/pose', 'map', stamps, places + np.array([0.0, error, 0.0]), turns)
         for error in (0.0, 0.03, 0.5)
     ]
-    request = Request(relations=tuple(Relation))
+    request = ComparisonRequest(relations=tuple(Relation))
     judged = [(f'run{i} /pose', compare(told[0], told[i], request)) for i in (1, 2)]
     draw_trajectory_errors(judged, tmp_path / 'errors.png', theme='dark')
     check(sketched)

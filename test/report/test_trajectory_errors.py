@@ -11,10 +11,10 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.report.stamped_poses import associate, stamped_poses
 from agv_motion.report.trajectory_alignment import Alignment, align
 from agv_motion.report.trajectory_errors import (
+    ComparisonRequest,
     Delta,
     DeltaUnit,
     Relation,
-    Request,
     absolute_errors,
     compare,
     pairs,
@@ -105,11 +105,11 @@ def test_other_frames_need_an_alignment_or_the_relative_error():
     truth = planar([0, 1, 2], [0, 1, 0], [0] * 3, frame='/map')
     told = planar([0, 1, 2], [0, 1, 0], [0] * 3, frame='odom')
     with pytest.raises(ConfigurationError, match=r"in frame '/map', /odom in 'odom': .*--align"):
-        compare(truth, told, Request())
-    for request in (Request(alignment=Alignment.SE2), Request(delta=Delta())):
+        compare(truth, told, ComparisonRequest())
+    for request in (ComparisonRequest(alignment=Alignment.SE2), ComparisonRequest(delta=Delta())):
         found = compare(truth, told, request)
         assert found.errors[Relation.TRANSLATION] == pytest.approx(0.0, abs=1e-12)
-    compare(truth, told._replace(frame='map'), Request())
+    compare(truth, told._replace(frame='map'), ComparisonRequest())
 
 
 def of_evo(poses):
@@ -156,7 +156,9 @@ def test_everything_is_equal_to_evo(alignment, scaled):
         deltas = [Delta(s, u, a) for s, u, a in product((1, 3), units, (False, True))]
         for delta in (None, *deltas):
             found = compare(
-                truth, told, Request(0.03, 0.02, alignment, scaled, delta, tuple(Relation))
+                truth,
+                told,
+                ComparisonRequest(0.03, 0.02, alignment, scaled, delta, tuple(Relation)),
             )
             for relation, kind in kinds.items():
                 if delta is None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from enum import Enum
 
     from agv_motion.bag.reader import BagReader
-    from agv_motion.report.trajectory_errors import Comparison, Delta, Request
+    from agv_motion.report.trajectory_errors import ComparisonRequest, Delta, TrajectoryComparison
 
     Choice = TypeVar('Choice', bound=Enum)
     Value = TypeVar('Value')
@@ -116,7 +116,7 @@ class Judged(NamedTuple):
     """One topic of one bag."""
 
     bag: str
-    comparison: Comparison
+    comparison: TrajectoryComparison
 
 
 def _words(choices: type[Choice]) -> dict[str, Choice]:
@@ -142,14 +142,14 @@ def _relative(
 
 def _request(
     between: Delta | None, relations: list[str] | None, align: str, *, scaled: bool
-) -> Request:
+) -> ComparisonRequest:
     from agv_motion.report.trajectory_alignment import Alignment
-    from agv_motion.report.trajectory_errors import Relation, Request
+    from agv_motion.report.trajectory_errors import ComparisonRequest, Relation
 
     words = _words(Relation)
     wanted = [_chosen('--relation', words, one) for one in relations or list(words)[:2]]
     alignment = _chosen('--align', _words(Alignment), align)
-    return Request(
+    return ComparisonRequest(
         alignment=alignment, scaled=scaled, delta=between, relations=tuple(dict.fromkeys(wanted))
     )
 
@@ -159,7 +159,7 @@ def _judged(
     other: BagReader | None,
     reference: str,
     topics: list[str],
-    request: Request,
+    request: ComparisonRequest,
 ) -> list[Judged]:
     """Compare the topics of each bag, or the one that `agv plot` would take, with its reference."""
     from agv_motion.report.pose_topics import driven_beside, read_poses
@@ -190,11 +190,11 @@ def _draw(judged: list[Judged], path: Path) -> None:
 
 def _table(judged: list[Judged], metric: str) -> Table:
     """Return a row for each relation of each topic of each bag, the relations together."""
-    from agv_motion.report.trajectory_errors import Statistics, statistics
+    from agv_motion.report.trajectory_errors import ErrorStatistics, statistics
 
     table = Table(box=None, pad_edge=False)
     left = ('bag', 'topic', 'error')
-    for title in (*left, 'n', *Statistics._fields):
+    for title in (*left, 'n', *ErrorStatistics._fields):
         table.add_column(title, justify='left' if title in left else 'right', overflow='fold')
     for relation in judged[0].comparison.errors:
         unit = f' [{relation.unit}]' if relation.unit else ''
@@ -207,7 +207,7 @@ def _table(judged: list[Judged], metric: str) -> Table:
     return table
 
 
-def _encode(judged: list[Judged], metric: str, request: Request) -> None:
+def _encode(judged: list[Judged], metric: str, request: ComparisonRequest) -> None:
     """Print all that the table says in full precision, and how each was laid over its reference."""
     import json
 
