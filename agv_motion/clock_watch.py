@@ -19,8 +19,11 @@ STANDS_AFTER = 2.0
 """[s] without progress after which a clock stands still, where no input has a limit."""
 
 LOOKS = 9
-"""Number of looks whose median tells how fast the clock runs: one leap does not change it. Before
-that no pace is known: a simulation that begins on a busy machine stutters, and has not leapt."""
+"""Number of looks whose median tells how fast the clock runs: one leap does not change it."""
+
+FASTEST = 100.0
+"""[-] Speed that a simulation may have which was seen to begin, until ``LOOKS`` tell its pace: on a
+busy machine it stutters, and has not leapt."""
 
 SOON = 1e-3
 """[s] Less than the time between two looks."""
@@ -56,7 +59,7 @@ class ClockWatch:
         """What is wrong with the clock, in words; empty if it can be believed"""
         self.speed = 1.0
         """[-] Seconds of the clock per second, and no less than 1"""
-        self._begun = False
+        self._begun = self._seen_to_begin = False
         self._time: float | None = None
         self._moved_at = 0.0
         self._calm_from = self._told_until = -inf
@@ -73,6 +76,7 @@ class ClockWatch:
         if time <= 0.0:
             self._time = None
             self._speeds.clear()
+            self._seen_to_begin = True
             self.fault, self._calm_from = WENT_BACK if self._begun else WAITING[0], inf
         elif self._time is None:
             self._begun, self._time, self._moved_at = True, time, steady
@@ -104,10 +108,15 @@ class ClockWatch:
             return
         if gained < -BACK:
             self.distrust(f'the clock leapt back by {-gained:.3g} s', steady)
-        elif len(self._speeds) == LOOKS and gained > self.speed * (AHEAD + 3.0 * passed):
+        elif self._speeds and gained > self._pace() * (AHEAD + 3.0 * passed):
             self.distrust(f'the clock leapt ahead by {gained:.3g} s', steady)
         if passed > 0.0:
             speed = gained / passed
             self._speeds.append(min(speed, GEAR * self.speed) if self._speeds else speed)
             self.speed = max(1.0, median(self._speeds))
         self._time, self._moved_at = time, steady
+
+    def _pace(self) -> float:
+        """Return the speed that the clock may well have."""
+        unsure = self._seen_to_begin and len(self._speeds) < LOOKS
+        return max(self.speed, FASTEST) if unsure else self.speed

@@ -79,8 +79,16 @@ def test_a_clock_that_has_told_one_time_has_not_begun_to_run():
 
 
 def test_a_simulation_that_stutters_as_it_begins_has_not_leapt():
-    times = [50.0, 50.1, 50.1, 50.2, 56.2, 68.2, 68.3, 80.0, *running(86.0, 30, speed=60.0)]
-    assert not any(looked(ClockWatch(), times))
+    times = [0.0, 50.0, 50.1, 50.1, 50.2, 56.2, 68.2, 68.3, 80.0, *running(86.0, 30, speed=60.0)]
+    assert not any(looked(ClockWatch(), times)[2:])
+
+
+@pytest.mark.parametrize('looks', range(2, 12))
+@pytest.mark.parametrize(('before', 'leap'), [([], 10.0), ([0.0], 500.0)])
+def test_a_leap_soon_after_the_first_look_is_told(before, leap, looks):
+    """The clock of a machine may be set while it starts; a simulation may be taken elsewhere."""
+    times = [*before, *running(1000.0, looks)]
+    assert 'ahead' in looked(ClockWatch(), [*times, times[-1] + 0.1 + leap])[-1]
 
 
 def test_two_clocks_by_turns_are_never_believed():
