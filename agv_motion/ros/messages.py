@@ -59,8 +59,8 @@ def twist_of(message: Any) -> Twist:
 
 
 def fill_twist(message: Any, twist: Twist) -> None:
-    """Write ``twist`` into a geometry_msgs/Twist."""
-    message.linear.x, message.linear.y, message.angular.z = twist
+    """Write ``twist`` into a geometry_msgs/Twist; whole numbers too, as `fill_pose`."""
+    message.linear.x, message.linear.y, message.angular.z = map(float, twist)
 
 
 def pose_of(message: Any) -> Pose:
@@ -88,8 +88,8 @@ def pose_of(message: Any) -> Pose:
 
 
 def fill_pose(message: Any, pose: Pose) -> None:
-    """Write ``pose`` into a geometry_msgs/Pose."""
-    message.position.x, message.position.y = pose.x, pose.y
+    """Write ``pose`` into a geometry_msgs/Pose; whole numbers too, which a message would garble."""
+    message.position.x, message.position.y = float(pose.x), float(pose.y)
     fill_rotation(message.orientation, pose.theta)
 
 

@@ -12,6 +12,7 @@ pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import Twist as TwistMessage
+from rclpy.serialization import deserialize_message, serialize_message
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import Pose, Twist
@@ -35,6 +36,18 @@ def test_a_pose_there_and_back(x, y, theta):
     back = pose_of(message)
     assert (back.x, back.y) == (x, y)
     assert (cos(back.theta), sin(back.theta)) == pytest.approx((cos(theta), sin(theta)))
+
+
+def test_whole_numbers_arrive_as_they_are():
+    """rclpy takes an int for a field of decimals, and sends another number."""
+    pose, twist = PoseMessage(), TwistMessage()
+    fill_pose(pose, Pose(2, 3, 0))
+    fill_twist(twist, Twist(1, -1, 2))
+    pose, twist = (
+        deserialize_message(serialize_message(each), type(each)) for each in (pose, twist)
+    )
+    assert pose_of(pose) == Pose(2.0, 3.0, 0.0)
+    assert twist_of(twist) == Twist(1.0, -1.0, 2.0)
 
 
 @given(NUMBER, NUMBER, NUMBER)
