@@ -39,7 +39,7 @@ def test_a_pose_there_and_back(x, y, theta):
 
 
 def test_whole_numbers_arrive_as_they_are():
-    """rclpy takes an int for a field of decimals, and sends another number."""
+    """A message takes an int for a field of decimals, and sends another number."""
     pose, twist = PoseMessage(), TwistMessage()
     fill_pose(pose, Pose(2, 3, 0))
     fill_twist(twist, Twist(1, -1, 2))
