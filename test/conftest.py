@@ -225,6 +225,15 @@ class Graph:
             self.executor.spin_once(timeout_sec=0.01)
 
 
+@pytest.fixture
+def apart(monkeypatch):
+    """Be in a ROS domain of one's own: the robots of other tests may last for a session."""
+    domain, lock = free_domain()
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+    yield
+    lock.close()
+
+
 @pytest.fixture(scope='session')
 def wait_until():
     """Return what waits for something outside this process (a file, a thread): it has no event."""

@@ -47,12 +47,13 @@ def recorded(path: Path, columns: list[str], unit: str, excerpt: Excerpt) -> dic
     """
     seen = inspect(str(path))
     columns = columns or seen.probes()
-    if len(seen.time_formats) != 1 or not columns:
+    if not columns:
         names = ', '.join(column.name for column in seen.columns)
         msg = f'{path} has the columns {names}: name those of the probes by --columns'
-        if len(seen.time_formats) != 1:
-            formats = ' or '.join(seen.time_formats) or 'no format that is known'
-            msg = f'the times of {path} read as {formats}: give ISO 8601, in a column named time'
+        raise ConfigurationError(msg)
+    if len(seen.time_formats) != 1:
+        formats = ' or '.join(seen.time_formats) or 'no format that is known'
+        msg = f'the times of {path} read as {formats}: give ISO 8601, in a column named time'
         raise ConfigurationError(msg)
     chosen = (columns * 3)[:3]
     given = CsvParameters(
