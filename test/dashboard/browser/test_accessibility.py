@@ -87,7 +87,7 @@ def test_keys_alone_reach_everything_and_the_focus_is_seen(park, serve, open_pag
     assert order.index('stop-button') < order.index('map-canvas') < order.index('oak')
 
 
-def test_keys_alone_choose_a_robot_send_it_and_stop_all(park, serve, open_page):
+def test_keys_alone_choose_a_robot_send_it_and_stop_all(park, serve, open_page, wait_until):
     page = open_page(serve(park).url)
     page.wait_for_selector('[data-act=drive]')
     page.focus('[data-robot=oak]')
@@ -99,10 +99,11 @@ def test_keys_alone_choose_a_robot_send_it_and_stop_all(park, serve, open_page):
     page.wait_for_selector('#map-question .primary:focus')
     page.keyboard.press('Enter')
     page.wait_for_selector('.outcome')
-    assert park.asked[0][:2] == ('ash', 'goal')
+    wait_until(lambda: park.asked[:1] and park.asked[0][:2] == ('ash', 'goal'), 20.0)
     page.keyboard.press('Escape')
     page.wait_for_selector('[data-state=stopping]')
-    assert {robot for robot, action, _ in park.asked if action == 'stop'} == {'oak', 'ash', 'elm'}
+    stopped = {(robot, 'stop') for robot in ('oak', 'ash', 'elm')}
+    wait_until(lambda: {asked[:2] for asked in park.asked} >= stopped, 20.0)
 
 
 def test_sentence_is_told_to_a_screen_reader(park, serve, open_page):

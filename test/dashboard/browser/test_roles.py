@@ -39,12 +39,12 @@ def test_viewer_has_nothing_that_acts(page_of, park):
     assert park.asked == []
 
 
-def test_operator_acts_but_changes_no_parameter(page_of, park):
+def test_operator_acts_but_changes_no_parameter(page_of, park, wait_until):
     page = page_of('operator')
     assert page.locator('#stop-button').count() == 1
     page.click('[data-act=pause]')
     page.wait_for_selector('.outcome')
-    assert park.asked[0][:2] == ('oak', 'pause')
+    wait_until(lambda: park.asked[:1] and park.asked[0][:2] == ('oak', 'pause'), 20.0)
     page.click('[data-drawer=parameters]')
     page.wait_for_selector('.parameter')
     assert page.locator('.parameter input, .parameter button').count() == 0
