@@ -8,14 +8,13 @@ import typer
 
 from agv_motion.cli.bag.edit_options import (
     From,
-    Scheduler,
     Source,
     Target,
     To,
-    Workers,
     edit_each,
     selection,
 )
+from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.bag.options import Duration, StartOffset
 from agv_motion.cli.recording.topic_options import ExcludeRegex, ExcludeTopics, Regex, Topics
 from agv_motion.errors import ConfigurationError

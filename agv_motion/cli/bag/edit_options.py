@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.progress import Progress
 
-from agv_motion.cli.bag.many import jobs
+from agv_motion.cli.bag.many import jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
@@ -31,12 +30,6 @@ From = Annotated[
 To = Annotated[str, typer.Option('--to', help='Stop before this moment; forms as of --from.')]
 Compression = Annotated[
     str, typer.Option('--compression', help='zstd, lz4 or none; else as it is.')
-]
-Workers = Annotated[
-    int, typer.Option('-j', '--workers', min=1, help='Bags of a folder at the same time.')
-]
-Scheduler = Annotated[
-    str, typer.Option(help='... or on the Dask cluster of this scheduler, as tcp://host:8786.')
 ]
 COMPRESSIONS = ('zstd', 'lz4', 'none')
 
@@ -74,20 +67,7 @@ def edit_each(
     source: Path, target: Path, request: Any, workers: int = 1, scheduler: str = ''
 ) -> None:
     """Edit a bag, or each bag of a folder, under a bar, and tell what was done."""
-    from agv_motion.ros.many_bags import outcomes
-
-    found: list[EditOutcome] = []
-    pairs = jobs([source], target)
-    with Progress(console=terminal(stderr=True), transient=True) as progress:
-        bar = progress.add_task('Writing', total=len(pairs))
-
-        def show(share: float) -> None:
-            progress.update(bar, completed=len(found) + share)
-
-        with closing(outcomes(pairs, request, workers, scheduler, show)) as coming:
-            for outcome in coming:
-                found.append(outcome)
-                show(0.0)
+    found = outcomes_under_bar('Writing', jobs([source], target), request, workers, scheduler)
     tell_outcomes(sorted(found))
 
 

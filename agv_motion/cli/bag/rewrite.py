@@ -9,15 +9,14 @@ import typer
 from agv_motion.cli.bag.edit_options import (
     Compression,
     From,
-    Scheduler,
     Source,
     Target,
     To,
-    Workers,
     compression,
     edit_each,
     selection,
 )
+from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.recording.topic_options import ExcludeRegex, ExcludeTopics, Regex, Topics
 from agv_motion.errors import ConfigurationError
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.progress import Progress
 from rich.table import Table
 
-from agv_motion.cli.bag.many import jobs
+from agv_motion.cli.bag.many import Scheduler, Workers, jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.recording.storage_options import Compression
 from agv_motion.cli.terminal import terminal
@@ -41,12 +39,8 @@ def reprocess(
         typer.Option('-m', '--remap', help='Name in the node:=name in the bag; one per option.'),
     ] = None,
     compression: Compression = 'zstd',
-    workers: Annotated[
-        int, typer.Option('-j', '--workers', min=1, help='Bags at the same time, on this machine.')
-    ] = 1,
-    scheduler: Annotated[
-        str, typer.Option(help='... or on the Dask cluster of this scheduler, as tcp://host:8786.')
-    ] = '',
+    workers: Workers = 1,
+    scheduler: Scheduler = '',
 ) -> None:
     """Let the nodes decide again on what was recorded: without middleware, the same to the bit.
 
@@ -74,7 +68,9 @@ def reprocess(
         raise ConfigurationError(msg)
     pairs = tuple(_pair(one) for one in remap or ())
     plan = _plan(config, chosen, pairs, compression, '/' + namespace.strip('/'))
-    found = _outcomes(jobs(sources, target), plan, workers, scheduler)
+    found = sorted(
+        outcomes_under_bar('Reprocessing', jobs(sources, target), plan, workers, scheduler)
+    )
     _tell(found)
     if any(one.failure or one.lossy for one in found):
         raise typer.Exit(1)
@@ -97,26 +93,6 @@ def _plan(
         if not parameters(config, name, robot) and config:
             typer.echo(f'note: {config} has nothing for {name}, which takes its defaults', err=True)
     return Plan(config, nodes, pairs, codec, robot)
-
-
-def _outcomes(
-    pairs: list[tuple[Path, Path]], plan: Plan, workers: int, scheduler: str
-) -> list[ReprocessOutcome]:
-    """Reprocess every bag, under a bar that shows how far it is."""
-    from agv_motion.ros.many_bags import outcomes
-
-    found: list[ReprocessOutcome] = []
-    with Progress(console=terminal(stderr=True), transient=True) as progress:
-        bar = progress.add_task('Reprocessing', total=len(pairs))
-
-        def show(share: float) -> None:
-            progress.update(bar, completed=len(found) + share)
-
-        with closing(outcomes(pairs, plan, workers, scheduler, show)) as coming:
-            for outcome in coming:
-                found.append(outcome)
-                show(0.0)
-    return sorted(found)
 
 
 def _pair(remap: str) -> tuple[str, str]:

@@ -29,21 +29,23 @@ def encoding_of(data: bytes, given: str, file: str) -> str:
         SourceError: It is not what is given.
 
     """
+    if given == 'latin-1':
+        return given  # every byte is a letter of it
     marks = (codecs.BOM_UTF16_LE, 'utf-16-le'), (codecs.BOM_UTF16_BE, 'utf-16-be')
-    found = next((name for mark, name in marks if data.startswith(mark)), '')
-    found = found or _unmarked_utf16(data[:LOOKED_AT])
-    if given == 'latin-1' or (given != 'utf-8' and found):
-        return found if given != 'latin-1' else given
-    try:
-        data.decode(given if given == 'utf-8' else 'utf-8')
-    except UnicodeDecodeError as error:
-        if given == 'auto':
-            return 'latin-1'
-        reason = str(error)
-    else:
-        if given != 'utf-16':
+    marked = next((name for mark, name in marks if data.startswith(mark)), '')
+    found = marked or _unmarked_utf16(data[:LOOKED_AT])
+    if found and given != 'utf-8':
+        return found
+    reason = 'it has no mark of UTF-16, and not every second byte is 0'
+    if given != 'utf-16':
+        try:
+            data.decode('utf-8')
+        except UnicodeDecodeError as error:
+            reason = str(error)
+        else:
             return 'utf-8'
-        reason = 'it has no mark of UTF-16, and not every second byte is 0'
+    if given == 'auto':
+        return 'latin-1'
     msg = f'{file} is not {given} ({reason}): choose csv.encoding auto, or what it was saved as'
     raise SourceError(msg)
 

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from agv_motion.probe.tables.file_text import FileLine
 
+HEAD_BYTES = 1 << 18
+"""of a file, which are more than the rows by which it is judged"""
 LOOKED_AT = 400
 """Rows by which a file is judged."""
 MOST = 0.6
@@ -96,7 +98,8 @@ def inspect(file: str) -> Inspection:
         data = text.read_bytes(files[0], 'the probe file', LARGEST)
     except AgvMotionError as error:
         raise text.as_kind(error, SourceError) from error
-    encoding = file_text.encoding_of(data, 'auto', file)
+    data = data[:HEAD_BYTES]
+    encoding = file_text.encoding_of(data[: data.rfind(b'\n') + 1] or data, 'auto', file)
     lines = file_text.lines_of(data.decode(encoding, errors='replace'))
     lines = [line for line in lines if not line.fault]
     rows: dict[str, list[tuple[int, list[str]]]] = {
