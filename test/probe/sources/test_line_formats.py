@@ -86,6 +86,8 @@ def test_a_year_that_is_not_told_is_the_nearest():
     given = SerialParameters(format='campbell_printable', fields=(1,), unit='K')
     sample = parse_line('01+0110. 02+0365. 03+2359. 04+0.5', given, now)
     assert sample.time == now - 120.0
+    sample = parse_line('01+0110. 02+0001. 03+0001. 04+0.5', given, now - 120.0)
+    assert sample.time == now
 
 
 def test_what_stands_for_no_value_is_missing():

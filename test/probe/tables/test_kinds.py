@@ -111,6 +111,10 @@ KINDS = {
         'y,mo,d,h,mi,probe_1,probe_2\n2013,6,10,0,0,0.4,0.5\n2013,6,10,0,30,0.41,0.51\n',
         {'time_column': 'y + mo + d + h + mi'},
     ),
+    'year, month, day and HHMM': (
+        'y,mo,d,hm,probe_1,probe_2\n2013,6,10,00:00,0.4,0.5\n2013,6,10,00:30,0.41,0.51\n',
+        {'time_column': 'y + mo + d + hm', 'time_format': '%Y %m %d %H:%M'},
+    ),
     'UTC+2': (table('2013-06-10 02:00', '2013-06-10 02:30'), {'time_zone': 'UTC+2'}),
     'UTC-03:30': (table('2013-06-09 20:30', '2013-06-09 21:00'), {'time_zone': '-03:30'}),
     'a zone': (table('2013-06-10 02:00', '2013-06-10 02:30'), {'time_zone': 'Europe/Zurich'}),
@@ -168,7 +172,8 @@ KINDS = {
 }  # fmt: skip
 SEEN_BY_ITSELF = set(KINDS) - {
     'day first with slashes', 'day first, short year', 'month first', 'US with AM and PM',
-    'a pattern', 'UTC+2', 'UTC-03:30', 'a zone', 'days of Excel', 'lines to skip',
+    'a pattern', 'year, month, day and HHMM',
+    'UTC+2', 'UTC-03:30', 'a zone', 'days of Excel', 'lines to skip',
     'days of Excel on an old Macintosh', 'names, and numbers of columns',
 }  # fmt: skip
 """Kinds that need nothing which the file itself does not show."""

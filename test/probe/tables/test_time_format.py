@@ -80,7 +80,7 @@ def test_what_a_word_may_be():
 def test_ten_digits_of_a_date_and_days_with_several_rows_are_refused():
     assert '%Y%m%d%H' in second_reading(['2013061000', '2013061001'])
     assert not second_reading(['2013061000', '1370822400'])
-    assert 'date + clock' in without_clock(['2013-06-10'] * 2, [0.0, 0.0])
+    assert 'date + clock' in without_clock(['2013-06-10'] * 2, [86400.0, 86400.0])
     assert not without_clock(['2013-06-10', '2013-06-11'], [0.0, 86400.0])
     assert not without_clock(['2013-06-10 00:00'] * 2, [0.0, 0.0])
 

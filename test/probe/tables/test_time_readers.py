@@ -95,6 +95,11 @@ def test_no_number_but_seconds_is_taken_unasked(word):
         assert not in_range(instant)
 
 
+def test_days_of_a_spreadsheet_tell_no_zone_whatever_their_digits():
+    for word in ('41435.5', '41435.12345678'):
+        assert not FORMATS['excel'](word).zoned
+
+
 def test_patterns():
     assert of_pattern('%d.%m.%Y %H:%M')('10.06.2013 24:00').seconds == DAWN + 86400.0
     assert of_pattern('%Y-%m-%d %H:%M %z')('2013-06-10 02:00 +0200') == Instant(DAWN, zoned=True)
