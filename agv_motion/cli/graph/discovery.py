@@ -9,6 +9,7 @@ a node. So an answer need not wait for a time in which surely all must have come
 
 from __future__ import annotations
 
+import os
 import time
 from collections import Counter
 from typing import TYPE_CHECKING, Any
@@ -38,8 +39,10 @@ DOUBTFUL = 4.0
 """[s] or than this where all have been heard and something does not go together,"""
 
 ALONE = 1.5
-"""[s] or than this where nobody was heard: those of other machines are told five times in half a
-second that somebody has come, and answer each time."""
+"""[s] or than this where nobody was heard, who may be on another machine."""
+
+CALLS = 0.1, 0.3, 0.9, 2.7
+"""[s] How long after the start all are called who may not have been heard"""
 
 LOOK, EXAMINE = 0.01, 0.04
 """[s] between two looks whether it is enough, and between two at all ends: those cost 5 to 20 ms"""
@@ -52,12 +55,15 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
     """Spin ``node`` for ``spin_time`` [s] and on until all are heard; or until ``until()``.
 
     Where all who can be heard are on this machine they are counted, and `DISCOVERY` is not
-    waited for.
+    waited for. Who is missing is called.
     """
     import rclpy
 
     start = changed = due = time.monotonic()
-    if spin_time <= DISCOVERY and are_all_on_this_machine(node.context.get_domain_id()):
+    calls = list(CALLS)
+    domain = node.context.get_domain_id()
+    counted = are_all_on_this_machine(domain)
+    if spin_time <= DISCOVERY and counted:
         spin_time = 0.0
     known: Ends | None = None
     while not until():
@@ -70,7 +76,33 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
             known, changed = found, now
         if now - start >= spin_time and _is_enough(node, found, now - changed, now - start):
             return
+        if calls and now - start >= calls[0] and (missing(node, found) or not counted):
+            call(domain)
+            del calls[0]
         due = time.monotonic() + EXAMINE
+
+
+def call(domain: int) -> None:
+    """Let all participants of a domain tell of themselves once more: somebody comes, and goes.
+
+    A participant of Fast DDS announces itself before it listens. An answer that is quicker than
+    that is lost, and the others think that they have answered: they speak again in up to three
+    seconds. But each answers whoever is new, and so that all on its machine can hear it.
+    """
+    import rclpy
+    from rclpy.parameter import Parameter
+    from rclpy.signals import SignalHandlerOptions
+
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+    rclpy.create_node(
+        f'_agv_call_{os.getpid()}',
+        context=context,
+        enable_rosout=False,
+        start_parameter_services=False,
+        parameter_overrides=[Parameter('start_type_description_service', value=False)],
+    ).destroy_node()
+    context.shutdown()
 
 
 def _is_enough(node: Any, ends: Ends, calm: float, listened: float) -> bool:

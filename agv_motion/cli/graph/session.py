@@ -56,7 +56,10 @@ def joined(
     node = rclpy.create_node(
         name or f'_agv_{os.getpid()}',
         start_parameter_services=False,
-        parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
+        parameter_overrides=[
+            Parameter('use_sim_time', value=use_sim_time),
+            Parameter('start_type_description_service', value=False),  # whose messages want numpy
+        ],
     )
     try:
         if spin_time > 0.0:

@@ -77,8 +77,12 @@ def settled_after(monkeypatch):
         monkeypatch.setattr(discovery, 'missing', lambda *_: missing(now))
         monkeypatch.setattr(discovery, 'are_all_on_this_machine', lambda _: counted)
         monkeypatch.setattr(discovery, 'is_alone', lambda _: nobody)
+        monkeypatch.setattr(discovery, 'call', lambda _: calls.append(now))
+        calls.clear()
         discovery.settle(MagicMock(), spin_time)
         return now
+
+    calls = run.calls = []
 
     rclpy = pytest.importorskip('rclpy')
     monkeypatch.setattr(rclpy, 'spin_once', spin_once)
@@ -130,6 +134,19 @@ def test_where_all_are_counted_is_listened_until_all_were_heard(
 ):
     found = settled_after(ends, missing, counted=True)
     assert seconds <= found <= seconds + 2.0 * discovery.EXAMINE + discovery.LOOK
+
+
+def test_who_was_not_heard_is_called_until_all_are_there(settled_after):
+    settled_after(lambda _: ALL, lambda _: 0, counted=True)
+    assert settled_after.calls == []
+    settled_after(lambda _: ALL, lambda now: now < 0.5, counted=True)
+    assert settled_after.calls == pytest.approx([0.1, 0.3], abs=0.06)
+    settled_after(lambda _: ALL, lambda _: 1, counted=True)
+    assert len(settled_after.calls) == len(discovery.CALLS)
+    settled_after(
+        lambda _: ALL, lambda _: 0
+    )  # others may be where this machine's ports tell nothing
+    assert settled_after.calls == pytest.approx([0.1, 0.3], abs=0.06)
 
 
 def test_a_number_that_is_left_out_is_a_gap():
