@@ -230,7 +230,10 @@ def test_15_motors(graph, tmp_path):
         )
         assert list(states[-1].name) == names
         graph.spin_until(lambda: not any(states[-1].velocity))
-        assert list(states[-1].position) == list(command.position)  # the turrets stay
+        assert list(states[-1].position[:3]) == list(command.position[:3])  # the turrets stay
+        slow, middle, fast = states[-1].position[3:]  # and the wheels have rolled
+        assert slow > 0.0
+        assert (middle, fast) == pytest.approx((2.0 * slow, 3.0 * slow))
     finally:
         motors.terminate()
         motors.wait()

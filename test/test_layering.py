@@ -20,8 +20,8 @@ LAYERS = {
     'files': 1, 'arbitration': 2,
     'kinematics': 2, 'probe': 2, 'odometry': 3, 'trajectory': 3, 'route': 3, 'motion': 3,
     'model': 3, 'sequence': 4, 'simulation': 4, 'explanation': 4,
-    'bag': 4, 'dashboard': 5, 'ros': 5, 'nodes': 6, 'report': 6, 'client': 6,
-    'reprocess': 7, 'demo': 7, 'cli': 8,
+    'bag': 4, 'dashboard': 5, 'ros': 5, 'report': 6, 'client': 6, 'nodes': 7,
+    'reprocess': 8, 'demo': 8, 'cli': 9,
 }  # fmt: skip
 """A module imports from its own folder or from a lower number."""
 

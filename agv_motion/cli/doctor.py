@@ -38,6 +38,7 @@ MODULES = (
     ('serial', 'pyserial', True, 'pip install pyserial (probes on a serial line)'),
     ('matplotlib', 'matplotlib', False, 'pip install "agv_motion[plot]" (figures)'),
     ('tf2_msgs', 'tf2_msgs', False, 'comes with a ROS installation (/tf)'),
+    ('nav2_msgs', 'nav2_msgs', False, "comes with a ROS installation (Nav2's actions)"),
     ('ros2cli', 'ros2cli', False, 'comes with a ROS installation; agv topic stands in for it'),
 )
 EXTRAS = {

@@ -6,14 +6,14 @@ import time
 from math import nan
 from typing import TYPE_CHECKING, Any
 
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.client.drivers import DRIVERS, SEQUENCE, TREE, Driver
 from agv_motion.client.order import Order, Patience, SequenceOrder, TreeGoal, TreeOrder
-from agv_motion.client.task import Feedback, Outcome, Result
+from agv_motion.client.task import Fault, Feedback, Outcome, Result
 from agv_motion.client.view import RobotView
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.planar import Pose
@@ -112,7 +112,7 @@ class Dispatch:
         """
         self._publish(Order(driver, self.view, self._patience, time.monotonic()), topic, message)
 
-    def send_tree(self, x: float, y: float, heading: float | None) -> None:
+    def send_tree(self, x: float, y: float, heading: float | None, frame: str) -> None:
         """Send a tree somewhere, and let it walk, if it was paused.
 
         Raises:
@@ -121,6 +121,9 @@ class Dispatch:
         """
         if heading is not None:
             msg = f'heading = {heading:g}: a tree turns as its sap flows; give x and y only'
+            raise ConfigurationError(msg)
+        if frame.lstrip('/') not in {'', 'map'}:
+            msg = f"frame '{frame}': a tree walks in 'map'"
             raise ConfigurationError(msg)
         request = GetParameters.Request(names=['rest.arrival'])
         (arrival,) = self.ask('motion_generator/get_parameters', request).values
@@ -156,6 +159,24 @@ class Dispatch:
                 self._order = order
         finally:
             self._candidate = None
+
+    def set_pose(self, pose: Pose) -> None:
+        """Tell the localization where the robot is, and wait until it says so, too.
+
+        Raises:
+            SourceError: There is none, or it does not.
+
+        """
+        message = PoseWithCovarianceStamped()
+        message.header.frame_id = 'map'
+        fill_pose(message.pose.pose, pose)
+        self._link.publish('initialpose', message, self._patience.answer)
+        for _ in range(2):  # who drives has heard the first when the second has come
+            told = self.view.poses_told
+            if not self._link.wait(lambda told=told: self.view.poses_told > told,  # type: ignore[misc]
+                                   self._patience.answer):  # fmt: skip
+                msg = f'localization tells no pose within {self._patience.answer:g} s: look at it'
+                raise SourceError(msg)
 
     def _publish(self, order: Order, topic: str, message: Any) -> None:
         self._require_free()
@@ -207,6 +228,11 @@ class Dispatch:
         with self._link.news:
             return NOTHING if self._order is None else self._order.task.result
 
+    def fault(self) -> Fault:
+        """Return what has failed the last order."""
+        with self._link.news:
+            return Fault.NONE if self._order is None else self._order.task.fault
+
     def feedback(self) -> Feedback:
         """Return how far the robot is."""
         with self._link.news:
@@ -242,7 +268,7 @@ class Dispatch:
         if order is None or order.task.ended:
             return
         with self._link.news:
-            order.task.end(Outcome.FAILED, reason)
+            order.task.end(Outcome.FAILED, reason, Fault.STOPPED)
         self._take_back(order)
 
     def wait_for_release(self) -> bool:

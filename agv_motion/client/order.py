@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.client.drivers import TREE
 from agv_motion.client.progress import RemainingPath, StandWatch
-from agv_motion.client.task import Outcome, Task
+from agv_motion.client.task import Fault, Outcome, Task
 from agv_motion.ros.messages import points_of
 
 if TYPE_CHECKING:
@@ -79,14 +79,18 @@ class Order:
             return
         node, since = self.driver.node, now - self._begun
         if view.stop:
-            task.end(Outcome.FAILED, f'STOP: {view.stop}; call release(), and order it again')
+            task.end(Outcome.FAILED, f'STOP: {view.stop}; call release(), and order it again',
+                     Fault.STOPPED)  # fmt: skip
         elif min(view.silence(node, now), since) > patience.silence:
-            task.end(Outcome.FAILED, f'{node} is silent for {patience.silence:g} s: look at it')
+            task.end(Outcome.FAILED, f'{node} is silent for {patience.silence:g} s: look at it',
+                     Fault.SILENT)  # fmt: skip
         elif min(view.odometry_silence(now), since) > patience.silence:
-            task.end(Outcome.FAILED, f'no odom for {patience.silence:g} s: look at the wheels')
+            task.end(Outcome.FAILED, f'no odom for {patience.silence:g} s: look at the wheels',
+                     Fault.SILENT)  # fmt: skip
         elif self._stand.seconds(now) > patience.standing:
             reason = view.why(now) or view.state(self.driver)
-            task.end(Outcome.FAILED, f'stands for {patience.standing:g} s: {reason}')
+            task.end(Outcome.FAILED, f'stands for {patience.standing:g} s: {reason}',
+                     Fault.STANDS)  # fmt: skip
 
     def stands(self, now: float) -> bool:
         """Return whether the robot has stood for a second."""

@@ -3,33 +3,28 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from pathlib import Path as File
 from typing import TYPE_CHECKING
 
-from geometry_msgs.msg import PoseStamped, TwistStamped, Vector3Stamped
-from nav_msgs.msg import Path
+from geometry_msgs.msg import TwistStamped
 from std_srvs.srv import SetBool
 
 from agv_motion.client.dispatch import Dispatch, require
-from agv_motion.client.drivers import GHOST, ROUTE, STOPS, TREE
+from agv_motion.client.drivers import STOPS, TREE
 from agv_motion.client.link import ScriptLink
 from agv_motion.client.order import Patience
+from agv_motion.client.orders import Orders
 from agv_motion.client.task import Feedback, Outcome, Result
-from agv_motion.errors import AgvMotionError, ConfigurationError, SourceError
-from agv_motion.planar import Pose, require_finite
-from agv_motion.ros.messages import fill_path, fill_pose
-from agv_motion.route.route import Route
-from agv_motion.route.route_file import load_route
+from agv_motion.errors import AgvMotionError, SourceError
+from agv_motion.planar import require_finite
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from typing_extensions import Self
 
-MOST_LAPS = 1000
+    from agv_motion.client.task import Fault
+    from agv_motion.planar import Pose, Twist
 
 
-class Robot:
+class Robot(Orders):
     """One robot on the graph. Metres, radians, seconds; the frame in which its nodes drive.
 
     An order (`go_to`, `follow_route`, `drive_arc`, `spin`, `perform`) returns when the robot has
@@ -60,108 +55,12 @@ class Robot:
         self._link = link = ScriptLink(namespace, domain)
         link.speak(TwistStamped, 'cmd_vel/stop')
         link.know(SetBool, STOPS)
-        self._dispatch = Dispatch(link, Patience(patience, silent_after, stands_for))
+        super().__init__(Dispatch(link, Patience(patience, silent_after, stands_for)))
         try:
             self._dispatch.find()
         except BaseException:
             link.close()
             raise
-
-    # Orders
-
-    def go_to(self, x: float, y: float, heading: float | None = None) -> None:
-        """Go to a place.
-
-        Args:
-            x: [m]
-            y: [m]
-            heading: Where to look there [rad]; None: as it arrives. A tree turns as its sap flows,
-                and takes none.
-
-        Raises:
-            AgvMotionError: The robot has not taken it; the message says why.
-
-        """
-        # a message takes a whole number, and sends another one
-        x, y = float(x), float(y)
-        heading = None if heading is None else float(heading)
-        require_finite('go_to (x, y, heading)', (x, y, heading or 0.0))
-        driver = self._dispatch.first(GHOST, TREE)
-        if driver is TREE:
-            self._dispatch.send_tree(x, y, heading)
-            return
-        if heading is not None:
-            goal = PoseStamped()
-            fill_pose(goal.pose, Pose(x, y, heading))
-            self._dispatch.send(driver, 'goal_pose', goal)
-        else:  # twice the same place: the node finds the heading by where it is
-            path = Path()
-            fill_path(path, [Pose(x, y, 0.0)] * 2)
-            self._dispatch.send(driver, 'path', path)
-
-    def follow_route(
-        self, route: Sequence[tuple[float, float]] | str | File, *, laps: int = 1
-    ) -> None:
-        """Follow waypoints, cutting corners smoothly.
-
-        Args:
-            route: Two or more places (x, y) [m], or a file of them (CSV or YAML) on this machine.
-            laps: How often to go round.
-
-        Raises:
-            AgvMotionError: It is no route, or the robot has not taken it.
-
-        """
-        if not 1 <= laps <= MOST_LAPS:
-            msg = f'laps = {laps}: give 1 to {MOST_LAPS}'
-            raise ConfigurationError(msg)
-        given = load_route(route, laps) if isinstance(route, (str, File)) else Route(route, laps)
-        if given.laps < 1:
-            msg = f'{route}: laps = 0 never ends: give 1 or more'
-            raise ConfigurationError(msg)
-        path = Path()
-        fill_path(path, [Pose(float(x), float(y), 0.0) for x, y in given.waypoints * given.laps])
-        self._dispatch.send(self._dispatch.first(ROUTE), 'route', path)
-
-    def drive_arc(self, angle: float, diameter: float, speed: float = 0.3) -> None:
-        """Drive along a circle.
-
-        Args:
-            angle: Of the arc [rad]; above 0 its centre is on the left.
-            diameter: Of the inner wheel's circle [m]; 0: pivot on that wheel.
-            speed: Of the outer wheel [m/s]; below 0: backwards.
-
-        Raises:
-            AgvMotionError: The robot has not taken it; the message says why.
-
-        """
-        self._dispatch.send(self._dispatch.first(GHOST), 'arc', _vector(angle, diameter, speed))
-
-    def spin(self, angle: float, turn_rate: float = 0.5, ramps: float = 1.0) -> None:
-        """Turn on the spot.
-
-        Args:
-            angle: How far, of any size [rad]; above 0 to the left.
-            turn_rate: How fast [rad/s].
-            ramps: How fast that changes [rad/s2].
-
-        Raises:
-            AgvMotionError: The robot has not taken it; the message says why.
-
-        """
-        self._dispatch.send(self._dispatch.first(GHOST), 'turn', _vector(angle, ramps, turn_rate))
-
-    def perform(self, file: str) -> None:
-        """Perform a sequence of actions.
-
-        Args:
-            file: Of the actions, on the machine of the robot.
-
-        Raises:
-            AgvMotionError: The robot has not taken it; the message says why.
-
-        """
-        self._dispatch.send_sequence(file)
 
     # How it goes
 
@@ -172,6 +71,22 @@ class Robot:
     def result(self) -> Result:
         """Return how the order ended, with the reason; `Outcome.RUNNING` as long as it has not."""
         return self._dispatch.result()
+
+    @property
+    def fault(self) -> Fault:
+        """What has failed the order, for programs."""
+        return self._dispatch.fault()
+
+    def pose(self, frame: str = '') -> Pose | None:
+        """Return where the robot is in a frame, by its wheels if none is named; None: unknown."""
+        view = self._dispatch.view
+        with self._link.news:
+            return view.pose_in(frame) if frame else view.odometry
+
+    def twist(self) -> Twist | None:
+        """Return how fast its wheels carry it; None as long as they have not told."""
+        with self._link.news:
+            return self._dispatch.view.twist
 
     def feedback(self) -> Feedback:
         """Return what the robot does, how far it has to go, and why it stands, if it does."""
@@ -265,10 +180,3 @@ class Robot:
     def __exit__(self, *_: object) -> None:
         """Close it."""
         self.close()
-
-
-def _vector(x: float, y: float, z: float) -> Vector3Stamped:
-    require_finite('the numbers of an order', (x, y, z))
-    message = Vector3Stamped()
-    message.vector.x, message.vector.y, message.vector.z = float(x), float(y), float(z)
-    return message

@@ -21,6 +21,16 @@ class Outcome(Enum):
     CANCELLED = 'cancelled'
 
 
+class Fault(Enum):
+    """What has failed an order, for programs."""
+
+    NONE = 'none'
+    NODE = 'the node that drives says that it failed'
+    STOPPED = 'STOP'
+    SILENT = 'the robot is silent'
+    STANDS = 'the robot stands'
+
+
 class Result(NamedTuple):
     """How an order ended, or that it has not."""
 
@@ -61,6 +71,8 @@ class Task:
         self.accepted = False
         """Whether the node has taken it"""
         self.result = Result(Outcome.RUNNING, 'sent')
+        self.fault = Fault.NONE
+        """What has failed it"""
 
     @property
     def ended(self) -> bool:
@@ -90,7 +102,8 @@ class Task:
         if self.accepted and self._early and now - self._sent > LOST_ORDER:
             self.tell(self._early)
 
-    def end(self, outcome: Outcome, reason: str) -> None:
-        """Be over, unless it is already."""
+    def end(self, outcome: Outcome, reason: str, fault: Fault = Fault.NODE) -> None:
+        """Be over, unless it is already; ``fault`` counts where it has failed."""
         if not self.ended:
             self.result = Result(outcome, reason)
+            self.fault = fault if outcome is Outcome.FAILED else Fault.NONE

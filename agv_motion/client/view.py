@@ -14,6 +14,7 @@ from std_msgs.msg import String
 
 from agv_motion.client.drivers import DRIVERS, Driver
 from agv_motion.errors import AgvMotionError
+from agv_motion.planar import Twist
 from agv_motion.ros.messages import pose_of
 from agv_motion.ros.qos import LATCHED, SENSOR
 
@@ -42,6 +43,8 @@ class RobotView:
         """
         self._heard: dict[str, Heard] = {}
         self._nodes: dict[str, Heard] = {}
+        self.poses_told = 0
+        """Messages of its localization so far"""
         self._news, self._prefix = news, f'{link.node.get_namespace().rstrip("/")}/'
         for kind, topic, qos in (
             (Odometry, 'odom', SENSOR),
@@ -75,6 +78,15 @@ class RobotView:
     def odometry(self) -> Pose | None:
         """Where the wheels have carried the robot; None as long as they have not told."""
         return self._pose('odom')
+
+    @property
+    def twist(self) -> Twist | None:
+        """How fast the wheels carry it; None as long as they have not told."""
+        heard = self._heard.get('odom')
+        if heard is None:
+            return None
+        linear, angular = heard.message.twist.twist.linear, heard.message.twist.twist.angular
+        return Twist(linear.x, linear.y, angular.z)
 
     def pose_in(self, frame: str) -> Pose | None:
         """Return where the robot is in a frame, as the newest that tells it says."""
@@ -130,6 +142,7 @@ class RobotView:
 
     def _take(self, topic: str, heard: Heard) -> None:
         self._heard[topic] = heard
+        self.poses_told += topic == 'pose'
         self._news(topic, heard)
 
     def _take_report(self, heard: Heard) -> None:

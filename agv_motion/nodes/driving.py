@@ -228,6 +228,8 @@ class DrivingNode(PlainNode[P]):
         pose = self.pose_now()
         if pose is None:
             msg = f'{self.lost}: where the robot is must be known before it can go anywhere'
+            if not self.parameters.drives_by_odom:
+                msg += ': tell its localization (topic initialpose), or let it move'
             raise SignalError(msg)
         return pose
 

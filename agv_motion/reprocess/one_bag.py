@@ -20,6 +20,8 @@ from agv_motion.ros.config import find_config
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.in_process_port import full_name
+from agv_motion.ros.messages import type_name
+from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -143,16 +145,19 @@ def _played(
         for name in wiring.nodes_for(plan.nodes, bag.topics, plan.namespace):
             names = wiring.names_for(name, bag.topics, plan.namespace, plan.names())
             InProcessNode(graph, node_class(name), given[name], names, plan.namespace)
+        drawn = Drawn(transcript, graph, bag, plan.namespace)
         graph.start()
         inputs, heard = graph.inputs(), 0
-        wanted = sorted((inputs | clock.topics) & set(bag.topics))
-        for count, now in _feed(graph, bag.messages(wanted), clock):
+        drawn.own = (inputs | clock.topics) & set(bag.topics)
+        for count, now in _feed(
+            graph, bag.messages(sorted(drawn.own | drawn.topics)), clock, drawn
+        ):
             heard += count
             if tell is not None:
                 tell((now - bag.start) / max(bag.end - bag.start, 1))
         graph.run(clock.end())
         graph.stop()
-        transcript.flush()
+        transcript.end(clock.end())
     missing = tuple(sorted(inputs - set(bag.topics)))
     span = (clock.end() - clock.start) * 1e-9
     counts = heard, transcript.messages
@@ -171,18 +176,54 @@ def _contents(given: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, bytes]]
     return found
 
 
+class Drawn:
+    """What transforms follow from of the recording, beside what the nodes hear."""
+
+    def __init__(
+        self, transcript: Transcript, graph: InProcessGraph, bag: BagReader, namespace: str
+    ) -> None:
+        """Let the transcript make transforms of one robot, unless its nodes publish them."""
+        self.own: set[str] = set()
+        """topics that the nodes hear"""
+        self.topics: set[str] = set()
+        self._transcript = transcript
+        if not PUBLISHED:
+            own = namespace.rstrip('/')
+            self.topics = transcript.make_transforms(
+                {topic: type_name(ends[0].kind) for topic, ends in graph.publishers.items()},
+                {topic: c.type for topic, c in bag.topics.items()
+                 if topic.rpartition('/')[0] == own},
+            )  # fmt: skip
+
+    def heard(self, messages: list[Message], times: list[int]) -> list[tuple[Message, int]]:
+        """Return those that the nodes hear, with their times [ns]; show the others."""
+        if not self.topics:
+            return list(zip(messages, times, strict=True))
+        found = []
+        for message, now in zip(messages, times, strict=True):
+            topic = message.connection.topic
+            if topic in self.topics:
+                self._transcript.hear(topic, now, message.data)
+            if topic in self.own:
+                found.append((message, now))
+        return found
+
+
 def _feed(
-    graph: InProcessGraph, messages: Iterator[Message], clock: BagClock
+    graph: InProcessGraph, messages: Iterator[Message], clock: BagClock, drawn: Drawn
 ) -> Iterator[tuple[int, int]]:
     """Let messages be heard, many shown beforehand; yield how many, and the log time [ns]."""
     feed = graph.feed
-    while together := list(islice(messages, TOGETHER)):
-        times = [clock.time_of(message) for message in together]
+    while found := list(islice(messages, TOGETHER)):
+        last = found[-1].stamp
+        times = [clock.time_of(message) for message in found]
+        together = drawn.heard(found, times)
         topics: dict[str, list[int]] = {}
-        for i, message in enumerate(together):
+        for i, (message, _) in enumerate(together):
             topics.setdefault(message.connection.topic, []).append(i)
         for topic, places in topics.items():
-            graph.look_ahead(topic, [together[i].data for i in places], [times[i] for i in places])
-        for message, now in zip(together, times, strict=True):
+            shown = [together[i] for i in places]
+            graph.look_ahead(topic, [m.data for m, _ in shown], [now for _, now in shown])
+        for message, now in together:
             feed(message.connection.topic, now, message.data)
-        yield len(together), together[-1].stamp
+        yield len(together), last

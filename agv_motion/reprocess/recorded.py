@@ -15,7 +15,7 @@ from agv_motion.ros.plain_node import PlainNode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-LIVE_ONLY = {'bag_player', 'bag_recorder'}
+LIVE_ONLY = {'bag_player', 'bag_recorder', 'nav2_actions'}
 """nodes that are nothing without a graph"""
 
 MODULES = {'granier_probe': 'agv_motion.reprocess.recorded_probe'}

@@ -21,6 +21,8 @@ class Sender(Protocol):
     """What sends on a topic."""
 
     topic: str
+    kind: Any
+    """class of its messages"""
     port: Any
     """of its node"""
 

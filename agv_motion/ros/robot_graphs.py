@@ -52,6 +52,7 @@ def _arguments(robot: str, simulated: str, *own: tuple[str, str, str]) -> tuple[
              'follow: another simulator tells the time, as of several robots all but one'),
             ('state', f'{home}/.local/state/agv_motion',
              'folder in which STOP and locks are kept over a restart'),
+            ('nav2', 'false', "whether to offer Nav2's actions; needs nav2_msgs"),
             ('respawn', 'false', 'start a node again 2 s after it ended by itself'),
         )
     )  # fmt: skip
@@ -70,7 +71,26 @@ def _simulator(name: str) -> GraphNode:
     return GraphNode(name, values, condition='simulate')
 
 
+NAV2 = GraphNode('nav2_actions', (SIM_TIME,), condition='nav2')
 ARBITER = _node('arbiter', ('state_file', '{state}/{namespace}/arbiter.json', str))
+
+GIVEN = (
+    ('route', '', 'file of a route to follow at once; empty: one may come on the topic route'),
+    ('sequence', '', 'file of a sequence of actions, for the service sequence/start'),
+)
+"""Arguments of the nodes below."""
+
+
+def _drivers(**remapped: str) -> tuple[GraphNode, ...]:
+    """Return what drives a robot to a goal, along a route and through a sequence, when asked."""
+    return (
+        _node('ghost_trajectory', cmd_vel='cmd_vel/page', **remapped),
+        _node(
+            'route_follower', ('route_file', '{route}', str), cmd_vel='cmd_vel/route', **remapped
+        ),
+        _node('sequence', ('file', '{sequence}', str), cmd_vel='cmd_vel/sequence', **remapped),
+    )
+
 
 ROBOTS = {
     'tree': RobotGraph(
@@ -89,18 +109,21 @@ ROBOTS = {
             _node('scene'),
             _node('wheel_kinematics'),
             _node('localization'),
+            NAV2,
             _simulator('simulator'),
         ),
     ),
     'omni': RobotGraph(
-        _arguments('omni', 'the robot, its encoders, gyroscope and UWB'),
+        _arguments('omni', 'the robot, its encoders, gyroscope and UWB', *GIVEN),
         (
             ARBITER,
             _node('why'),
             _node('robot_model'),
-            _node('scene'),
+            _node('scene', path='ghost/path', state='ghost/state'),
+            *_drivers(),
             _node('omni_kinematics'),
             _node('localization'),
+            NAV2,
             _simulator('omni_simulator'),
         ),
     ),
@@ -109,9 +132,7 @@ ROBOTS = {
             'differential',
             'the robot, its encoders and a camera over it',
             ('pose', 'fix', 'topic that tells where the robot is: fix, or pose of a localization'),
-            ('route', '', ('file of a route to follow at once; empty: one may come on the topic '
-             'route')),
-            ('sequence', '', 'file of a sequence of actions, for the service sequence/start'),
+            *GIVEN,
         ),
         (
             _node('differential_kinematics'),
@@ -119,13 +140,10 @@ ROBOTS = {
             _node('why'),
             _node('robot_model', pose='{pose}'),
             _node('scene', pose='{pose}', path='sequence/path', state='sequence/state'),
-            _node('ghost_trajectory', pose='{pose}', cmd_vel='cmd_vel/page'),
-            _node('route_follower', ('route_file', '{route}', str), pose='{pose}',
-                  cmd_vel='cmd_vel/route'),
-            _node('sequence', ('file', '{sequence}', str), pose='{pose}',
-                  cmd_vel='cmd_vel/sequence'),
+            *_drivers(pose='{pose}'),
+            NAV2,
             _simulator('differential_simulator'),
         ),
     ),
 }  # fmt: skip
-"""By the name of the launch file; drivers of the differential robot are silent until asked."""
+"""By the name of the launch file; what drives to goals is silent until asked."""

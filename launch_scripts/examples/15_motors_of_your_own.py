@@ -7,9 +7,10 @@ import rclpy
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
 
-TIMEOUT, NONE = 0.5, [0.0] * 3  # [s], for three turrets
+TIMEOUT, PERIOD, NONE = 0.5, 0.05, [0.0] * 3  # [s], [s], for three turrets
 angles = {f'turret_{i}_steering': 0.0 for i in range(3)}  # [rad]
 rates = {f'turret_{i}_wheel': 0.0 for i in range(3)}  # [rad/s]
+turned = dict.fromkeys(rates, 0.0)  # [rad] by each wheel since the start
 heard = [monotonic()]
 
 
@@ -25,7 +26,8 @@ def tell():
     """Stop where nobody commands, and tell what the encoders read."""
     if monotonic() - heard[0] > TIMEOUT:
         rates.update(dict.fromkeys(rates, 0.0))  # here
-    state = JointState(name=[*angles, *rates], position=[*angles.values(), *NONE])  # here
+    turned.update({n: turned[n] + PERIOD * rate for n, rate in rates.items()})  # here
+    state = JointState(name=[*angles, *rates], position=[*angles.values(), *turned.values()])
     state.velocity = [*NONE, *rates.values()]
     state.header.stamp = node.get_clock().now().to_msg()
     publisher.publish(state)
@@ -35,5 +37,5 @@ rclpy.init()
 node = rclpy.create_node('motors')
 publisher = node.create_publisher(JointState, 'turrets/state', qos_profile_sensor_data)
 node.create_subscription(JointState, 'turrets/command', on_command, 1)
-node.create_timer(0.05, tell)
+node.create_timer(PERIOD, tell)
 rclpy.spin(node)

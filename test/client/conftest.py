@@ -19,6 +19,7 @@ PATIENT = {
     'route_follower': ('report_after', 'stop_after', 'max_age'),
     'sequence': ('report_after', 'stop_after', 'max_age'),
     'differential_kinematics': ('report_after', 'stop_after', 'max_age'),
+    'omni_kinematics': ('report_after', 'stop_after', 'max_age'),
 }
 """Limits of inputs that are wide here [s]: the machine may be busy with something else"""
 WIDE = 20.0
@@ -37,7 +38,7 @@ def _spun(robot, factor, *, without=(), **changes):
     rclpy.init(args=[], context=context)
     ended, nodes = threading.Event(), {}
     for one in ROBOTS[robot].nodes:
-        if one.name in without:
+        if one.name in without or one.condition == 'nav2':
             continue
         kind, common = node_class(one.name), {}
         if one.name.endswith('simulator'):

@@ -49,7 +49,8 @@ def test_what_was_decided_is_decided_again(recorded, tmp_path):
     assert not outcome.failure
     with BagReader(recorded / 'a') as before, BagReader(tmp_path / 'out') as after:
         after.require(['/cmd_vel', '/turrets/command', '/odom', '/granier/sap_flow'])
-        for topic in diff(before, after, sorted(after.topics), Tolerance()):
+        made = sorted(after.topics.keys() - {'/tf'})  # which the simulation did not record
+        for topic in diff(before, after, made, Tolerance()):
             assert topic.same, topic
         assert any(
             m.data != next(after.messages(['/cmd_vel'])).data for m in after.messages(['/cmd_vel'])
@@ -159,7 +160,8 @@ def test_a_robot_with_a_namespace_is_the_same_robot(recorded, copied, tmp_path):
     assert not reprocess(recorded / 'c', tmp_path / 'one', only).failure
     assert not reprocess(tmp_path / 'oak', tmp_path / 'two', there).failure
     with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
-        assert set(two.topics) == {f'/oak{topic}' for topic in one.topics}
+        assert set(two.topics) == {f'/oak{topic}' if topic != '/tf' else topic
+                                   for topic in one.topics}  # fmt: skip
         assert one.counts['/turrets/command'] > 0
         for a, b in zip(
             one.messages(['/turrets/command']), two.messages(['/oak/turrets/command']), strict=True
@@ -203,3 +205,68 @@ def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(
         assert live.counts['/pose'] > 100
         for found in diff(live, again, ['/odom', '/pose'], Tolerance()):
             assert found.same, found
+
+
+def test_transforms_follow_from_what_is_made_anew(recorded, tmp_path):
+    """From all that is reprocessed; a parent and a child of each, and none twice."""
+    from agv_motion.ros.transforms import PUBLISHED
+
+    if PUBLISHED:
+        pytest.skip('tf2_msgs is installed: nodes publish them')
+    plan = PLAN._replace(nodes=(*PLAN.nodes, 'localization', 'robot_model'), remap=())
+    outcome = reprocess(recorded / 'a', tmp_path / 'out', plan)
+    assert not outcome.failure
+    with BagReader(tmp_path / 'out') as after:
+        assert outcome.messages_out == after.message_count
+        assert after.topics['/tf'].type == 'tf2_msgs/msg/TFMessage'
+        turrets = {('base_link', f'turret_{i}') for i in range(3)}
+        wheels = {(f'turret_{i}', f'wheel_{i}') for i in range(3)}
+        whole = {('map', 'odom'), ('odom', 'base_link')} | turrets | wheels
+        told = pairs(after, '/tf') | pairs(after, '/tf_static')
+        assert whole <= told
+        assert len({child for _, child in told}) == len(told)  # each has one parent
+        stamps = [m.stamp for m in after.messages(['/tf', '/odom'])]
+        assert stamps == sorted(stamps)
+        odom = [m.stamp for m in after.messages(['/odom'])]
+        assert {m.stamp for m in after.messages(['/tf'])} >= set(odom)
+
+
+def pairs(bag, topic):
+    """Return parent and child of each transform of a topic, by another library."""
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    return {
+        (one.header.frame_id, one.child_frame_id)
+        for m in bag.messages([topic])
+        for one in store.deserialize_cdr(m.data, m.connection.type).transforms
+    }
+
+
+def test_transforms_follow_from_joints_and_model_that_were_recorded(recorded, tmp_path):
+    """A recording of a robot model, beside which only its odometry is made anew."""
+    from agv_motion.ros.transforms import PUBLISHED
+
+    if PUBLISHED:
+        pytest.skip('tf2_msgs is installed: nodes publish them')
+    with BagReader(recorded / 'c') as bag:
+        kinds = set(bag.topics)
+    model = PLAN._replace(nodes=('robot_model',), remap=())
+    assert not reprocess(recorded / 'c', tmp_path / 'model', model).failure
+    with BagReader(tmp_path / 'model') as told, BagReader(recorded / 'c') as bag:
+        assert '/tf' not in told.topics  # nobody told where the robot is
+        with BagWriter(tmp_path / 'both') as writer:
+            topics = {}
+            for m in sorted([*bag.messages(), *told.messages()], key=lambda m: m.stamp):
+                topic = m.connection.topic
+                if topic not in topics:
+                    topics[topic] = writer.add_topic(topic, m.connection.type)
+                writer.write(topics[topic], m.stamp, m.data)
+    only = PLAN._replace(nodes=('wheel_kinematics',), remap=())
+    outcome = reprocess(tmp_path / 'both', tmp_path / 'out', only)
+    assert not outcome.failure
+    with BagReader(tmp_path / 'out') as after:
+        assert '/joint_states' not in after.topics
+        found = pairs(after, '/tf')
+        assert {('odom', 'base_link'), ('turret_2', 'wheel_2')} <= found
+        assert (('map', 'odom') in found) == bool(kinds & {'/pose', '/fix'})

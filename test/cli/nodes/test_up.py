@@ -97,4 +97,5 @@ def test_a_robot_is_up_and_ends_with_its_wheels_at_rest(alone, tmp_path):
     assert {'omni_kinematics', 'localization'} <= names
     assert names <= {
         'arbiter', 'why', 'robot_model', 'scene', 'omni_kinematics', 'localization',
+        'ghost_trajectory', 'route_follower', 'sequence',
     }  # fmt: skip
