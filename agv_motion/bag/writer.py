@@ -162,13 +162,10 @@ class BagWriter:
             raise SignalError(msg)
         columns, first = None, 0
         while first < len(data):
-            file, few = self._file, min(first + FEW, len(data))
-            while first < few:
+            if self._file.waiting < FEW:
                 self.write(topics[first], stamps[first], data[first])
                 first += 1
-                if not file.chunk_size:
-                    break
-            if file.chunk_size and first < len(data):
+            else:
                 columns = columns or Together(topics, stamps, data)
                 first = self._fill(columns, first)
 
@@ -176,7 +173,7 @@ class BagWriter:
         """Write messages into the present chunk until it is full; return the first one left."""
         file, count = self._file, len(messages.data)
         room = self._chunk_size - file.chunk_size
-        full = int(np.searchsorted(messages.ends, messages.ends[first - 1] + room))
+        full = int(np.searchsorted(messages.ends, messages.begins[first] + room))
         full = messages.first_from(first, min(full, count), file.chunk_start + self._chunk_span)
         part = slice(first, full + 1)
         file.write_several(messages.channels[part], messages.stamps[part], messages.data[part])

@@ -25,25 +25,14 @@ class MotionCommand(NamedTuple):
 
     wanted: PolarCommand
     """before the limits"""
-    state: str
-    """what it does, in words"""
+    doing: Doing
+    """what it does, in words and for programs"""
     rules: FloorRules
     """what the floor allows, for the limits"""
     goal: Goal | None
     """what it seeks, or would if it moved"""
     path: Path
     """corners from here to where it goes; empty if it goes nowhere"""
-    activity: Activity = Activity.RESTING
-    """what it does, for programs"""
-    because: Cause = Cause.GOAL
-    """what that goes back to"""
-    waits_for: str = ''
-    """the other tree for which it waits, in words; empty if for none"""
-
-    @property
-    def doing(self) -> Doing:
-        """What it does, in words and for programs."""
-        return Doing(self.state, self.activity, self.because, self.waits_for)
 
 
 class Pilot:
@@ -108,7 +97,5 @@ def motion_command(decision: Decision, guidance: Guidance, pose: Pose) -> Motion
     else:
         least = decision.yield_speed if guidance.gives_way else 0.0
         wanted = polar_command(pose, guidance.target, max(speed, least), rotation)
-    return MotionCommand(
-        wanted, state, decision.rules, decision.goal, guidance.path, activity, because,
-        guidance.waits_for,
-    )  # fmt: skip
+    doing = Doing(state, activity, because, guidance.waits_for)
+    return MotionCommand(wanted, doing, decision.rules, decision.goal, guidance.path)

@@ -135,7 +135,8 @@ class CommandGuard:
         if twist == REST:
             self.twist = twist
             self._wheels.aim_at_rest()
-        require_frame(self._given.own(frame), self._given.base_frame)
+        if frame != self._given.base_frame:
+            require_frame(self._given.own(frame), self._given.base_frame)
         if self.command.is_new(stamp):
             self._take(twist)
 

@@ -142,9 +142,11 @@ class InputWatch(Watchdog):
 
     def tell(self) -> Silence:
         """Return how silent the input is now; log it where that has changed."""
-        port, now = self._port, self._port.steady_seconds()
-        silence, age = Silence.LOST if port.clock.fault else self.judge(now), self.age(now)
-        if (silence is FRESH and self._told is FRESH) or age is None or port.clock.fault:
+        silence = self.silence()
+        if silence is FRESH and self._told is FRESH:
+            return silence
+        age = self.age(self._port.steady_seconds())
+        if age is None or self._port.clock.fault:
             return silence
         if silence is not self._told and not self._is_restless():
             self._log(silence, age)

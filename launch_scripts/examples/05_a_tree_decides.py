@@ -28,7 +28,7 @@ for story, flow in (
     motion = pilot.update(NOON, Pose(5.0, 8.0, 0.0), flow, now=0.0)
     twist, wanted = to_twist(motion.wanted), motion.wanted
     speed = 60.0 * hypot(twist.vx, twist.vy)
-    print(f'{story}: {motion.state}')
+    print(f'{story}: {motion.doing.state}')
     print(f'  {degrees(wanted.theta):.0f} deg, {speed:.2f} m/min, omega {wanted.omega:.1f}')
     if motion.path:
         print('  path', ' '.join(f'({x:.2f}, {y:.2f})' for x, y in motion.path))

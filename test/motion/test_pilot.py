@@ -59,11 +59,11 @@ class Oak:
             )  # fmt: skip
             self.navigator.reservation(now)
             motion = self.pilot.update(now, self.pose, flow, now)
-            speeds = self.giving_way if 'gives way' in motion.state else self.going
+            speeds = self.giving_way if 'gives way' in motion.doing.state else self.going
             speeds.add(motion.wanted.v)
             assert motion.path or not motion.wanted.v
-            if motion.state not in self.activities[-1:]:
-                self.activities.append(motion.state)
+            if motion.doing.state not in self.activities[-1:]:
+                self.activities.append(motion.doing.state)
             self.pose = integrate(self.pose, to_twist(motion.wanted), 1.0)
         return self
 

@@ -25,8 +25,11 @@ class Together:
         self.data = data
         self.channels = np.array(channels, np.uint16)
         self.stamps = np.array(stamps, np.uint64)
-        self.ends = np.cumsum(np.fromiter(map(len, data), np.int64, len(data)) + MESSAGE_HEAD.size)
+        sizes = np.fromiter(map(len, data), np.int64, len(data)) + MESSAGE_HEAD.size
+        self.ends = np.cumsum(sizes)
         """[bytes] where each would end, were all in one chunk"""
+        self.begins = self.ends - sizes
+        """[bytes] where each would begin"""
 
     def first_from(self, first: int, last: int, time: float) -> int:
         """Return the first place from ``first`` on whose stamp is ``time`` or later, else ``last``.

@@ -141,7 +141,7 @@ class Memory:
         self._zone = _digest(zone)
         self._stood: tuple[float, float] | None = None
         self._here: tuple[int, int] | None = None
-        self._under = np.empty(0, np.intp)
+        self._under: tuple[Map, Mask] = self.visited_at[:0], self.walkable[:0]
 
     def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
         """Return row and column of a point [m]; None where the trunk cannot be."""
@@ -168,7 +168,8 @@ class Memory:
             self._stood, self._here, self._under = (x, y), self.cell_of(x, y), self._visited(x, y)
         if self._here is not None:
             self.flow[self._here], self.felt_at[self._here] = flow, time
-        self.visited_at.put(self._under, time)
+        window, under = self._under
+        window[under] = time
 
     def remembered(self, time: float) -> Map:
         """Return the sap flow of each cell as it is remembered at ``time`` [s]; NaN where never.
@@ -226,14 +227,12 @@ class Memory:
         self.newest = float(max(self.felt_at.max(), self.visited_at.max()))
         return same
 
-    def _visited(self, x: float, y: float) -> NDArray[np.intp]:
-        """Return the cells that the platform visits at (x, y) [m], counted row by row."""
+    def _visited(self, x: float, y: float) -> tuple[Map, Mask]:
+        """Return the part of `visited_at` about (x, y) [m], and what of it the platform visits."""
         rows, columns = self._near(y - self.south), self._near(x - self.west)
-        away = (self.y[rows, None] - y) ** 2 + (self.x[None, columns] - x) ** 2
+        away = (self.y[rows, None] - y) ** 2 + (self.x[columns] - x) ** 2
         under = (away <= self.reach**2) & self.walkable[rows, columns]
-        row, column = np.nonzero(under)
-        cells: NDArray[np.intp] = (row + rows.start) * len(self.x) + column + columns.start
-        return cells
+        return self.visited_at[rows, columns], under
 
     def _near(self, distance: float) -> slice:
         """Return the rows (or columns) within reach of a distance from the edge of the first."""

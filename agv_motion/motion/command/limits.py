@@ -238,12 +238,11 @@ class ThetaRate:
 
     def apply(self, wanted: PolarCommand, rules: FloorRules, dt: float) -> PolarCommand:  # noqa: ARG002 - not asked
         """Follow theta."""
-        if self._moving:
-            turn = wrap(wanted.theta - self._ramp.value)
+        theta = wanted.theta
+        if self._moving and theta != self._ramp.value:
+            turn = wrap(theta - self._ramp.value)
             theta = wrap(self._ramp.advance(self._ramp.value + turn, dt))
             theta = wanted.theta if abs(wrap(theta - wanted.theta)) < ROUNDING else theta
-        else:
-            theta = wanted.theta
         self._ramp.set(theta)
         self._moving = wanted.v > 0.0
         return wanted if theta == wanted.theta else PolarCommand(wanted.v, theta, wanted.omega)

@@ -10,7 +10,7 @@ Springer 2008, section 3.4 (here for a speed in the place of a position).
 
 from __future__ import annotations
 
-from math import copysign, inf, isfinite, sqrt
+from math import copysign, inf, sqrt
 
 from agv_motion.errors import SignalError
 
@@ -42,7 +42,7 @@ class Ramp:
             SignalError: ``dt`` is negative or not finite.
 
         """
-        if not (isfinite(dt) and dt >= 0.0):
+        if not 0.0 <= dt < inf:
             msg = f'time step {dt} s: must be zero or more and finite'
             raise SignalError(msg)
         if self.rate == inf:

@@ -157,7 +157,7 @@ class Zone:
 
     def edge_distance(self, x: float, y: float) -> float:
         """Return how far (x, y) lies from the nearest edge [m]."""
-        return float(shapely.distance(self._edges, shapely.points(x, y)))
+        return float(shapely.distance(self._edges, shapely.Point(x, y)))
 
     def walkable(self, x: float, y: float) -> bool:
         """Return whether the centre of the platform may be at (x, y)."""
@@ -169,7 +169,7 @@ class Zone:
             return True
         if radius == 0.0:
             return not shapely.intersects_xy(self._delicate, x, y)
-        return not shapely.dwithin(self._delicate, shapely.points(x, y), radius)
+        return not shapely.dwithin(self._delicate, shapely.Point(x, y), radius)
 
     def part_of(self, x: float, y: float) -> Polygon | None:
         """Return the walkable part in which (x, y) lies, None where it lies in none."""

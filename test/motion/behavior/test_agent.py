@@ -48,8 +48,8 @@ class Life:
     def move(self):
         flow = self.flow._replace(s3=min(max(self.pose.x / 12.0, 0.0), 1.0))
         self.motion = self.pilot.update(self.time, self.pose, flow, self.time)
-        if not self.activities or self.activities[-1] != self.motion.state:
-            self.activities.append(self.motion.state)
+        if not self.activities or self.activities[-1] != self.motion.doing.state:
+            self.activities.append(self.motion.doing.state)
         if self.motion.goal is not None and self.motion.goal not in self.goals[-1:]:
             self.goals.append(self.motion.goal)
         return self.motion
@@ -107,7 +107,7 @@ def test_every_reachable_place_is_visited_in_two_days():
 
 def test_what_it_does_is_told_with_the_reason():
     life = Life(agent(), 2.0, 2.0)
-    assert life.move().state.startswith('walking to never visited: (')
+    assert life.move().doing.state.startswith('walking to never visited: (')
     life.live(3600.0)
     assert any('walking to highest remembered sap flow 0.' in a for a in life.activities)
 
@@ -116,7 +116,7 @@ def test_nothing_is_remembered_of_its_sleep():
     life = Life(agent(), 2.0, 2.0)
     life.flow = SapFlow(0.0, 0.0, 0.0)
     life.pose = Pose(0.6, 2.0, 0.0)
-    assert life.move().state == 'resting: the sap stands'
+    assert life.move().doing.state == 'resting: the sap stands'
     assert life.motion.wanted == STILL
     assert not life.agent.memory.visited.any()
 
@@ -150,7 +150,7 @@ def test_a_goal_to_which_no_path_leads_is_given_up_for_another():
     life = Life(agent(parted), 2.0, 2.0)
     life.agent.set_goal(10.0, 7.0, 'asked for')
     stopped = life.move()
-    assert stopped.state.startswith('stopped: goal (10.00, 7.00) lies in another part')
+    assert stopped.doing.state.startswith('stopped: goal (10.00, 7.00) lies in another part')
     assert (stopped.wanted, stopped.path) == (STILL, ())
     assert life.move().goal.x < 5.0
 
@@ -212,7 +212,7 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
     seen = []
     for x in (8.9, 9.1, 8.9, 8.1, 7.9, 8.1):
         life.pose = Pose(x, 2.0, 0.0)
-        seen.append(life.move().state.split()[0])
+        seen.append(life.move().doing.state.split()[0])
     assert seen == ['turning', 'turning', 'turning', 'turning', 'walking', 'walking']
     with pytest.raises(ConfigurationError, match='one goal'):
         life.agent.next_goal()
@@ -224,20 +224,20 @@ def test_a_fixed_goal_is_kept_and_noise_there_does_not_send_it_to_and_fro():
 def test_a_fixed_goal_is_gone_to_again_after_home():
     life = Life(agent(goals=GoalParameters(), goal=(10.0, 2.0)), 2.0, 2.0)
     life.agent.go_home()
-    assert life.move().state.startswith('walking to home')
+    assert life.move().doing.state.startswith('walking to home')
     life.agent.next_goal()
-    assert life.move().state.startswith('walking to (10.0, 2.0)')
+    assert life.move().doing.state.startswith('walking to (10.0, 2.0)')
 
 
 def test_it_goes_home_when_asked_and_stays():
     life = Life(agent(), 10.0, 7.0)
     life.agent.go_home()
     life.live(3600.0)
-    assert life.motion.state == 'at home: asked to'
+    assert life.motion.doing.state == 'at home: asked to'
     assert hypot(life.pose.x - 2.0, life.pose.y - 7.0) < 0.3
     assert life.motion.wanted == STILL
     life.agent.next_goal()
-    assert life.move().state.startswith('walking')
+    assert life.move().doing.state.startswith('walking')
 
 
 def test_it_is_home_before_closing_even_if_little_sap_flows():
@@ -246,17 +246,17 @@ def test_it_is_home_before_closing_even_if_little_sap_flows():
     life = Life(agent(schedule=hours), 10.0, 8.0, NOON - 3600.0)
     life.flow = SapFlow(0.3, 0.5, 0.5)
     life.live(3 * 3600.0 - 1.0, dt=5.0)
-    assert life.motion.state == 'at home: closing at Mon 14:00'
+    assert life.motion.doing.state == 'at home: closing at Mon 14:00'
     life.live(10.0)
-    assert life.motion.state == 'resting: closed until Tue 10:00'
+    assert life.motion.doing.state == 'resting: closed until Tue 10:00'
     life.time = NOON + 22 * 3600.0
-    assert life.move().state.startswith('walking to')
+    assert life.move().doing.state.startswith('walking to')
 
 
 def test_it_rests_while_the_probes_calibrate():
     hours = ScheduleParameters(enabled=True, opens='00:00', closes='23:59')
     life = Life(agent(schedule=hours), 2.0, 2.0, NOON - 7 * 3600.0)
-    assert life.move().state == 'resting: the probes calibrate until Mon 07:00'
+    assert life.move().doing.state == 'resting: the probes calibrate until Mon 07:00'
     assert life.motion.wanted == STILL
 
 
@@ -271,25 +271,25 @@ def test_without_a_home_nobody_goes_there():
 
 def test_outside_it_refuses_and_says_where_it_is():
     life = Life(agent(), -0.5, 2.0)
-    assert 'lies outside the zone' in life.move().state
+    assert 'lies outside the zone' in life.move().doing.state
     assert life.motion.wanted == STILL
 
 
 def test_outside_it_returns_slowly_without_turning_where_that_is_wanted():
     life = Life(agent(home=HomeParameters(outside='return', return_speed=0.2)), -0.5, 2.0)
     motion = life.move()
-    assert motion.state.startswith('returning slowly to the zone: the tree lies outside')
+    assert motion.doing.state.startswith('returning slowly to the zone: the tree lies outside')
     assert (motion.wanted.omega, motion.rules.top_speed) == (0.0, 0.2)
     assert motion.path[1] == pytest.approx((0.5, 2.0))
     life.live(60.0 * 0.5 / 0.2 + 4.0)
     assert YARD.contains(*life.here)
-    assert life.move().state.startswith('walking')
+    assert life.move().doing.state.startswith('walking')
 
 
 def test_a_return_through_a_hole_is_refused():
     zone = Zone([[0, 0], [9, 0], [9, 9], [0, 9]], [[[0.2, 1], [0.4, 1], [0.4, 8], [0.2, 8]]])
     life = Life(agent(zone, home=HomeParameters(outside='return')), -0.5, 4.0)
-    assert 'no straight way leads back' in life.move().state
+    assert 'no straight way leads back' in life.move().doing.state
 
 
 def test_a_strategy_that_remembers_needs_a_zone():
