@@ -95,6 +95,48 @@ class SlowlyBlockedParameters(BlockedParameters):
     retry_after: RetryAfter = 60.0
 
 
+class PoseAverage:
+    """The pose over a while, and how much single poses differ from that."""
+
+    def __init__(self, arm: float) -> None:
+        """Know none; a turn is measured at ``arm`` [m] from the centre."""
+        self._arm = arm
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin with the next pose."""
+        self.mean: Pose | None = None
+        self.noise = 0.0
+        """Mean distance of a pose from the average [m]"""
+
+    def add(self, pose: Pose, share: float) -> None:
+        """Take up a pose; it counts for a ``share`` of the average."""
+        mean = pose if self.mean is None else self.mean
+        self.noise += share * (self.distance(mean, pose) - self.noise)
+        self.mean = Pose(
+            mean.x + share * (pose.x - mean.x),
+            mean.y + share * (pose.y - mean.y),
+            wrap(mean.theta + share * wrap(pose.theta - mean.theta)),
+        )
+
+    def distance(self, first: Pose, second: Pose) -> float:
+        """Return how far two poses are apart [m], the turn measured at the arm."""
+        way = hypot(second.x - first.x, second.y - first.y)
+        return way + self._arm * abs(wrap(second.theta - first.theta))
+
+
+class ToldPath:
+    """Where the commands alone would have led a robot from its anchor."""
+
+    def __init__(self, anchor: Pose) -> None:
+        """Begin at ``anchor``, where the robot was."""
+        self.anchor = anchor
+        self.end = HERE
+        """Where they lead, seen from the anchor"""
+        self.time = self.reach = 0.0
+        """For how long they have led [s], and how far from the anchor at most [m]"""
+
+
 class BlockedWatch:
     """Compares what a robot is told with how its pose changes."""
 
@@ -107,19 +149,19 @@ class BlockedWatch:
 
         """
         self.parameters = parameters
-        self.told = 0.0
-        """How far from the anchor the commands alone would have led it [m]"""
-        self._arm = arm
-        self._anchor = self._path = HERE
-        self._time = 0.0
+        self._average = PoseAverage(arm)
         self.restart()
 
     def restart(self) -> None:
         """Forget: another motion begins."""
-        self._mean: Pose | None = None
-        self._noise = 0.0
+        self._average.forget()
+        self._told = ToldPath(HERE)
         self._rested = 0.0
-        self._anchor_at(HERE)
+
+    @property
+    def told(self) -> float:
+        """How far from the anchor the commands alone would have led it [m]."""
+        return self._told.reach
 
     def update(self, pose: Pose, twist: Twist, dt: float) -> bool:
         """Return whether the robot is blocked.
@@ -134,55 +176,36 @@ class BlockedWatch:
 
         """
         require_finite('dt, pose and twist', (dt, *pose, *twist))
-        given = self.parameters
-        self._average(dt, pose)
+        given, average = self.parameters, self._average
+        if average.mean is None:
+            self._told = ToldPath(pose)
+        tau = AVERAGED * given.after
+        average.add(pose, 1.0 - exp(-dt / tau) if tau > 0.0 else 1.0)
         self._rested = self._rested + dt if twist == REST else 0.0
         if self._rested > LONG_REST or self._has_moved():
-            self._anchor_at(self._mean or pose)
+            self._told = ToldPath(average.mean or pose)
         if twist == REST or given.after == 0.0:
             return False
-        self._time += dt
-        self._path = integrate(self._path, twist, dt)
-        self.told = max(self.told, self._size(HERE, self._path))
-        return self._time >= given.after and self.told >= 2.0 * given.distance
+        told = self._told
+        told.time += dt
+        told.end = integrate(told.end, twist, dt)
+        told.reach = max(told.reach, average.distance(HERE, told.end))
+        return told.time >= given.after and told.reach >= 2.0 * given.distance
 
     def describe(self) -> str:
         """Return what it was told and what it did, in words."""
         return (
-            f'told to move by {self.told:.2f} m in {self._time:.1f} s, it moved by '
+            f'told to move by {self.told:.2f} m in {self._told.time:.1f} s, it moved by '
             f'{self._moved():.3f} m'
         )
 
-    def _anchor_at(self, pose: Pose) -> None:
-        """Compare from here on."""
-        self._anchor, self._path = pose, HERE
-        self._time = self.told = 0.0
-
-    def _average(self, dt: float, pose: Pose) -> None:
-        if self._mean is None:
-            self._mean = pose
-            self._anchor_at(pose)
-        tau = AVERAGED * self.parameters.after
-        share = 1.0 - exp(-dt / tau) if tau > 0.0 else 1.0
-        mean = self._mean
-        self._noise += share * (self._size(mean, pose) - self._noise)
-        self._mean = Pose(
-            mean.x + share * (pose.x - mean.x),
-            mean.y + share * (pose.y - mean.y),
-            wrap(mean.theta + share * wrap(pose.theta - mean.theta)),
-        )
-
     def _has_moved(self) -> bool:
-        least = max(LEAST, NOISE * self._noise)
+        least = max(LEAST, NOISE * self._average.noise)
         return self._moved() >= min(least, self.parameters.distance)
 
     def _moved(self) -> float:
-        return self._size(self._anchor, self._mean or self._anchor)
-
-    def _size(self, first: Pose, second: Pose) -> float:
-        """Return how far two poses are apart [m], the turn measured at the arm."""
-        way = hypot(second.x - first.x, second.y - first.y)
-        return way + self._arm * abs(wrap(second.theta - first.theta))
+        anchor = self._told.anchor
+        return self._average.distance(anchor, self._average.mean or anchor)
 
 
 class BlockedGuard:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from math import inf
 from statistics import median
+from typing import NamedTuple
 
 AHEAD = 1.0
 """[s] in real time. A clock that gains more, beyond three times its speed, has leapt."""
@@ -41,6 +42,47 @@ WAITING = (
 WENT_BACK = 'the clock went back to zero'
 
 
+class ClockPace:
+    """How fast a clock runs, by its last looks."""
+
+    def __init__(self) -> None:
+        """Know of no look."""
+        self.seen_to_begin = False
+        """Whether the clock was there before its time was: a simulation that begins stutters"""
+        self.speed = 1.0
+        """[-] Seconds of the clock per second, and no less than 1"""
+        self._speeds = deque[float](maxlen=LOOKS)
+
+    def __bool__(self) -> bool:
+        """Return whether it is known at all."""
+        return bool(self._speeds)
+
+    def begin(self) -> None:
+        """Know that the clock has no time yet."""
+        self._speeds.clear()
+        self.seen_to_begin = True
+
+    def add(self, gained: float, passed: float) -> None:
+        """Take up that the clock ``gained`` so much in the time ``passed`` [s]."""
+        speed = gained / passed
+        self._speeds.append(min(speed, GEAR * self.speed) if self._speeds else speed)
+        self.speed = max(1.0, median(self._speeds))
+
+    def highest(self) -> float:
+        """Return the speed that the clock may well have."""
+        unsure = self.seen_to_begin and len(self._speeds) < LOOKS
+        return max(self.speed, FASTEST) if unsure else self.speed
+
+
+class Move(NamedTuple):
+    """When a clock was last seen to have gone on."""
+
+    time: float
+    """what it told [s]"""
+    steady: float
+    """what a clock told then that never leaps [s]"""
+
+
 class ClockWatch:
     """Looks at a clock several times a second, and tells what is wrong with it.
 
@@ -57,13 +99,15 @@ class ClockWatch:
         self.stands_after = stands_after
         self.fault = 'the clock has not been looked at yet'
         """What is wrong with the clock, in words; empty if it can be believed"""
-        self.speed = 1.0
-        """[-] Seconds of the clock per second, and no less than 1"""
-        self._begun = self._seen_to_begin = False
-        self._time: float | None = None
-        self._moved_at = 0.0
+        self._pace = ClockPace()
+        self._begun = False
+        self._moved: Move | None = None
         self._calm_from = self._told_until = -inf
-        self._speeds = deque[float](maxlen=LOOKS)
+
+    @property
+    def speed(self) -> float:
+        """Seconds of the clock per second, and no less than 1 [-]."""
+        return self._pace.speed
 
     def look(self, time: float, steady: float) -> None:
         """Judge the clock.
@@ -74,16 +118,15 @@ class ClockWatch:
 
         """
         if time <= 0.0:
-            self._time = None
-            self._speeds.clear()
-            self._seen_to_begin = True
+            self._moved = None
+            self._pace.begin()
             self.fault, self._calm_from = WENT_BACK if self._begun else WAITING[0], inf
-        elif self._time is None:
-            self._begun, self._time, self._moved_at = True, time, steady
+        elif self._moved is None:
+            self._begun, self._moved = True, Move(time, steady)
             if self._calm_from == inf:  # how fast it runs, the next look will tell
                 self._calm_from = steady + SOON
         else:
-            self._compare(time - self._time, time, steady)
+            self._compare(self._moved, time, steady)
         if steady >= self._calm_from:
             self.fault = ''
 
@@ -92,31 +135,24 @@ class ClockWatch:
         self.fault = fault
         self._told_until = self._calm_from = steady + CALM
 
-    def _compare(self, gained: float, time: float, steady: float) -> None:
-        """Judge a clock that has ``gained`` so much [s] since it moved last."""
-        passed = steady - self._moved_at
+    def _compare(self, moved: Move, time: float, steady: float) -> None:
+        """Judge a clock by what it tells now and when it ``moved`` last."""
+        gained, passed = time - moved.time, steady - moved.steady
         if gained == 0.0:
             if passed >= self.stands_after:
                 self._calm_from = steady + CALM
                 if steady >= self._told_until:  # what was said of it goes first
                     stands = f'the clock stands still at {time:.3f} s'
-                    self.fault = stands if self._speeds else WAITING[1]
+                    self.fault = stands if self._pace else WAITING[1]
             return
         if self.fault == WAITING[1]:  # it begins now: how long it took tells nothing of its speed
-            self._time, self._moved_at, self._calm_from = time, steady, steady + SOON
+            self._moved, self._calm_from = Move(time, steady), steady + SOON
             self.fault = WAITING[2]
             return
         if gained < -BACK:
             self.distrust(f'the clock leapt back by {-gained:.3g} s', steady)
-        elif self._speeds and gained > self._pace() * (AHEAD + 3.0 * passed):
+        elif self._pace and gained > self._pace.highest() * (AHEAD + 3.0 * passed):
             self.distrust(f'the clock leapt ahead by {gained:.3g} s', steady)
         if passed > 0.0:
-            speed = gained / passed
-            self._speeds.append(min(speed, GEAR * self.speed) if self._speeds else speed)
-            self.speed = max(1.0, median(self._speeds))
-        self._time, self._moved_at = time, steady
-
-    def _pace(self) -> float:
-        """Return the speed that the clock may well have."""
-        unsure = self._seen_to_begin and len(self._speeds) < LOOKS
-        return max(self.speed, FASTEST) if unsure else self.speed
+            self._pace.add(gained, passed)
+        self._moved = Move(time, steady)

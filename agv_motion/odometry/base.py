@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -93,23 +93,25 @@ class TurretBase:
         turn that their distances from it hold.
         """
         self.steers = True
-        self._turrets = turrets
+        self.turrets = turrets
         n = len(turrets)
         x = sum(x for x, _ in turrets.positions) / n
         y = sum(y for _, y in turrets.positions) / n
         spread = sum((tx - x) ** 2 + (ty - y) ** 2 for tx, ty in turrets.positions)
         at_centroid = Covariance(1.0 / n, 0.0, 0.0, 1.0 / n, 0.0, 1.0 / spread)
         self.unit_covariance = shift(at_centroid, -x, -y)
+        self.arm = 1.0 / sqrt(n * at_centroid.tt)
+        """root mean square of the distances of the turrets from their centroid [m]"""
         self.measuring = n
         self.redundancy = 2 * n - 3
 
     def __len__(self) -> int:
         """Return the number of turrets."""
-        return len(self._turrets)
+        return len(self.turrets)
 
     def displacement(self, travel: Sequence[float], steering: Sequence[float]) -> Fit:
         """Return the least-squares displacement."""
-        return self._turrets.solve(steering, travel)
+        return self.turrets.solve(steering, travel)
 
 
 class DifferentialBase:

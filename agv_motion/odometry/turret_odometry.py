@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot, sqrt
+from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -75,11 +75,9 @@ class TurretOdometry:
             max_gap: Silence beyond which nobody knows whether the wheels rolled on [s].
 
         """
-        self._turrets, self._noise = turrets, noise
+        self._base, self._noise = TurretBase(turrets), noise
         self._max_speed, self._max_gap = max_wheel_speed, max_gap
-        self._unit_covariance = TurretBase(turrets).unit_covariance
         self._reckoning = DeadReckoning()
-        self._arm = 1.0 / sqrt(len(turrets) * self._unit_covariance.tt)
         self._order = Continuity[tuple[float, Twist]](max_gap, lambda *_: True)
         self._rolled: Sequence[float] = ()
 
@@ -105,7 +103,7 @@ class TurretOdometry:
         """
         if not speeds:
             speeds = self._speeds(time, rolled)
-        fit = self._turrets.twist(angles, speeds)
+        fit = self._base.turrets.twist(angles, speeds)
         require_within('wheel speeds', speeds, self._max_speed, 'm/s', 'look at the encoders')
         before, order = self._order.last, self._order
         speed = sum(map(abs, speeds)) / len(speeds)
@@ -133,16 +131,18 @@ class TurretOdometry:
 
     def _change(self, before: Twist, now: Twist) -> float:
         """Return by how much the speed of a wheel differs between two twists [m/s]."""
-        return hypot(now.vx - before.vx, now.vy - before.vy) + self._arm * abs(now.wz - before.wz)
+        return hypot(now.vx - before.vx, now.vy - before.vy) + self._base.arm * abs(
+            now.wz - before.wz
+        )
 
     def _carry(self, twist: Twist, speed: float, passed: float, lost: float) -> None:
         """Follow a twist for a time; all wheels may have rolled ``lost`` [m] beside it."""
         vx, vy, wz = twist
         variance = self._noise * self._noise * (passed * speed)
         if lost:
-            variance += len(self._turrets) * lost * lost
+            variance += len(self._base) * lost * lost
         displacement = (vx * passed, vy * passed, wz * passed)
-        self._reckoning.carry(displacement, self._unit_covariance, variance)
+        self._reckoning.carry(displacement, self._base.unit_covariance, variance)
 
     def are_plain(self, times: Column, speeds: Column) -> bool:
         """Return whether each state plainly follows the one before: only such go by columns.
@@ -176,7 +176,7 @@ class TurretOdometry:
         if not self.are_plain(times, speeds):
             msg = 'states that are late, doubled or beyond their limits: take them one by one'
             raise ConfigurationError(msg)
-        vx, vy, wz, residual = self._turrets.solve_columns(angles, speeds)
+        vx, vy, wz, residual = self._base.turrets.solve_columns(angles, speeds)
         last = self._order.last
         first = times[0] if last is None else last.stamp
         passed = times - np.concatenate([[first], times[:-1]])
@@ -186,5 +186,5 @@ class TurretOdometry:
         self._rolled = ()
         displacement = (vx * passed, vy * passed, wz * passed)
         variance = self._noise * self._noise * (passed * speed)
-        carried = self._reckoning.carry_columns(displacement, self._unit_covariance, variance)
+        carried = self._reckoning.carry_columns(displacement, self._base.unit_covariance, variance)
         return ReckonedColumns((vx, vy, wz), residual, *carried)

@@ -23,12 +23,61 @@ class Normaliser(Protocol):
         """Take up a :meth:`state`; raises ConfigurationError if it is not one."""
 
 
-class RunningQuantiles:
-    """Share of the way between two quantiles of the last days: forgets spikes and seasons.
+class RecentMeans:
+    """Means over bins of fixed length, of the last days: memory does not grow with the rate.
 
-    Readings are averaged over bins of fixed length, so that memory and cost do not depend on the
-    sampling rate: seven days of quarter hours are 672 numbers, kept sorted.
+    Seven days of quarter hours are 672 numbers, kept sorted.
     """
+
+    def __init__(self, window: float, bin_length: float) -> None:
+        """Start without history.
+
+        Args:
+            window: How far back to look [s].
+            bin_length: Length of one bin [s].
+
+        """
+        self._window, self._bin_length = window, bin_length
+        self._bins: deque[tuple[float, float]] = deque()
+        self._sorted: list[float] = []
+        self._open: tuple[int, float, int] = (0, 0.0, 0)
+
+    def __len__(self) -> int:
+        """Return the number of finished bins."""
+        return len(self._sorted)
+
+    def add(self, time: float, value: float) -> None:
+        """Take in ``value`` at ``time`` [s]; its own bin counts once it is finished."""
+        index = int(time // self._bin_length)
+        open_index, total, count = self._open
+        if index != open_index and count:
+            self._close(open_index * self._bin_length, total / count)
+            total, count = 0.0, 0
+        self._open = index, total + value, count + 1
+        while self._bins and abs(time - self._bins[0][0]) > self._window:
+            _, old = self._bins.popleft()
+            del self._sorted[bisect_left(self._sorted, old)]
+
+    def quantile(self, share: float) -> float:
+        """Return the mean below which ``share`` of all finished ones lie."""
+        return self._sorted[min(int(share * len(self._sorted)), len(self._sorted) - 1)]
+
+    def finished(self) -> list[list[float]]:
+        """Return when each finished bin began [s], and its mean."""
+        return [[time, mean] for time, mean in self._bins]
+
+    def restore(self, bins: list[tuple[float, float]]) -> None:
+        """Take up the bins of an earlier run."""
+        self._bins = deque(bins)
+        self._sorted = sorted(mean for _, mean in bins)
+
+    def _close(self, time: float, mean: float) -> None:
+        self._bins.append((time, mean))
+        insort(self._sorted, mean)
+
+
+class RunningQuantiles:
+    """Share of the way between two quantiles of the last days: forgets spikes and seasons."""
 
     def __init__(
         self,
@@ -50,40 +99,22 @@ class RunningQuantiles:
 
         """
         self._low, self._high = quantiles
-        self._window = window_days * 86400.0
         self._smallest_range = smallest_range
         self._learning_bins = learning_hours * 3600.0 / bin_length
-        self._bin_length = bin_length
-        self._bins: deque[tuple[float, float]] = deque()
-        self._sorted: list[float] = []
-        self._open: tuple[int, float, int] = (0, 0.0, 0)
+        self._means = RecentMeans(window_days * 86400.0, bin_length)
 
     def update(self, time: float, value: float) -> float | None:
         """Return the share of ``value`` between the quantiles of the bins before it."""
-        index = int(time // self._bin_length)
-        open_index, total, count = self._open
-        if index != open_index and count:
-            self._close(open_index * self._bin_length, total / count)
-            total, count = 0.0, 0
-        self._open = index, total + value, count + 1
-        while self._bins and abs(time - self._bins[0][0]) > self._window:
-            _, old = self._bins.popleft()
-            del self._sorted[bisect_left(self._sorted, old)]
-        if len(self._sorted) < self._learning_bins:
+        means = self._means
+        means.add(time, value)
+        if len(means) < self._learning_bins:
             return None
-        low, high = self._quantile(self._low), self._quantile(self._high)
+        low, high = means.quantile(self._low), means.quantile(self._high)
         return min(max((value - low) / max(high - low, self._smallest_range), 0.0), 1.0)
-
-    def _close(self, time: float, mean: float) -> None:
-        self._bins.append((time, mean))
-        insort(self._sorted, mean)
-
-    def _quantile(self, share: float) -> float:
-        return self._sorted[min(int(share * len(self._sorted)), len(self._sorted) - 1)]
 
     def state(self) -> dict[str, Any]:
         """Return the bins."""
-        return {'bins': [[time, mean] for time, mean in self._bins]}
+        return {'bins': self._means.finished()}
 
     def restore(self, state: dict[str, Any]) -> None:
         """Take up the bins of an earlier run."""
@@ -92,8 +123,7 @@ class RunningQuantiles:
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             msg = f'saved bins are unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
-        self._bins = deque(bins)
-        self._sorted = sorted(mean for _, mean in bins)
+        self._means.restore(bins)
 
 
 class RunningRange:

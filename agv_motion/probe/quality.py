@@ -36,6 +36,37 @@ class Quality(Enum):
         return self in {Quality.GOOD, Quality.NEGATIVE_FLOW}
 
 
+class Level:
+    """The level of recent readings; those that persist elsewhere become the level."""
+
+    def __init__(self, spike_threshold: float) -> None:
+        """Know no level; a change by more than ``spike_threshold``, a share of it, leaves it."""
+        self._threshold = spike_threshold
+        self._recent: deque[float] = deque(maxlen=RECENT)
+        self._suspects: deque[float] = deque(maxlen=STEP)
+
+    def forget(self) -> None:
+        """Take the next readings for the level."""
+        self._recent.clear()
+
+    def judge(self, value: float) -> Quality:
+        """Return whether ``value`` is a spike, or good."""
+        if len(self._recent) < RECENT or self._alike(value, median(self._recent)):
+            self._suspects.clear()
+            self._recent.append(value)
+            return Quality.GOOD
+        self._suspects.append(value)
+        if len(self._suspects) == STEP and self._alike(value, median(self._suspects)):
+            self._recent.clear()
+            self._recent.extend(self._suspects)
+            self._suspects.clear()
+            return Quality.GOOD
+        return Quality.SPIKE
+
+    def _alike(self, value: float, level: float) -> bool:
+        return abs(value - level) <= self._threshold * level
+
+
 class ReadingJudge:
     """Judges readings of one probe one after another."""
 
@@ -57,10 +88,8 @@ class ReadingJudge:
 
         """
         self._off_below, self._highest = off_below, highest
-        self._spike_threshold = spike_threshold
         self._stuck_after = stuck_after
-        self._recent: deque[float] = deque(maxlen=RECENT)
-        self._suspects: deque[float] = deque(maxlen=STEP)
+        self._level = Level(spike_threshold)
         self._last_time = -FORGET
         self._same_value, self._same_since = 0.0, 0.0
 
@@ -76,33 +105,16 @@ class ReadingJudge:
         if not isfinite(value):
             return Quality.MISSING
         if value < self._off_below:
-            self._recent.clear()
+            self._level.forget()
             return Quality.OFF
         if value > self._highest:
             return Quality.OUT_OF_RANGE
         if not 0.0 <= time - self._last_time < FORGET:
-            self._recent.clear()
+            self._level.forget()
             self._same_since = time
         self._last_time = time
         if value != self._same_value:
             self._same_value, self._same_since = value, time
         if time - self._same_since >= self._stuck_after[0 if flowing else 1]:
             return Quality.STUCK
-        return self._judge_level(value)
-
-    def _judge_level(self, value: float) -> Quality:
-        """Compare with the recent level; readings that persist become the level."""
-        if len(self._recent) < RECENT or self._alike(value, median(self._recent)):
-            self._suspects.clear()
-            self._recent.append(value)
-            return Quality.GOOD
-        self._suspects.append(value)
-        if len(self._suspects) == STEP and self._alike(value, median(self._suspects)):
-            self._recent.clear()
-            self._recent.extend(self._suspects)
-            self._suspects.clear()
-            return Quality.GOOD
-        return Quality.SPIKE
-
-    def _alike(self, value: float, level: float) -> bool:
-        return abs(value - level) <= self._spike_threshold * level
+        return self._level.judge(value)

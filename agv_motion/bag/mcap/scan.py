@@ -67,7 +67,10 @@ def scan(data: memoryview, path: Path, told: Statistics | None = None) -> Summar
         walk.through()
         finding = f'statistics of {told.messages} messages, where {walk.messages} are found'
         walk.problems.append(DamagedBagError(path, 0, finding, 'those that are found are read'))
-    return Summary(walk.schemas, walk.channels, walk.chunks, None, walk.problems, indexed=False)
+    told_of = walk.described
+    return Summary(
+        told_of.schemas, told_of.channels, walk.chunks, None, walk.problems, indexed=False
+    )
 
 
 def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
@@ -84,8 +87,9 @@ def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
 
     """
     walk = _Walk(data, path)
-    walk.schemas.update(summary.schemas)
-    walk.channels.update(summary.channels)
+    described = walk.described
+    described.schemas.update(summary.schemas)
+    described.channels.update(summary.channels)
     position = len(records.MAGIC)
     for chunk in summary.chunks:
         if not walk.stretch(position, chunk.offset):
@@ -97,7 +101,7 @@ def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
     whole = walk.stretch(position, len(data)) and not walk.problems
     if not whole or statistics is None or statistics.messages != walk.messages:
         return None
-    return Summary(walk.schemas, walk.channels, walk.chunks, statistics)
+    return Summary(described.schemas, described.channels, walk.chunks, statistics)
 
 
 def unlike_crc(data: memoryview, path: Path, end: int) -> DamagedBagError | None:
@@ -122,13 +126,35 @@ def unlike_crc(data: memoryview, path: Path, end: int) -> DamagedBagError | None
     return DamagedBagError(path, end, finding)
 
 
+class _Descriptions:
+    """The schemas and channels that a walk has met; the first of each number counts."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self.schemas: dict[int, records.Schema] = {}
+        self.channels: dict[int, records.Channel] = {}
+
+    def take(self, opcode: int, data: parsing.Buffer, at: int) -> None:
+        """Take up a record, if it is a schema or a channel; ``at`` tells where, for errors."""
+        if opcode == records.SCHEMA:
+            schema = parsing.schema(parsing.Body(data, self._path, at))
+            self.schemas.setdefault(schema.id, schema)
+        elif opcode == records.CHANNEL:
+            channel = parsing.channel(parsing.Body(data, self._path, at))
+            self.channels.setdefault(channel.id, channel)
+
+    def has(self, channel_id: int) -> bool:
+        """Return whether a channel is described, and its schema too."""
+        channel = self.channels.get(channel_id)
+        return channel is not None and (channel.schema_id == 0 or channel.schema_id in self.schemas)
+
+
 class _Walk:
     """A walk through the data section."""
 
     def __init__(self, data: memoryview, path: Path, *, believe: bool = True) -> None:
         self._data, self._path, self._believe = data, path, believe
-        self.schemas: dict[int, records.Schema] = {}
-        self.channels: dict[int, records.Channel] = {}
+        self.described = _Descriptions(path)
         self.chunks: list[Chunk] = []
         self.problems: list[DamagedBagError] = []
         self.messages = 0
@@ -158,12 +184,8 @@ class _Walk:
         return position, False
 
     def _record(self, opcode: int, at: int, end: int) -> None:
-        if opcode == records.SCHEMA:
-            schema = parsing.schema(parsing.Body(self._data[at:end], self._path, at))
-            self.schemas.setdefault(schema.id, schema)
-        elif opcode == records.CHANNEL:
-            channel = parsing.channel(parsing.Body(self._data[at:end], self._path, at))
-            self.channels.setdefault(channel.id, channel)
+        if opcode in {records.SCHEMA, records.CHANNEL}:
+            self.described.take(opcode, self._data[at:end], at)
         elif opcode == records.CHUNK:
             self._chunk(at, end)
         elif opcode == records.MESSAGE_INDEX and self.chunks and end - at >= _U16_SIZE:
@@ -218,21 +240,19 @@ class _Walk:
 
     def _learn(self) -> None:
         """Look into chunks of which something is not known: a channel, a schema, what they hold."""
+        described = self.described.has
         for number, chunk in enumerate(self.chunks):
-            if chunk.bare or (chunk.indexes and all(map(self._described, chunk.indexes))):
+            if chunk.bare or (chunk.indexes and all(map(described, chunk.indexes))):
                 continue
             try:
                 inside = content(self._data, chunk, self._path, validate=False)
-                self._inside(inside, chunk)
+                for opcode, at, end in parsing.walk(inside, 0, len(inside)):
+                    self.described.take(opcode, inside[at:end], chunk.offset)
             except DamagedBagError as error:
                 self.problems.append(error)
                 continue
-            if chunk.indexes is None or not all(map(self._described, chunk.indexes)):
+            if chunk.indexes is None or not all(map(described, chunk.indexes)):
                 self.chunks[number] = self._counted(chunk, inside)
-
-    def _described(self, channel_id: int) -> bool:
-        channel = self.channels.get(channel_id)
-        return channel is not None and (channel.schema_id == 0 or channel.schema_id in self.schemas)
 
     def _counted(self, chunk: Chunk, inside: parsing.Buffer) -> Chunk:
         """Return a chunk that is to be read without its index, with the times of its messages."""
@@ -245,14 +265,3 @@ class _Walk:
         if not len(stamps):
             return chunk._replace(indexes={})
         return chunk._replace(indexes=None, start=int(stamps.min()), end=int(stamps.max()))
-
-    def _inside(self, inside: parsing.Buffer, chunk: Chunk) -> None:
-        for opcode, at, end in parsing.walk(inside, 0, len(inside)):
-            if opcode in (records.SCHEMA, records.CHANNEL):
-                body = parsing.Body(inside[at:end], self._path, chunk.offset)
-                if opcode == records.SCHEMA:
-                    schema = parsing.schema(body)
-                    self.schemas.setdefault(schema.id, schema)
-                else:
-                    channel = parsing.channel(body)
-                    self.channels.setdefault(channel.id, channel)

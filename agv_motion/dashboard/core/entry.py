@@ -16,7 +16,7 @@ class Entry:
     """A message, as it came: bytes with what decodes them, or an object."""
 
     __slots__ = (
-        '_convert', '_converted', '_data', '_decode', '_message', '_needs', 'at', 'number',
+        '_conversion', '_data', '_decode', '_message', '_needs', 'at', 'number',
     )  # fmt: skip
 
     def __init__(
@@ -36,8 +36,8 @@ class Entry:
         self.number = next(_numbers)
         """greater than that of every message that came before"""
         self._message: Any = _NOTHING
-        self._convert: Callable[[Any], Any] | None = None
-        self._converted: Any = None
+        self._conversion: tuple[Callable[[Any], Any] | None, Any] = None, None
+        """the last one asked for, and what it made of the message"""
 
     @property
     def message(self) -> Any:
@@ -54,9 +54,9 @@ class Entry:
 
         Whoever gets it leaves it as it is: others get the same.
         """
-        if self._convert is not convert:
-            self._converted, self._convert = convert(self.message), convert
-        return self._converted
+        if self._conversion[0] is not convert:
+            self._conversion = convert, convert(self.message)
+        return self._conversion[1]
 
     def _decoded(self) -> Any:
         if self._decode is None:

@@ -48,9 +48,8 @@ class BagViewing:
 
         """
         self._bag = bag
-        self.begin, self.end = self._bag.start, self._bag.end
         require_rate(rate)
-        self._timeline = Timeline(self.begin, rate)
+        self._timeline = Timeline(bag.start, rate)
         self._topics: frozenset[str] = frozenset()
         self._messages: Iterator[Message] = iter(())
         self._next: Message | None = None
@@ -58,6 +57,16 @@ class BagViewing:
         """what was said last before a leap, to be sent first"""
         self.failure = ''
         """why it can be played no further"""
+
+    @property
+    def begin(self) -> int:
+        """Time of its first message [ns]."""
+        return self._bag.start
+
+    @property
+    def end(self) -> int:
+        """Time of its last message [ns]."""
+        return self._bag.end
 
     @property
     def rate(self) -> float:

@@ -88,6 +88,29 @@ async def drive(site: Site, socket: WebSocket) -> None:
         return  # it left; the arbiter stops the wheels
 
 
+class CommandRate:
+    """How many commands came in this second."""
+
+    def __init__(self) -> None:
+        """Begin the first second with the first command."""
+        self._since, self._count = 0.0, 0
+
+    def is_first(self, now: float) -> bool:
+        """Count a command; return whether it is the first of a second.
+
+        Raises:
+            RequestError: It is one too many.
+
+        """
+        first = now - self._since > 1.0
+        if first:
+            self._since, self._count = now, 0
+        self._count += 1
+        if self._count > MOST_PER_SECOND:
+            raise RequestError(429, f'more than {MOST_PER_SECOND} commands a second')
+        return first
+
+
 class _Hand:
     """One hand on one robot."""
 
@@ -96,7 +119,7 @@ class _Hand:
         self._visitor = visitor
         self._clock = BrowserClock()
         self._last = -1.0
-        self._window, self._count = 0.0, 0
+        self._rate = CommandRate()
 
     async def follow(self) -> None:
         """Send on what the hand does, until the browser leaves."""
@@ -104,7 +127,8 @@ class _Hand:
             while True:
                 told = parsed(await self._socket.receive_text(), KEYS)
                 now = time.monotonic()
-                self._require_slow(now)
+                if self._rate.is_first(now):
+                    self._require_session()
                 count, sent = number(told, 'n', 0.0, 1e15), number(told, 't', -1e15, 1e15)
                 age = self._clock.age(sent / 1000.0, now)
                 twist = twist_of(told, self._rim())
@@ -118,14 +142,9 @@ class _Hand:
             if self._site.drivers.get(self._robot, (None, 0.0))[0] is self:
                 del self._site.drivers[self._robot]
 
-    def _require_slow(self, now: float) -> None:
-        if now - self._window > 1.0:
-            self._window, self._count = now, 0
-            if self._site.access.visitor(self._socket) != self._visitor:
-                raise RequestError(401, 'the session has ended: log in again')
-        self._count += 1
-        if self._count > MOST_PER_SECOND:
-            raise RequestError(429, f'more than {MOST_PER_SECOND} commands a second')
+    def _require_session(self) -> None:
+        if self._site.access.visitor(self._socket) != self._visitor:
+            raise RequestError(401, 'the session has ended: log in again')
 
     def _require_alone(self, twist: Twist, now: float) -> None:
         """Refuse a second hand while the first one moves."""

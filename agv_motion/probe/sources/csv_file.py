@@ -85,17 +85,20 @@ class CsvSource:
         """
         self._given = parameters
         self._warm_up = warm_up_days * DAY
-        recording = load(parameters)
-        self._times, self._values = recording.times, recording.values
+        self._recording = recording = load(parameters)
         self._problem = recording.problem
         self._start = start_of(parameters.start, recording, parameters.file)
-        self._row = bisect_left(self._times, self._start)
-        self.period = recording.step / parameters.speed
+        self._row = bisect_left(recording.times, self._start)
         self._began: float | None = None
+
+    @property
+    def period(self) -> float:
+        """Usual time between two rows, as they are played [s]."""
+        return self._recording.step / self._given.speed
 
     def history(self, now: float) -> Iterator[ProbeSample]:  # noqa: ARG002 - the file has its own time
         """Yield the rows before the start, as far back as the warm-up reaches."""
-        first = bisect_left(self._times, self._start - self._warm_up)
+        first = bisect_left(self._recording.times, self._start - self._warm_up)
         for row in range(first, self._row):
             yield self._sample(row)
 
@@ -104,10 +107,10 @@ class CsvSource:
         if self._began is None:
             self._began = now
         time = self._start + (now - self._began) * self._given.speed
-        first = self._row
-        while self._row < len(self._times) and self._times[self._row] <= time:
+        first, times = self._row, self._recording.times
+        while self._row < len(times) and times[self._row] <= time:
             self._row += 1
-        if first < self._row == len(self._times):
+        if first < self._row == len(times):
             self._problem = f'{self._given.file} has come to its end'
         return [self._sample(row) for row in range(first, self._row)]
 
@@ -120,7 +123,8 @@ class CsvSource:
         """Hold nothing: the file was read at once."""
 
     def _sample(self, row: int) -> ProbeSample:
-        return ProbeSample(self._times[row], tuple(self._values[row].tolist()))
+        recording = self._recording
+        return ProbeSample(recording.times[row], tuple(recording.values[row].tolist()))
 
 
 class GrowingSource:
