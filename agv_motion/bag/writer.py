@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf, isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, NamedTuple, final
 
 import numpy as np
 
@@ -23,6 +23,15 @@ if TYPE_CHECKING:
     from agv_motion.bag.mcap.records import Attachment, Metadata
 
 DEFAULT_QOS = (OfferedQos(),)
+
+
+class ChunkLimits(NamedTuple):
+    """How much goes into a chunk."""
+
+    size: int
+    """[bytes] uncompressed"""
+    span: float
+    """[ns] of log time"""
 
 
 @final
@@ -66,8 +75,8 @@ class BagWriter:
         self.discarded = 0
         """messages that found no room on a full disk"""
         self._compression = '' if compression == 'none' else compression
-        self._chunk_size = chunk_size
-        self._chunk_span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
+        span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
+        self._limits = ChunkLimits(chunk_size, span)
         self._finished = FinishedFiles(self.path, ros_distro)
         self._number = 0
         try:
@@ -135,9 +144,9 @@ class BagWriter:
             OSError: The disk is full or failed; the file is as it was before the chunk.
 
         """
-        file = self._file
+        file, limits = self._file, self._limits
         file.write(topic, stamp, data, stamp if publish is None else publish, sequence)
-        if file.chunk_size >= self._chunk_size or stamp - file.chunk_start >= self._chunk_span:
+        if file.chunk_size >= limits.size or stamp - file.chunk_start >= limits.span:
             file.flush()
 
     def write_several(
@@ -172,9 +181,9 @@ class BagWriter:
     def _fill(self, messages: Together, first: int) -> int:
         """Write messages into the present chunk until it is full; return the first one left."""
         file, count = self._file, len(messages.data)
-        room = self._chunk_size - file.chunk_size
+        room = self._limits.size - file.chunk_size
         full = int(np.searchsorted(messages.ends, messages.begins[first] + room))
-        full = messages.first_from(first, min(full, count), file.chunk_start + self._chunk_span)
+        full = messages.first_from(first, min(full, count), file.chunk_start + self._limits.span)
         part = slice(first, full + 1)
         file.write_several(messages.channels[part], messages.stamps[part], messages.data[part])
         if full < count:

@@ -19,8 +19,10 @@ from agv_motion.ros.qos import LATCHED
 from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
     from pathlib import Path
+
+    from agv_motion.bag.quality_of_service import OfferedQos
 
 EVERY = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -31,6 +33,64 @@ class RecordedTopic(NamedTuple):
     name: str
     kind: Any
     latched: bool = False
+
+    @property
+    def full_name(self) -> str:
+        """Its name on the graph."""
+        return f'/{self.name.lstrip("/")}'
+
+
+class _Bag:
+    """The bag of a demo: each topic is in it from its first message on."""
+
+    def __init__(self, path: Path, offers: Callable[[RecordedTopic], list[OfferedQos]]) -> None:
+        """Create it; ``offers`` tells the quality of service of who publishes a topic by now."""
+        self.failure = ''
+        """why it takes no more, so that the demo is to end; empty while it does"""
+        self._writer, self._offers = BagWriter(path), offers
+        add = self._writer.add_topic
+        self._transforms = RecordedTransforms(lambda name, kind, qos: add(name, kind, qos=qos))
+        self._handles: dict[str, int] = {}
+
+    def moves(self, topic: RecordedTopic) -> bool:
+        """Return whether transforms are made of a topic, as nobody publishes them."""
+        return not PUBLISHED and self._transforms.wants(topic.full_name, type_name(topic.kind))
+
+    def write(self, topic: RecordedTopic, stamp: int, data: bytes, *, moves: bool) -> None:
+        """Write a message [ns], and the transforms that come of one that ``moves`` something."""
+        if self.failure:
+            return
+        write = self._writer.write
+        try:
+            write(self._handles.get(topic.name) or self._add(topic), stamp, data)
+            for handle, told in self._transforms.take(topic.full_name, data) if moves else ():
+                write(handle, stamp, told)
+        except OSError as error:
+            self._fail(error)
+
+    def close(self, topics: Iterable[RecordedTopic], stamp: int) -> None:
+        """Finish it; a topic on which nobody spoke is in it, too."""
+        try:
+            if not (self._writer.closed or self.failure):
+                for topic in topics:
+                    if topic.name not in self._handles:
+                        self._add(topic)
+                for handle, told in self._transforms.last():
+                    self._writer.write(handle, stamp, told)
+            self._writer.close()
+        except OSError as error:
+            self._fail(error)
+
+    def _add(self, topic: RecordedTopic) -> int:
+        handle = self._writer.add_topic(
+            topic.full_name, type_name(topic.kind), qos=self._offers(topic)
+        )
+        self._handles[topic.name] = handle
+        return handle
+
+    def _fail(self, error: OSError) -> None:
+        reason = error.strerror or error
+        self.failure = f'{self._writer.path} takes no more ({reason}): free the disk, run again'
 
 
 class DemoRecorder(LifecycleNode):
@@ -49,19 +109,18 @@ class DemoRecorder(LifecycleNode):
 
         """
         super().__init__('demo_recorder', **kwargs)
-        self.failure = ''
-        """why the bag takes no more, so that the demo is to end; empty while it does"""
-        self._writer = BagWriter(bag)
-        add = self._writer.add_topic
-        self._transforms = RecordedTransforms(lambda name, kind, qos: add(name, kind, qos=qos))
+        self._bag = _Bag(bag, self._offers)
         self._now = now
         self._latest: dict[str, bytes] = {}
         self._topics = {topic.name: topic for topic in topics}
-        self._handles: dict[str, int] = {}
-        """of the topics in the bag: each is added with its first message"""
         self.arrivals: dict[str, list[int]] = {topic.name: [] for topic in topics}
         for topic in topics:
             self._subscribe(topic)
+
+    @property
+    def failure(self) -> str:
+        """Why the bag takes no more, so that the demo is to end; empty while it does."""
+        return self._bag.failure
 
     @property
     def counts(self) -> dict[str, int]:
@@ -69,38 +128,23 @@ class DemoRecorder(LifecycleNode):
         return {topic: len(arrived) for topic, arrived in self.arrivals.items()}
 
     def _subscribe(self, topic: RecordedTopic) -> None:
-        write, latest = self._writer.write, self._latest
+        write, moves, latest = self._bag.write, self._bag.moves(topic), self._latest
         arrived, now, key = self.arrivals[topic.name], self._now, topic.name
-        handles, transforms = self._handles, self._transforms
-        name, kind = f'/{topic.name.lstrip("/")}', type_name(topic.kind)
-        moves = not PUBLISHED and transforms.wants(name, kind)
 
         def keep(data: bytes) -> None:
             arrived.append(time.perf_counter_ns())
             latest[key] = data
-            if self.failure:
-                return
-            try:
-                handle = handles.get(key) or self._add(topic)
-                stamp = int(now() * 1e9)
-                write(handle, stamp, data)
-                for handle, told in transforms.take(name, data) if moves else ():
-                    write(handle, stamp, told)
-            except OSError as error:
-                self._fail(error)
+            write(topic, int(now() * 1e9), data, moves=moves)
 
         self.create_subscription(
             topic.kind, topic.name, keep, LATCHED if topic.latched else EVERY, raw=True,
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
 
-    def _add(self, topic: RecordedTopic) -> int:
-        """Add a topic to the bag, with the quality of service of who publishes it by now."""
-        name = f'/{topic.name.lstrip("/")}'
-        offers = offered(self.get_publishers_info_by_topic(name))
-        qos = offers or [offer(LATCHED if topic.latched else EVERY)]
-        self._handles[topic.name] = self._writer.add_topic(name, type_name(topic.kind), qos=qos)
-        return self._handles[topic.name]
+    def _offers(self, topic: RecordedTopic) -> list[OfferedQos]:
+        """Return the quality of service of who publishes a topic by now, or a likely one."""
+        offers = offered(self.get_publishers_info_by_topic(topic.full_name))
+        return offers or [offer(LATCHED if topic.latched else EVERY)]
 
     def latest(self, topic: str) -> Any | None:
         """Return the last message of a topic, None before the first."""
@@ -114,19 +158,6 @@ class DemoRecorder(LifecycleNode):
             SourceError: The disk did not take everything; what it took is a whole bag.
 
         """
-        try:
-            for topic in self._topics.values() if not (self._writer.closed or self.failure) else ():
-                if topic.name not in self._handles:
-                    self._add(topic)
-            if not (self._writer.closed or self.failure):
-                for handle, told in self._transforms.last():
-                    self._writer.write(handle, int(self._now() * 1e9), told)
-            self._writer.close()
-        except OSError as error:
-            self._fail(error)
+        self._bag.close(self._topics.values(), int(self._now() * 1e9))
         if self.failure:
             raise SourceError(self.failure)
-
-    def _fail(self, error: OSError) -> None:
-        reason = error.strerror or error
-        self.failure = f'{self._writer.path} takes no more ({reason}): free the disk, run again'

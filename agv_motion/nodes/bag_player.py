@@ -11,6 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
+from agv_motion.bag.playback.excerpt import Excerpt
 from agv_motion.bag.playback.playback import Playback
 from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.quality_of_service import KEYS, NO_PROFILE, WORDS, OfferedQos
@@ -90,7 +91,7 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
         for problem in self._bag.problems:
             port.warning(str(problem))
         self._offers = _overrides(given.qos_overrides)
-        topics = Playback(self._bag, given, self._send).topics
+        topics = Excerpt(self._bag, given).topics
         for topic in self._offers:
             if topic not in topics:
                 port.warning(
@@ -119,7 +120,8 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
     def begin(self) -> None:
         """Begin to play."""
         self.playback = Playback(self._bag, self.parameters, self._send, self._offers)
-        self.playback.topics = [t for t in self.playback.topics if t in self._publish]
+        excerpt = self.playback.excerpt
+        excerpt.topics = [t for t in excerpt.topics if t in self._publish]
         self.playback.start()
 
     def halt(self) -> None:

@@ -160,11 +160,14 @@ def _obey(player: BagPlayer, key: str) -> None:
             min(max(playing.rate * RATE_STEP ** (1 if key == 'up' else -1), 1e-3), 1e3)
         )
     elif key == 'left':
-        playing.seek(max(playing.position() - 10_000_000_000, playing.begin))
+        playing.seek(max(playing.position() - 10_000_000_000, playing.excerpt.begin))
 
 
 def _progress(player: BagPlayer) -> str:
     playing = player.playing
-    elapsed, whole = ((stamp - playing.begin) * 1e-9 for stamp in (playing.position(), playing.end))
+    elapsed, whole = (
+        (stamp - playing.excerpt.begin) * 1e-9
+        for stamp in (playing.position(), playing.excerpt.end)
+    )
     state = 'paused' if playing.paused else f'at {playing.rate:.2f} times'
     return f'{elapsed:.1f} of {whole:.1f} s, {state}; space, arrows, q'

@@ -43,17 +43,59 @@ ENDS = ('arrived', 'aborted', 'lost', 'not arrived')
 """How a drive ends, as `ghost/state` begins then."""
 
 
+class GhostNews:
+    """What the node tells of a drive."""
+
+    def __init__(self, name: str) -> None:
+        """Know nothing yet of the node ``name``."""
+        self.name = name
+        self.state = ''
+        self.refusal = ''
+        self.reports: list[str] = []
+        self.way: list[tuple[float, float]] = []
+        self.passed = 0
+        """Places of the way that the Ghost has left behind"""
+
+    def begin(self) -> None:
+        """Forget what was told of an earlier goal."""
+        self.state = ''
+        self.reports.clear()
+
+    def take_state(self, message: String) -> None:
+        """Take what the robot does."""
+        self.state = message.data
+
+    def take_report(self, message: String) -> None:
+        """Take what a goal asks for."""
+        self.reports.append(message.data)
+
+    def take_path(self, message: Path) -> None:
+        """Take the way that the Ghost goes."""
+        self.way = [(p.pose.position.x, p.pose.position.y) for p in message.poses]
+        self.passed = 0
+
+    def take_ghost(self, message: PoseStamped) -> None:
+        """Find how far on its way the Ghost is; it only goes on."""
+        here = message.pose.position
+        ahead = self.way[self.passed :]
+        if ahead:
+            distances = [hypot(here.x - x, here.y - y) for x, y in ahead[:40]]
+            self.passed += distances.index(min(distances))
+
+    def take_diagnostics(self, message: DiagnosticArray) -> None:
+        """Take why a goal is refused."""
+        for status in message.status:
+            if status.name == self.name and 'refused' in status.message:
+                self.refusal = status.message
+
+
 class DriveOrders:
     """One goal, from the question to the end of the drive."""
 
     def __init__(self, namespace: str) -> None:
         """Talk to the node in ``namespace``."""
         self._prefix = f'/{namespace.strip("/")}/' if namespace.strip('/') else '/'
-        self._state = ''
-        self._refusal = ''
-        self._reports: list[str] = []
-        self._way: list[tuple[float, float]] = []
-        self._passed = 0
+        self._news = GhostNews(f'{self._prefix}ghost_trajectory')
 
     def run(self, goal: DriveGoal, speed: float | None, console: Console) -> bool:
         """Drive to ``goal``; return whether the robot has arrived.
@@ -71,10 +113,10 @@ class DriveOrders:
             with self._changed(goal.changes):
                 publisher.publish(self._message(goal, speed))
                 self._await_answer()
-            for line in self._reports[-1].splitlines():
+            for line in self._news.reports[-1].splitlines():
                 console.print(line, highlight=False)
             self._watch(console)
-            return self._state.startswith('arrived')
+            return self._news.state.startswith('arrived')
         finally:
             self._node.destroy_node()
             rclpy.try_shutdown()
@@ -86,7 +128,7 @@ class DriveOrders:
             (Path, 'path') if len(goal.poses) > 1 else (PoseStamped, 'goal_pose')
         )  # fmt: skip
         publisher = node.create_publisher(kind, prefix + topic, COMMAND)
-        name = f'{prefix}ghost_trajectory'
+        news, name = self._news, self._news.name
         self._service = {
             kind: node.create_client(kind, f'{name}/{service}')
             for kind, service in (
@@ -102,14 +144,13 @@ class DriveOrders:
                 'or name its --namespace'
             )
             raise SourceError(msg)
-        node.create_subscription(String, f'{prefix}ghost/state', self._on_state, LATCHED)
-        node.create_subscription(Path, f'{prefix}ghost/path', self._on_path, LATCHED)
-        node.create_subscription(String, f'{prefix}ghost/report', self._on_report, LATCHED)
-        node.create_subscription(PoseStamped, f'{prefix}ghost/pose', self._on_ghost, COMMAND)
-        node.create_subscription(DiagnosticArray, '/diagnostics', self._on_diagnostics, 10)
+        node.create_subscription(String, f'{prefix}ghost/state', news.take_state, LATCHED)
+        node.create_subscription(Path, f'{prefix}ghost/path', news.take_path, LATCHED)
+        node.create_subscription(String, f'{prefix}ghost/report', news.take_report, LATCHED)
+        node.create_subscription(PoseStamped, f'{prefix}ghost/pose', news.take_ghost, COMMAND)
+        node.create_subscription(DiagnosticArray, '/diagnostics', news.take_diagnostics, 10)
         self._until(lambda: False, LATCHED_TIME)
-        self._reports.clear()
-        self._state = ''
+        news.begin()
         return publisher
 
     def _message(self, goal: DriveGoal, speed: float | None) -> Any:
@@ -147,10 +188,11 @@ class DriveOrders:
 
     def _await_answer(self) -> None:
         """Wait until the node tells what the goal asks for, or why it is refused."""
-        self._refusal = ''
-        self._until(lambda: bool(self._reports or self._refusal))
-        if not self._reports:
-            msg = self._refusal or 'ghost_trajectory does not answer: look at /diagnostics'
+        news = self._news
+        news.refusal = ''
+        self._until(lambda: bool(news.reports or news.refusal))
+        if not news.reports:
+            msg = news.refusal or 'ghost_trajectory does not answer: look at /diagnostics'
             raise ConfigurationError(msg)
 
     def _watch(self, console: Console) -> None:
@@ -158,47 +200,22 @@ class DriveOrders:
         columns = TextColumn('{task.description}', markup=False), BarColumn(), TimeElapsedColumn()
         braking_since = None
         with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-            task = progress.add_task('', total=max(len(self._way) - 1, 1))
+            task = progress.add_task('', total=max(len(self._news.way) - 1, 1))
             told = ''
-            while not self._state.startswith(ENDS):
+            while not self._news.state.startswith(ENDS):
                 rclpy.spin_once(self._node, timeout_sec=0.1)
-                progress.update(task, description=self._state, completed=self._passed)
-                if progress.disable and self._state != told:
-                    told = self._state
+                progress.update(task, description=self._news.state, completed=self._news.passed)
+                if progress.disable and self._news.state != told:
+                    told = self._news.state
                     console.print(told, highlight=False)
                 if self._stop.requested and braking_since is None:
                     braking_since = time.monotonic()
                     self._service[Trigger].call_async(Trigger.Request())
                 if braking_since and time.monotonic() - braking_since > LONGEST_BRAKING:
-                    msg = f'the robot does not say that it stands: {self._state}'
+                    msg = f'the robot does not say that it stands: {self._news.state}'
                     raise SourceError(msg)
-        if self._state != told:
-            console.print(self._state, highlight=False)
-
-    # What the node tells
-
-    def _on_state(self, message: String) -> None:
-        self._state = message.data
-
-    def _on_report(self, message: String) -> None:
-        self._reports.append(message.data)
-
-    def _on_path(self, message: Path) -> None:
-        self._way = [(p.pose.position.x, p.pose.position.y) for p in message.poses]
-        self._passed = 0
-
-    def _on_ghost(self, message: PoseStamped) -> None:
-        """Find how far on its way the Ghost is; it only goes on."""
-        here = message.pose.position
-        ahead = self._way[self._passed :]
-        if ahead:
-            distances = [hypot(here.x - x, here.y - y) for x, y in ahead[:40]]
-            self._passed += distances.index(min(distances))
-
-    def _on_diagnostics(self, message: DiagnosticArray) -> None:
-        for status in message.status:
-            if status.name == f'{self._prefix}ghost_trajectory' and 'refused' in status.message:
-                self._refusal = status.message
+        if self._news.state != told:
+            console.print(self._news.state, highlight=False)
 
     # Services
 
@@ -219,7 +236,7 @@ class DriveOrders:
     def _ask(self, kind: Any, request: Any) -> Any:
         future = self._service[kind].call_async(request)
         if not self._until(future.done):
-            msg = f'{self._prefix}ghost_trajectory does not answer; is it busy, or stopped?'
+            msg = f'{self._news.name} does not answer; is it busy, or stopped?'
             raise SourceError(msg)
         return future.result()
 

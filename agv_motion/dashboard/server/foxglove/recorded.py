@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import secrets
-from math import inf
 from typing import TYPE_CHECKING
 
-from agv_motion.bag.cdr.definitions import installed
 from agv_motion.bag.reader import BagReader
-from agv_motion.dashboard.foxglove import protocol
-from agv_motion.dashboard.foxglove.channels import GraphTopic
 from agv_motion.dashboard.foxglove.parsing import parsed
 from agv_motion.dashboard.foxglove.playback import require_rate
 from agv_motion.dashboard.foxglove.protocol import NEWER
 from agv_motion.dashboard.foxglove.requests import ProtocolError
-from agv_motion.dashboard.foxglove.transforms import DerivedTransforms
+from agv_motion.dashboard.server.foxglove.recorded_topics import recorded_topics
 from agv_motion.dashboard.server.foxglove.viewing import Viewing
-from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from agv_motion.bag.connection import Connection
     from agv_motion.dashboard.server.foxglove.client import FoxgloveClient
 
 
@@ -42,16 +37,7 @@ class RecordedRoom:
         require_rate(rate)
         self.path, self.rate = path, rate
         self.session = secrets.token_hex(8)
-        self.topics: dict[str, GraphTopic] = {}
-        self.recorded: frozenset[str] = frozenset()
-        """those that are in the bag; the others are made"""
-        self.complaints: dict[str, str] = {}
-        with BagReader(path) as bag:
-            self.span = bag.start, bag.end
-            for connection in bag.topics.values():
-                self._meet(connection)
-        self.recorded = frozenset(self.topics)
-        self.topics |= DerivedTransforms(inf).offered(self.topics)
+        self.contents = recorded_topics(path)
         self._viewings: dict[FoxgloveClient, Viewing] = {}
 
     def open(self) -> BagReader:
@@ -62,12 +48,6 @@ class RecordedRoom:
 
         """
         return BagReader(self.path)
-
-    def _meet(self, connection: Connection) -> None:
-        try:
-            self.topics[connection.topic] = _topic(connection)
-        except ConfigurationError as error:
-            self.complaints[connection.topic] = str(error)
 
     def welcome(self, client: FoxgloveClient, subprotocol: str) -> None:
         """Tell a new client what is in the bag, and play it."""
@@ -97,22 +77,3 @@ class RecordedRoom:
 
     async def run(self) -> None:
         """Do nothing: each viewing runs by itself."""
-
-
-def _topic(connection: Connection) -> GraphTopic:
-    """Return what clients are told of a topic of a bag.
-
-    Raises:
-        ConfigurationError: Neither the bag nor this machine knows its definition.
-
-    """
-    if connection.encoding not in {'', protocol.CDR}:
-        msg = f'its messages are {connection.encoding}, not {protocol.CDR}'
-        raise ConfigurationError(msg)
-    definition, encoding = connection.definition, connection.definition_encoding
-    if not definition:
-        definition, encoding = installed(connection.type).text, protocol.DEFINITION
-    return GraphTopic(
-        connection.topic, connection.type, definition.encode(errors='replace').decode(),
-        definition_encoding=encoding or protocol.DEFINITION,
-    )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from agv_motion.dashboard.foxglove import protocol
 from agv_motion.dashboard.foxglove import requests as asked
-from agv_motion.dashboard.foxglove.channels import Channels, GraphTopic
+from agv_motion.dashboard.foxglove.channels import Channels
 from agv_motion.dashboard.foxglove.frames import frame
 from agv_motion.dashboard.foxglove.playback import SECOND, BagViewing, require_rate
 from agv_motion.dashboard.foxglove.protocol import Capability, PlaybackStatus, Severity
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.reader import BagReader
     from agv_motion.dashboard.server.foxglove.client import FoxgloveClient
+    from agv_motion.dashboard.server.foxglove.recorded_topics import RecordedTopics
 
 PERIOD = 0.01
 """[s] between two looks for what is due"""
@@ -39,10 +40,7 @@ class ServedBag(Protocol):
     path: Path
     rate: float
     session: str
-    span: tuple[int, int]
-    topics: dict[str, GraphTopic]
-    complaints: dict[str, str]
-    recorded: frozenset[str]
+    contents: RecordedTopics
 
     def open(self) -> BagReader:
         """Return the bag, opened anew."""
@@ -66,7 +64,7 @@ class Viewing:
         self._room, self._client, self._controls = room, client, controls
         self._player = BagViewing(room.open(), room.rate)
         self._channels = Channels()
-        self._channels.update(room.topics)
+        self._channels.update(room.contents.topics)
         self._asked: list[Callable[[float], None]] = []
         """what is done to the player between two looks, by nobody else"""
         self._acts: dict[type[Any], Callable[[Any], None]] = {
@@ -82,7 +80,11 @@ class Viewing:
         self._lock = threading.Lock()
         self._transforms = DerivedTransforms(inf)
         self._offered = self._transforms.offered(
-            {name: one for name, one in room.topics.items() if name in room.recorded}
+            {
+                name: one
+                for name, one in room.contents.topics.items()
+                if name in room.contents.recorded
+            }
         )
         self._chosen: frozenset[str] = frozenset()
 
@@ -92,13 +94,13 @@ class Viewing:
         capabilities = [Capability.TIME, Capability.PARAMETERS, Capability.WATCH_PARAMETERS]
         if self._controls:
             capabilities.append(Capability.PLAYBACK)
-        span = room.span if self._controls else None
+        span = room.contents.span if self._controls else None
         told = {'bag': room.path.name}
         client.send(
             protocol.server_info(room.path.name, capabilities, room.session, span, told)
         )  # fmt: skip
         client.send(protocol.advertise(c.info for c in self._channels.by_number.values()))
-        for topic, why in room.complaints.items():
+        for topic, why in room.contents.complaints.items():
             client.tell(Severity.WARNING, f'{topic} is not served: {why}', topic)
         self._player.play(time.monotonic())
         self._tell_state('')
@@ -222,7 +224,7 @@ class Viewing:
             raise ProtocolError(msg)
         place = request.values.get(PLACE)
         number = isinstance(place, (int, float)) and not isinstance(place, bool)
-        length = (self._room.span[1] - self._room.span[0]) / SECOND
+        length = (self._room.contents.span[1] - self._room.contents.span[0]) / SECOND
         if place is not None and not (number and 0.0 <= place <= length):
             msg = f'{PLACE} = {str(place)[:40]}: must lie in [0, {length:.3f}] s'
             raise ProtocolError(msg)
@@ -230,14 +232,14 @@ class Viewing:
         if not isinstance(values[PLAYING], bool):
             msg = f'{PLAYING} = {str(values[PLAYING])[:40]}: must be true or false'
             raise ProtocolError(msg)
-        seek = None if place is None else self._room.span[0] + round(place * SECOND)
+        seek = None if place is None else self._room.contents.span[0] + round(place * SECOND)
         self._change(values[PLAYING], float(values[RATE]), seek, '')
         if request.id:
             self._client.send(protocol.parameter_values(values, request.id))
 
     def _values(self) -> dict[str, Any]:
         now = time.monotonic()
-        place = (self._player.position(now) - self._room.span[0]) / SECOND
+        place = (self._player.position(now) - self._room.contents.span[0]) / SECOND
         playing = self._player.status(now) is PlaybackStatus.PLAYING
         return {PLAYING: playing, RATE: float(self._player.rate), PLACE: place}
 
