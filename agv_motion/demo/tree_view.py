@@ -10,7 +10,7 @@ from agv_motion.demo.map_view import NUMBERS, MapView, Room
 from agv_motion.demo.readout import NOT_YET, lines, number, pace, pose_text
 from agv_motion.ros.messages import TurretJoints, pose_of
 from agv_motion.simulation.shade import sunlit
-from agv_motion.simulation.sun import sun
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -24,7 +24,7 @@ from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.simulation.shade import LUX_PER_WATT, irradiance
-from agv_motion.simulation.sun import sun
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from agv_motion.probe.sources.source import ProbeSample, ProbeSource

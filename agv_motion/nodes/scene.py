@@ -32,7 +32,7 @@ from agv_motion.ros.messages import points_of, pose_of, require_frame, twist_of
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
-from agv_motion.simulation.sun import sun
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -19,8 +19,8 @@ from agv_motion.ros.qos import COMMAND, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.simulation.fixes import FixParameters, FixSensor
 from agv_motion.simulation.shade import LUX_PER_WATT, Obstacle, irradiance
-from agv_motion.simulation.sun import sun
 from agv_motion.simulation.turret_platform import MotorParameters, TurretPlatform
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from agv_motion.ros.port import Port

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from agv_motion.simulation.sun import Sun
+    from agv_motion.sun import Sun
 
 CLEAR_SKY = 1000.0
 """[W/m2] on a surface square to the sun, a round figure for a clear day at sea level."""

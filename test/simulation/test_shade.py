@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.simulation.shade import DIFFUSE, Obstacle, irradiance, light_factor, sunlit
-from agv_motion.simulation.sun import Sun
+from agv_motion.sun import Sun
 
 HOUSE = [Obstacle(0.0, 0.0, 1.0, 10.0)]
 EVENING = Sun(pi / 4, pi)  # in the west, at 45 degrees: shadows as long as things are high

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.dashboard.core import conversions
 from agv_motion.dashboard.core.numbers import finite, text_of
 from agv_motion.dashboard.core.robot_state import PROBES
-from agv_motion.simulation.sun import sun
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from collections.abc import Callable

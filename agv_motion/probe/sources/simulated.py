@@ -8,16 +8,19 @@ falling until three hours after sunset, steps of 0.001 mV (at 25 K/mV: 20 K, 1.5
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, ceil, cos, exp, floor, pi, radians, sin, sqrt, tan, tau
+from math import ceil, cos, exp, floor, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, Annotated
 
 from agv_motion.parameters import Spec, check
 from agv_motion.probe.sources.source import ProbeSample
+from agv_motion.sun import half_day, solar_time
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 DAY = 86400.0
+HOURS = 12.0 / pi
+"""[h] by which the sun goes on in an hour angle of 1 rad"""
 STOMATAL_LAG = 900.0
 """[s] time constant with which sap flow follows the light of the place."""
 
@@ -104,12 +107,11 @@ class SimulatedSource:
 
     def _day(self, time: float) -> float:
         """Return the course of a fair day in [0, 1], shifted by the lag of the stem."""
-        local = time + self._given.solar_offset * 3600.0
-        day_of_year = (local / DAY) % 365.25
-        declination = radians(-23.44) * cos(tau * (day_of_year + 10.0) / 365.25)
-        half_day = 12.0 / pi * _hour_angle(-tan(radians(self._given.latitude)) * tan(declination))
-        rise, fall = 12.0 - half_day + 2.0, 12.0 + half_day + 3.0
-        hour = (local % DAY) / 3600.0
+        given = self._given
+        declination, hour_angle = solar_time(time, 15.0 * given.solar_offset)
+        half = half_day(declination, given.latitude) * HOURS
+        rise, fall = 12.0 - half + 2.0, 12.0 + half + 3.0
+        hour = 12.0 + hour_angle * HOURS
         hour += 24.0 if hour < fall - 24.0 else 0.0
         if not rise < hour < fall:
             return 0.0
@@ -120,11 +122,6 @@ class SimulatedSource:
         days = smooth_noise(self._given.seed, time / DAY)
         clouds = smooth_noise(side + 7919, time / 2400.0)
         return 0.15 + 0.85 * min(1.0, 0.3 + 1.2 * days) * (0.6 + 0.4 * clouds)
-
-
-def _hour_angle(value: float) -> float:
-    """Return the hour angle of sunrise [rad]; the day never ends or never comes at the poles."""
-    return acos(min(max(value, -1.0), 1.0))
 
 
 def uniform(seed: int, index: int) -> float:

@@ -26,17 +26,17 @@ from agv_motion.parameters import Spec, check
 from agv_motion.simulation.radio import Radio, RadioParameters
 from agv_motion.simulation.sap import PERIOD
 from agv_motion.simulation.shade import Obstacle, light_factor
-from agv_motion.simulation.sun import sun
 from agv_motion.simulation.trials.crowd import scattered
 from agv_motion.simulation.trials.season_tree import SeasonTree
 from agv_motion.simulation.trials.season_zones import MOST_TREES, plan_of
+from agv_motion.sun import sun
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from agv_motion.motion.navigation.zone import Zone
     from agv_motion.planar import Pose
-    from agv_motion.simulation.sun import Sun
+    from agv_motion.sun import Sun
 
 LATITUDE, LONGITUDE = 48.86, 2.35
 

@@ -13,6 +13,7 @@ from agv_motion.probe.sources.simulated import (
     smooth_noise,
     uniform,
 )
+from agv_motion.sun import sun
 
 DAY = 86400.0
 JUNE = 16600 * DAY
@@ -89,3 +90,18 @@ def test_the_sun_rises_by_its_own_time():
         return next(k for k in range(1, 1440) if dark[k - 1] and not dark[k])
 
     assert rise(0.0) - rise(1.0) == pytest.approx(60.0, abs=1.0)
+
+
+@pytest.mark.parametrize('day', [16476, 16600, 16663, 16742])
+def test_the_sap_rises_two_hours_after_the_sun_that_throws_the_shadows(day):
+    """Also in February and November, when the sun is a quarter of an hour late, or early."""
+    given = SimulatedSourceParameters(noise=0.0, drift=0.0, probes=1)
+    source = SimulatedSource(given, 1.0)
+    minutes = [day * DAY + 60.0 * minute for minute in range(1440)]
+    up = [sun(time, given.latitude, 15.0 * given.solar_offset).elevation > 0.0 for time in minutes]
+    flows = [source.sample(time, 1.0).values[0] < given.zero_flow for time in minutes]
+
+    def rise(found):
+        return next(k for k in range(1, 1440) if found[k] and not found[k - 1])
+
+    assert rise(flows) - rise(up) == pytest.approx(120.0, abs=1.0)

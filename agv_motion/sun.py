@@ -1,4 +1,4 @@
-"""Where the sun stands, good to a degree: enough for shadows on a square.
+"""Where the sun stands, and how long the day is; good to a degree: enough for shadows on a square.
 
 Source: J. J. Michalsky, "The Astronomical Almanac's algorithm for approximate solar position
 (1950-2050)", Solar Energy 40(3), 1988; refraction left out.
@@ -6,7 +6,7 @@ Source: J. J. Michalsky, "The Astronomical Almanac's algorithm for approximate s
 
 from __future__ import annotations
 
-from math import asin, atan2, cos, pi, radians, sin, tau
+from math import acos, asin, atan2, cos, pi, radians, sin, tan, tau
 from typing import NamedTuple
 
 J2000 = 946_728_000.0
@@ -22,12 +22,20 @@ class Sun(NamedTuple):
     """[rad] counter-clockwise from east, as every heading here: map x is east, y is north"""
 
 
-def sun(time: float, latitude: float, longitude: float) -> Sun:
-    """Return the direction of the sun.
+class SolarTime(NamedTuple):
+    """The sun on a meridian."""
+
+    declination: float
+    """[rad] how far north of the equator it stands"""
+    hour_angle: float
+    """[rad] since it stood highest, in [-pi, pi)"""
+
+
+def solar_time(time: float, longitude: float) -> SolarTime:
+    """Return how the sun stands to the meridian of a place.
 
     Args:
         time: Seconds since 1970, UTC.
-        latitude: [deg] north positive.
         longitude: [deg] east positive.
 
     """
@@ -37,9 +45,33 @@ def sun(time: float, latitude: float, longitude: float) -> Sun:
     ecliptic = mean_longitude + radians(1.915 * sin(anomaly) + 0.020 * sin(2.0 * anomaly))
     obliquity = radians(23.439 - 4e-7 * days)
     right_ascension = atan2(cos(obliquity) * sin(ecliptic), cos(ecliptic))
-    declination = asin(sin(obliquity) * sin(ecliptic))
     sidereal = radians((280.46062 + 360.98564737 * days + longitude) % 360.0)
-    hour_angle = (sidereal - right_ascension + pi) % tau - pi
+    return SolarTime(
+        asin(sin(obliquity) * sin(ecliptic)), (sidereal - right_ascension + pi) % tau - pi
+    )
+
+
+def half_day(declination: float, latitude: float) -> float:
+    """Return the hour angle of sunset [rad]: 0 where the sun never rises, pi where it never sets.
+
+    Args:
+        declination: Of the sun [rad].
+        latitude: [deg] north positive.
+
+    """
+    return acos(min(max(-tan(radians(latitude)) * tan(declination), -1.0), 1.0))
+
+
+def sun(time: float, latitude: float, longitude: float) -> Sun:
+    """Return the direction of the sun.
+
+    Args:
+        time: Seconds since 1970, UTC.
+        latitude: [deg] north positive.
+        longitude: [deg] east positive.
+
+    """
+    declination, hour_angle = solar_time(time, longitude)
     phi = radians(latitude)
     east = -cos(declination) * sin(hour_angle)
     north = cos(phi) * sin(declination) - sin(phi) * cos(declination) * cos(hour_angle)

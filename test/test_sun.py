@@ -7,7 +7,7 @@ from math import degrees, pi, radians
 
 import pytest
 
-from agv_motion.simulation.sun import sun
+from agv_motion.sun import half_day, solar_time, sun
 
 
 def at(*moment):
@@ -46,3 +46,29 @@ def test_further_east_it_is_later():
 def test_at_the_pole_it_neither_rises_nor_sets():
     heights = [degrees(sun(at(2015, 6, 21, hour, 0), 90.0, 0.0).elevation) for hour in range(24)]
     assert heights == pytest.approx([23.44] * 24, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ('moment', 'minutes'),
+    [((2015, 2, 11, 12, 0), -14.2), ((2015, 11, 3, 12, 0), 16.4), ((2015, 6, 13, 12, 0), 0.0)],
+)
+def test_noon_of_the_sun_is_early_or_late_by_the_equation_of_time(moment, minutes):
+    assert degrees(solar_time(at(*moment), 0.0).hour_angle) * 4.0 == pytest.approx(minutes, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ('declination', 'latitude', 'hours'),
+    [(0.0, 48.86, 6.0), (23.44, 48.86, 7.98), (-23.44, 48.86, 4.02), (23.44, 70.0, 12.0),
+     (-23.44, 70.0, 0.0)],
+)  # fmt: skip
+def test_half_a_day_is_six_hours_at_the_equinox_and_longer_in_summer(declination, latitude, hours):
+    found = half_day(radians(declination), latitude)
+    assert found * 12.0 / pi == pytest.approx(hours, abs=0.01)
+
+
+@pytest.mark.parametrize('latitude', [-40.0, 0.0, 48.86])
+def test_the_sun_sets_at_the_end_of_half_a_day(latitude):
+    start = at(2015, 4, 10, 12, 0)
+    declination, angle = solar_time(start, 0.0)
+    sunset = start + (half_day(declination, latitude) - angle) / (2.0 * pi) * 86400.0
+    assert degrees(sun(sunset, latitude, 0.0).elevation) == pytest.approx(0.0, abs=0.15)
