@@ -1,7 +1,8 @@
 """Topics, timers and services of a node: there while it is configured, silent while inactive.
 
 rclpy lets callbacks of an inactive node run, and what they raise end the process. Here a callback
-runs only while its node is active, an error of the input is told, and a defect stops the node.
+runs only while its node is active, an error of the input is told, and a defect stops the node. What
+an executor had in hand when an end was closed comes to nothing: another one may be there by then.
 """
 
 from __future__ import annotations
@@ -96,8 +97,11 @@ class Ends:
         """Call ``callback`` with each message; the last one is kept while inactive, if latched."""
         node, owner, unheard = self._node, self._owner, self._unheard
         kept = kept or qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        there = True
 
         def guarded(message: Any) -> None:
+            if not there:
+                return
             if not owner.active:
                 if kept:
                     unheard[topic] = lambda: guarded(message)
@@ -114,14 +118,20 @@ class Ends:
             kind, topic, guarded, qos,
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
-        self.add(lambda: node.destroy_subscription(subscription))
+
+        def close() -> None:
+            nonlocal there
+            there = False
+            node.destroy_subscription(subscription)
+
+        self.add(close)
 
     def every(self, seconds: float, callback: Callable[[], None], clock: Clock | None) -> None:
         """Call ``callback`` periodically."""
-        node, owner = self._node, self._owner
+        node, owner, there = self._node, self._owner, True
 
         def guarded() -> None:
-            if owner.active:
+            if there and owner.active:
                 try:
                     owner.wake()
                     callback()
@@ -131,7 +141,13 @@ class Ends:
                     owner.stop_for('a timer', error)
 
         timer = node.create_timer(seconds, guarded, clock=clock)
-        self.add(lambda: node.destroy_timer(timer))
+
+        def close() -> None:
+            nonlocal there
+            there = False
+            node.destroy_timer(timer)
+
+        self.add(close)
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
         """Offer a service; it refuses while the node is inactive."""
