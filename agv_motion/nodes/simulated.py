@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Protocol, TypeVar
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from nav_msgs.srv import SetMap
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.model.frames import FrameParameters
+from agv_motion.nodes.clock_leader import CLOCK, ClockLeader
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
+from agv_motion.ros.clock_guard import CLOCK_TOPIC
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
 from agv_motion.ros.plain_node import PlainNode
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 
 FASTEST = 1e4
 """[rad/s, rad] Rate of a motor, and angle of a turret, beyond which a command is none."""
-
-CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 LEAP = 60 * 10**9
 """[ns] A clock that goes on by more at once, or back, is not caught up with but taken over."""
@@ -154,7 +153,8 @@ class SimulatedNode(PlainNode[P]):
         """Put the robot at its start, and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        self._paused, self._clocks = False, 1
+        self._paused = False
+        self._clock: ClockLeader | None = None
         self._commanded_at: tuple[float, float] | None = None
         self._put_at_start()
         self._truth = port.publisher(Odometry, 'ground_truth', SENSOR, sole=True)
@@ -163,12 +163,10 @@ class SimulatedNode(PlainNode[P]):
         port.listen(PoseWithCovarianceStamped, 'carry', self._on_pose, COMMAND)
         port.serve(SetMap, '~/carry', lambda request: self._carry(request.initial_pose))
         if ClockRole(given.clock) is ClockRole.FOLLOW:
-            port.listen(ClockMessage, '/clock', self._follow, CLOCK)
+            port.listen(ClockMessage, CLOCK_TOPIC, self._follow, CLOCK)
             return
-        self._clock_publisher = port.publisher(ClockMessage, '/clock', CLOCK)
         period = 1.0 / (given.rate * given.time_factor)
-        port.every(period, self._lead, steady=True)
-        port.every(1.0, self._watch_clocks, steady=True)
+        self._clock = ClockLeader(port, period, self._lead)
 
     def begin(self) -> None:
         """Stand until a command comes: the last one may be hours old."""
@@ -178,8 +176,8 @@ class SimulatedNode(PlainNode[P]):
     def diagnose(self) -> Diagnosis:
         """Tell the simulated time."""
         level, word = (WARN, 'paused') if self._paused else (OK, 'running')
-        if self._clocks > 1:
-            level, word = ERROR, f'{self._clocks} nodes tell the time on /clock'
+        if self._clock is not None and self._clock.rivals:
+            level, word = ERROR, f'{self._clock.rivals} all tell the time on {CLOCK_TOPIC}'
         time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
         commanded = 'no' if self._commanded_at is None else 'yes'
         values = {'simulated time': time, 'commanded': commanded}
@@ -227,21 +225,10 @@ class SimulatedNode(PlainNode[P]):
         """Return the time after this number of steps, since 1970 [ns]."""
         return self._start + round(steps * 1e9 / self.parameters.rate)
 
-    def _watch_clocks(self) -> None:
-        """Tell when another node makes time pass as well: it would leap to and fro."""
-        self._clocks = self.port.count_publishers('/clock')
-        if self._clocks > 1:
-            self.port.error(
-                f'{self._clocks} nodes tell the time on /clock, which leaps to and fro: let all '
-                'simulators but one follow (clock: follow), or choose another ROS_DOMAIN_ID',
-                throttle_duration_sec=10.0,
-            )
-
     def _lead(self) -> None:
         """Let one step of simulated time pass, and tell it."""
-        if not self._paused:
-            stamp = stamp_of(self._nanoseconds(self.steps + 1))
-            self._clock_publisher.publish(ClockMessage(clock=stamp))
+        if self._clock is not None and not self._paused:
+            self._clock.tell(self._nanoseconds(self.steps + 1))
             self._step()
 
     def _follow(self, message: ClockMessage) -> None:

@@ -35,6 +35,13 @@ class Timed(Protocol):
 
     active: bool
 
+    @property
+    def is_simulated(self) -> bool:
+        """Whether it is simulated."""
+
+    def crowd(self, topic: str) -> str:
+        """Return which nodes publish a topic together, in words; empty if one or none does."""
+
     def seconds(self) -> float:
         """Return the time of the clock [s]."""
 
@@ -54,6 +61,35 @@ class Timed(Protocol):
         """What logs that something is not well."""
 
 
+class ClockLog:
+    """Logs that a clock has a fault, and that it runs again; to wait for it to begin is none."""
+
+    def __init__(self, port: Timed) -> None:
+        """Have said nothing."""
+        self._port = port
+        self._told, self._told_at, self._waited = False, -inf, 0
+
+    def update(self, fault: str) -> None:
+        """Take what is wrong with the clock now; empty if nothing is."""
+        port, steady = self._port, self._port.steady_seconds()
+        if fault in WAITING:
+            self._waited += 1
+            if self._waited == WAITS:
+                self._told = True
+                port.warning(f'{fault}: waiting for it; does nobody simulate? use_sim_time:=false')
+        elif fault and not self._told and steady - self._told_at >= SELDOM:
+            self._told = True
+            port.error(f'{fault}: standing still until it runs well{self._rivals()}')
+        elif self._told and not fault:
+            self._told, self._told_at = False, steady
+            port.info('the clock runs well: going on')
+
+    def _rivals(self) -> str:
+        """Return who tell the time together, and what to do; empty if one alone does."""
+        rivals = self._port.crowd(CLOCK_TOPIC) if self._port.is_simulated else ''
+        return f'; {rivals} all tell the time on {CLOCK_TOPIC}: let only one do so' * bool(rivals)
+
+
 class ClockGuard:
     """Looks at the clock of one node by the steady clock, and acts upon what it finds."""
 
@@ -64,7 +100,7 @@ class ClockGuard:
         self._inputs: list[Watchdog] = []
         self._acts: list[Callable[[], None]] = []
         self._ran_at, self._longest_nap = port.steady_seconds(), inf
-        self._told, self._told_at, self._waited = False, -inf, 0
+        self._log = ClockLog(port)
 
     def add(self, watchdog: Watchdog) -> None:
         """Take an input for lost until it comes again, whenever the clock has a fault.
@@ -107,26 +143,11 @@ class ClockGuard:
         if watch.fault:
             self.forget_inputs()
             self._act()
-        self._tell(port.steady_seconds())
+        self._log.update(watch.fault)
 
     def _act(self) -> None:
         for act in self._acts if self._port.active else ():
             act()
-
-    def _tell(self, steady: float) -> None:
-        """Log that a fault has begun or ended; to wait for it to begin is none."""
-        fault, port = self.watch.fault, self._port
-        if fault in WAITING:
-            self._waited += 1
-            if self._waited == WAITS:
-                self._told = True
-                port.warning(f'{fault}: waiting for it; does nobody simulate? use_sim_time:=false')
-        elif fault and not self._told and steady - self._told_at >= SELDOM:
-            self._told = True
-            port.error(f'{fault}: standing still until it runs well')
-        elif self._told and not fault:
-            self._told, self._told_at = False, steady
-            port.info('the clock runs well: going on')
 
 
 def if_possible(

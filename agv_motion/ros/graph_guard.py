@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from agv_motion.ros.graph_watch import GraphWatch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from rclpy.lifecycle import LifecycleNode
     from rclpy.qos import QoSProfile
@@ -23,6 +23,22 @@ what it listens to and what is missing."""
 
 PAST_THE_ARBITER = '; where there is an arbiter, remap all others to cmd_vel/agent or the like'
 """What to do about those who drive past it."""
+
+
+class StandingWarnings:
+    """What is not as it should be, told when that begins, and again when it has been away."""
+
+    def __init__(self, warn: Callable[[str], None]) -> None:
+        """Have told nothing; ``warn`` tells."""
+        self._warn = warn
+        self._told: frozenset[str] = frozenset()
+
+    def update(self, texts: Iterable[str]) -> None:
+        """Take all that is so now."""
+        now = frozenset(texts)
+        for text in sorted(now - self._told):
+            self._warn(text)
+        self._told = now
 
 
 class GraphGuard:
@@ -42,10 +58,9 @@ class GraphGuard:
         self.rivals = ''
         """Who publishes together what one node may alone; empty if it does."""
         self._node, self._watch = node, GraphWatch(node)
-        self._is_active, self._warn = is_active, warn
+        self._is_active, self._warnings = is_active, StandingWarnings(warn)
         self._rests = False
         self._looks_left = 0
-        self._told: frozenset[str] = frozenset()
 
     def add(
         self, kind: type[Any], topic: str, qos: QoSProfile, *, publishes: bool, sole: bool
@@ -99,7 +114,4 @@ class GraphGuard:
             + PAST_THE_ARBITER * (topic == 'cmd_vel')
             for topic, who in self._watch.crowds().items()
         }
-        now_true = frozenset((*self.faults(), *crowds))
-        for text in sorted(now_true - self._told):
-            self._warn(text)
-        self._told = now_true
+        self._warnings.update((*self.faults(), *crowds))

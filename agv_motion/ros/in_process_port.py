@@ -173,6 +173,12 @@ class InProcessPort:
         """Return how many nodes publish a topic."""
         return len(self.graph.publishers.get(self.full_name(topic), ()))
 
+    def crowd(self, topic: str) -> str:
+        """Return which nodes publish a topic together, in words; empty if one or none does."""
+        publishers = self.graph.publishers.get(self.full_name(topic), ())
+        names = sorted(f'{one.port.namespace.rstrip("/")}/{one.port.name}' for one in publishers)
+        return ', '.join(names) if len(names) > 1 else ''
+
     # Time
 
     def nanoseconds(self) -> int:

@@ -9,6 +9,7 @@ from rclpy.clock import Clock, ClockType
 
 from agv_motion.ros.clock_guard import ClockGuard
 from agv_motion.ros.ends import Ends
+from agv_motion.ros.graph_ends import full_name, names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -154,6 +155,13 @@ class LivePort:
     def count_publishers(self, topic: str) -> int:
         """Return how many nodes publish a topic."""
         return int(self.node.count_publishers(topic))
+
+    def crowd(self, topic: str) -> str:
+        """Return which nodes publish a topic together, in words; empty if one or none does."""
+        if self.count_publishers(topic) < 2:
+            return ''
+        ends = self.node.get_publishers_info_by_topic(topic)
+        return names(sorted(ends, key=full_name)) if len(ends) > 1 else ''
 
     # Time
 

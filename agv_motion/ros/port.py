@@ -137,6 +137,9 @@ class Port(Protocol):
     def count_publishers(self, topic: str) -> int:
         """Return how many nodes publish a topic."""
 
+    def crowd(self, topic: str) -> str:
+        """Return which nodes publish a topic together, in words; empty if one or none does."""
+
     # Time
 
     @property

@@ -122,5 +122,5 @@ def test_two_that_make_time_pass_are_told_of(tester):
     reports = tester.listen(DiagnosticArray, '/diagnostics')
     tester.start(Simulator, **FAST)
     tester.start(Simulator, remap=['__ns:=/ash'], **FAST)
-    word = '2 nodes tell the time on /clock'
+    word = '/ash/simulator, /simulator all tell the time on /clock'
     tester.wait(reports, lambda m: any(status.message == word for status in m.status))

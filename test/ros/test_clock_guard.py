@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
+import pytest
+
 from agv_motion.ros.clock_guard import LOOK_PERIOD, WAITS, ClockGuard
 
 
@@ -12,12 +14,17 @@ class Node:
 
     def __init__(self):
         self.active, self.time, self.now, self.told = True, 0.0, 100.0, []
+        self.is_simulated, self.clocks = True, ''
         self.info = partial(self._log, 'info')
         self.warning = partial(self._log, 'warning')
         self.error = partial(self._log, 'error')
 
     def _log(self, level, text):
         self.told.append((level, text))
+
+    def crowd(self, topic):
+        assert topic == '/clock'
+        return self.clocks
 
     def seconds(self):
         return self.time
@@ -71,3 +78,18 @@ def test_a_simulation_that_ran_and_stands_or_begins_anew_at_zero_is_an_error():
     node.time = 0.0
     told = looked(node, guard, 5)
     assert told[2:] == [('error', 'the clock went back to zero: standing still until it runs well')]
+
+
+@pytest.mark.parametrize('is_simulated', [True, False])
+def test_who_tell_the_time_together_are_named_where_it_leaps(is_simulated):
+    node = Node()
+    guard = ClockGuard(node)
+    node.time, node.is_simulated = 1000.0, is_simulated
+    looked(node, guard, 30, speed=1.0)
+    assert not guard.watch.fault
+    node.clocks, node.time = '/ash/simulator, /oak/simulator', node.time - 500.0
+    [(level, text)] = looked(node, guard, 1, speed=1.0)
+    assert level == 'error'
+    assert text.startswith('the clock leapt back by 500 s: standing still until it runs well')
+    named = '; /ash/simulator, /oak/simulator all tell the time on /clock: let only one do so'
+    assert text.endswith(named if is_simulated else 'well')
