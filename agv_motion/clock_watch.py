@@ -74,7 +74,7 @@ class ClockPace:
         return max(self.speed, FASTEST) if unsure else self.speed
 
 
-class Move(NamedTuple):
+class ClockMove(NamedTuple):
     """When a clock was last seen to have gone on."""
 
     time: float
@@ -101,7 +101,7 @@ class ClockWatch:
         """What is wrong with the clock, in words; empty if it can be believed"""
         self._pace = ClockPace()
         self._begun = False
-        self._moved: Move | None = None
+        self._moved: ClockMove | None = None
         self._calm_from = self._told_until = -inf
 
     @property
@@ -122,7 +122,7 @@ class ClockWatch:
             self._pace.begin()
             self.fault, self._calm_from = WENT_BACK if self._begun else WAITING[0], inf
         elif self._moved is None:
-            self._begun, self._moved = True, Move(time, steady)
+            self._begun, self._moved = True, ClockMove(time, steady)
             if self._calm_from == inf:  # how fast it runs, the next look will tell
                 self._calm_from = steady + SOON
         else:
@@ -135,7 +135,7 @@ class ClockWatch:
         self.fault = fault
         self._told_until = self._calm_from = steady + CALM
 
-    def _compare(self, moved: Move, time: float, steady: float) -> None:
+    def _compare(self, moved: ClockMove, time: float, steady: float) -> None:
         """Judge a clock by what it tells now and when it ``moved`` last."""
         gained, passed = time - moved.time, steady - moved.steady
         if gained == 0.0:
@@ -146,7 +146,7 @@ class ClockWatch:
                     self.fault = stands if self._pace else WAITING[1]
             return
         if self.fault == WAITING[1]:  # it begins now: how long it took tells nothing of its speed
-            self._moved, self._calm_from = Move(time, steady), steady + SOON
+            self._moved, self._calm_from = ClockMove(time, steady), steady + SOON
             self.fault = WAITING[2]
             return
         if gained < -BACK:
@@ -155,4 +155,4 @@ class ClockWatch:
             self.distrust(f'the clock leapt ahead by {gained:.3g} s', steady)
         if passed > 0.0:
             self._pace.add(gained, passed)
-        self._moved = Move(time, steady)
+        self._moved = ClockMove(time, steady)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import inf, isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
 from agv_motion.bag.cdr import definitions
+from agv_motion.bag.chunk_limits import chunk_limits
 from agv_motion.bag.finished_files import FinishedFiles
 from agv_motion.bag.mcap.together import FEW, Together
 from agv_motion.bag.mcap.writer import McapWriter
@@ -23,15 +23,6 @@ if TYPE_CHECKING:
     from agv_motion.bag.mcap.records import Attachment, Metadata
 
 DEFAULT_QOS = (OfferedQos(),)
-
-
-class ChunkLimits(NamedTuple):
-    """How much goes into a chunk."""
-
-    size: int
-    """[bytes] uncompressed"""
-    span: float
-    """[ns] of log time"""
 
 
 @final
@@ -65,18 +56,11 @@ class BagWriter:
             SourceError: The folder exists, or cannot be made.
 
         """
-        if not (chunk_size >= 1 and chunk_duration > 0.0):
-            msg = (
-                f'chunk_size {chunk_size} and chunk_duration {chunk_duration}: '
-                'both must be positive; 1 MiB and 1 s suit most'
-            )
-            raise ConfigurationError(msg)
+        self._limits = chunk_limits(chunk_size, chunk_duration)
         self.path = Path(path)
         self.discarded = 0
         """messages that found no room on a full disk"""
         self._compression = '' if compression == 'none' else compression
-        span = int(chunk_duration * 1e9) if isfinite(chunk_duration) else inf
-        self._limits = ChunkLimits(chunk_size, span)
         self._finished = FinishedFiles(self.path, ros_distro)
         self._number = 0
         try:

@@ -91,6 +91,10 @@ class TwistRamp:
             self._ease(dt)
         return self.twist
 
+    def fastest(self, twist: Twist) -> float:
+        """Return the speed of the fastest rim with ``twist`` [m/s]."""
+        return max(abs(_speed(row, twist)) for row in self._rows)
+
     def _approach(self, dt: float) -> None:
         """Go along equation (1)."""
         gap, share = _minus(self.target, self.twist), 1.0
@@ -135,7 +139,7 @@ class TwistRamp:
 
     def _slowed(self, twist: Twist) -> Twist:
         """Return ``twist``, all of it slower by one factor where a wheel would be too fast."""
-        fastest = max(abs(_speed(row, twist)) for row in self._rows)
+        fastest = self.fastest(twist)
         if not isfinite(fastest):
             msg = f'twist {tuple(twist)}: no wheel can be so fast; give less'
             raise SignalError(msg)

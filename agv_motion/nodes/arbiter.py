@@ -11,11 +11,10 @@ from std_srvs.srv import SetBool
 
 from agv_motion.arbitration.arbiter import Arbiter
 from agv_motion.arbitration.chassis_limits import ChassisLimits
-from agv_motion.arbitration.choice import FREE, Choice, Hold
-from agv_motion.arbitration.hold_file import restore, save
 from agv_motion.arbitration.source import DRIVERS, TwistSource
 from agv_motion.nodes.arbiter_parameters import ArbiterParameters
-from agv_motion.nodes.driver_report import INACTIVE, DriverReport, diagnosis
+from agv_motion.nodes.driver_report import DriverReport, diagnosis
+from agv_motion.nodes.hold_keeper import HoldKeeper
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.diagnosis import WARN, Diagnosis
 from agv_motion.ros.input_watch import InputWatch
@@ -26,6 +25,7 @@ from agv_motion.ros.run import run
 from agv_motion.ros.twist_rows import TwistRows, twist_publisher
 
 if TYPE_CHECKING:
+    from agv_motion.arbitration.choice import Choice, Hold
     from agv_motion.ros.port import Port
 
 REPORT_PERIOD = 1.0
@@ -45,11 +45,9 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         """Take up what held before the restart, and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        self._saved: Hold | None = None
-        self._trouble = ''
-        """Why STOP and locks would not outlast a restart; empty if they would, or need not"""
+        self._keeper = HoldKeeper(port, given.state_file)
         timeouts = {source: given.timeouts.of(source) for source in DRIVERS}
-        self._arbiter = Arbiter(timeouts, self._held_before())
+        self._arbiter = Arbiter(timeouts, self._keeper.before())
         self._limits = ChassisLimits(given.limits)
         self._watches = {
             source: InputWatch(
@@ -58,25 +56,15 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
             for source in DRIVERS
         }
         self._commanded_at = 0.0
-        self._told: tuple[Any, ...] = ()
         self._report = DriverReport(port)
         self._publish = twist_publisher(port, given.base_frame, stamped=given.stamped)
         self._listen()
         port.serve(SetBool, '~/stop', self._on_stop)
         for source in DRIVERS:
             port.serve(SetBool, f'~/lock_{source.value}', partial(self._on_lock, source))
-        self._period = 1.0 / given.rate
-        port.every(self._period, self._go_on)
+        port.every(1.0 / given.rate, self._go_on)
         port.every(REPORT_PERIOD, self._tell_again, steady=True)
         port.watch_inputs(0.5 * min(timeouts.values()), self._watch)
-
-    def _held_before(self) -> Hold:
-        if not self.parameters.state_file:
-            return FREE
-        hold, complaint = restore(self.parameters.state_file, self.port.seconds())
-        if complaint:
-            self.port.error(f'{complaint}: STOP holds; look at the robot, then release it')
-        return hold
 
     def _listen(self) -> None:
         """Listen to all sources; STOP is heard whatever the message says."""
@@ -105,17 +93,15 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         choice = self._choose()
         self._report.stand(at_once=choice.at_once)
         self._publish(self._limits.stop())
-        found = diagnosis(choice)
-        self._report.publish(Diagnosis(WARN, INACTIVE, found.values | {'driver': 'none'}))
-        self._told = ()
+        self._report.tell_inactive(choice)
         self._keep()
 
     def diagnose(self) -> Diagnosis:
         """Tell who drives, and what would be lost by a restart."""
         found = diagnosis(self._choose())
-        if self._trouble:
-            values = found.values | {'state_file': self._trouble}
-            found = found._replace(values=values).worsened(WARN, self._trouble)
+        if trouble := self._keeper.trouble:
+            values = found.values | {'state_file': trouble}
+            found = found._replace(values=values).worsened(WARN, trouble)
         if (others := self.port.count_publishers('cmd_vel') - 1) > 0:
             found = found.worsened(WARN, PAST_THE_ARBITER.format(others))
         return found
@@ -151,7 +137,7 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
 
     def _pass_on(self, source: TwistSource) -> None:
         choice = self._choose()
-        if source is choice.driver or self._is_new(choice):
+        if source is choice.driver or self._report.is_new(choice):
             self._command(choice)
 
     # Services
@@ -193,20 +179,18 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         self._report.stand(at_once=choice.at_once)
         now = self.port.seconds()
         # after a rest, or a hiccup, no more time counts than has passed in one step, or two
-        longest = self._period if self._limits.twist == REST else 2.0 * self._period
+        period = 1.0 / self.parameters.rate
+        longest = period if self._limits.twist == REST else 2.0 * period
         dt = min(max(now - self._commanded_at, 0.0), longest)
         self._commanded_at = self._publish(self._limits.apply(choice.twist, dt))
-        if self._is_new(choice):
-            self._told = _matter(choice)
-            self._report.publish(diagnosis(choice))
-
-    def _is_new(self, choice: Choice) -> bool:
-        return _matter(choice) != self._told
+        if self._report.is_new(choice):
+            self._report.tell(choice)
 
     def _go_on(self) -> None:
         """Command the next step of a ramp, and whenever the driver has not spoken for a while."""
         waited = self.port.seconds() - self._commanded_at
-        if not (0.0 <= waited < 1.5 * self._period and self._limits.settled):
+        period = 1.0 / self.parameters.rate
+        if not (0.0 <= waited < 1.5 * period and self._limits.settled):
             self._command(self._choose())
 
     def _watch(self) -> None:
@@ -214,7 +198,7 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         if self.port.clock.fault:
             self._arbiter.forget()
         choice = self._choose()
-        if self._is_new(choice) or self.port.clock.fault:
+        if self._report.is_new(choice) or self.port.clock.fault:
             self._command(choice)
             self._keep()
 
@@ -223,27 +207,12 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         self._keep()
 
     def _keep(self) -> None:
-        """Write what holds, where that has changed, or could not be written before."""
-        hold, path = self._arbiter.hold, self.parameters.state_file
-        if not path or hold == self._saved:
-            return
-        try:
-            save(path, hold)
-            self._saved, self._trouble = hold, ''
-        except OSError as error:
-            self._trouble = f'cannot keep STOP and locks over a restart: {error}'
-            self.port.refuse(self._trouble)
+        self._keeper.keep(self._arbiter.hold)
 
 
 PAST_THE_ARBITER = (
     'cmd_vel has {} more publishers, past the arbiter: remap theirs to cmd_vel/agent or the like'
 )
-
-
-def _matter(choice: Choice) -> tuple[Any, ...]:
-    """Return what of a choice is worth telling at once."""
-    verdicts = tuple(standing.verdict for standing in choice.standings.values())
-    return choice.driver, verdicts, choice.hold
 
 
 def main() -> None:

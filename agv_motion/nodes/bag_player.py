@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
-from agv_motion.bag.playback.excerpt import Excerpt
+from agv_motion.bag.playback.excerpt import PlaybackExcerpt
 from agv_motion.bag.playback.playback import Playback
 from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.quality_of_service import KEYS, NO_PROFILE, WORDS, OfferedQos
@@ -91,7 +91,7 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
         for problem in self._bag.problems:
             port.warning(str(problem))
         self._offers = _overrides(given.qos_overrides)
-        topics = Excerpt(self._bag, given).topics
+        topics = PlaybackExcerpt(self._bag, given).topics
         for topic in self._offers:
             if topic not in topics:
                 port.warning(

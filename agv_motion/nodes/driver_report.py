@@ -32,6 +32,8 @@ class DriverReport:
         self._driver = port.publisher(DiagnosticStatus, 'driver', LATCHED, sole=True)
         self._standstill = port.publisher(Bool, 'standstill', LATCHED, sole=True)
         self._standing: bool | None = None
+        self._told: tuple[Any, ...] = ()
+        """what was worth telling of the choice told last"""
 
     def stand(self, *, at_once: bool) -> None:
         """Tell the wheels whether they must stand, where that has changed."""
@@ -42,6 +44,21 @@ class DriverReport:
     def forget(self) -> None:
         """Tell the wheels again, whatever was told before."""
         self._standing = None
+
+    def is_new(self, choice: Choice) -> bool:
+        """Return whether a choice differs from what was told in what is worth telling at once."""
+        return _matter(choice) != self._told
+
+    def tell(self, choice: Choice) -> None:
+        """Tell who drives, and take it for told."""
+        self._told = _matter(choice)
+        self.publish(diagnosis(choice))
+
+    def tell_inactive(self, choice: Choice) -> None:
+        """Tell that nobody drives any more, and how things stood."""
+        self._told = ()
+        values = diagnosis(choice).values | {'driver': 'none'}
+        self.publish(Diagnosis(WARN, INACTIVE, values))
 
     def publish(self, found: Diagnosis) -> None:
         """Tell who drives."""
@@ -55,6 +72,12 @@ class DriverReport:
                 values=[KeyValue(key=key, value=value) for key, value in found.values.items()],
             )
         )
+
+
+def _matter(choice: Choice) -> tuple[Any, ...]:
+    """Return what of a choice is worth telling at once."""
+    verdicts = tuple(standing.verdict for standing in choice.standings.values())
+    return choice.driver, verdicts, choice.hold
 
 
 def diagnosis(choice: Choice) -> Diagnosis:

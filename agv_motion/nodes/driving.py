@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
-
-from geometry_msgs.msg import PoseWithCovarianceStamped
-from nav_msgs.msg import Odometry
-from std_msgs.msg import String
+from typing import TYPE_CHECKING, TypeVar
 
 from agv_motion.activity import Activity, Cause
-from agv_motion.blocked import BlockedParameters
-from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.kinematics.differential_platform import TrackParameters
 from agv_motion.nodes.blocked_report import BlockedReport
-from agv_motion.nodes.input_parameters import CommandParameters
-from agv_motion.parameters import Spec, check
-from agv_motion.planar import REST, Pose, Twist, integrate
-from agv_motion.ros.input_watch import InputWatch
-from agv_motion.ros.messages import pose_of, seconds_of
+from agv_motion.nodes.driving_parameters import DrivingParameters
+from agv_motion.nodes.pose_input import PoseInput
+from agv_motion.nodes.state_report import StateReport
+from agv_motion.planar import REST, Pose, Twist
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.twist_rows import twist_publisher
-from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
     from agv_motion.ros.port import Port
@@ -39,62 +27,6 @@ INACTIVE = 'not active'
 
 LONGEST_STEP = 5
 """Cycles that pass at once at most: nothing runs away from a node that slept."""
-
-OLDEST_POSE = 0.3
-"""[s] An older pose, or one from another clock, is taken as of now."""
-
-
-class PoseTopic(Enum):
-    """The topic that tells where the robot is."""
-
-    ODOM = 'odom'
-    """nav_msgs/Odometry of its wheels, which drifts"""
-    POSE = 'pose'
-    """PoseWithCovarianceStamped of its localisation"""
-
-
-@dataclass(frozen=True)
-class DrivingParameters(CommandParameters, TrackParameters):
-    """How often to command, and whom to believe where the robot is."""
-
-    rate: Annotated[float, Spec('commands per second', 'Hz', (0.1, 1000.0))] = 20.0
-    position: Annotated[
-        str,
-        Spec(
-            'where the pose comes from: topic odom, or topic pose',
-            choices=tuple(each.value for each in PoseTopic),
-        ),
-    ] = PoseTopic.ODOM.value
-    frame: Annotated[
-        str,
-        Spec(
-            'frame of the pose, and of all that is to be driven; that of odom gets the prefix, '
-            'that of pose does not'
-        ),
-    ] = 'odom'
-    blocked: BlockedParameters = field(default_factory=BlockedParameters)
-
-    def __post_init__(self) -> None:
-        """Check every row."""
-        check(self)
-
-    @property
-    def drives_by_odom(self) -> bool:
-        """Whether `frame` is that of the robot's own odometry, rather than one of all robots."""
-        return PoseTopic(self.position) is PoseTopic.ODOM
-
-    def named(self, frame: str) -> str:
-        """Return a frame that was told as `frame` is on the graph."""
-        return self.own(frame) if self.drives_by_odom else frame.lstrip('/')
-
-    def own_names(self) -> tuple[str, ...]:
-        """Return which parameters name frames of the robot itself."""
-        return (*super().own_names(), *(['frame'] * self.drives_by_odom))
-
-    def shared_names(self) -> tuple[str, ...]:
-        """Return which parameters name frames of all robots."""
-        return (*super().shared_names(), *(['frame'] * (not self.drives_by_odom)))
-
 
 P = TypeVar('P', bound=DrivingParameters)
 
@@ -116,34 +48,22 @@ class DrivingNode(PlainNode[P]):
         """Open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        self.pose: Pose | None = None
-        self.lost = f'no {given.position} yet'
-        """Why the pose cannot be used; empty if it can"""
-        self._pose_time = 0.0
         self._twist = REST
-        self.told = ''
-        """The state told last"""
-        self._pose_watch = InputWatch(
-            port, given.position, given.freshness(), loss='the robot stops'
-        )
         self._last_cycle: float | None = None
         self._farewell = 0.0
-        self._activity, self._active_since = (Activity.STARTING, Cause.NOTHING), port.seconds()
-        arm = 0.5 * self.limits().track
-        self.guard = BlockedReport(port, given.blocked, arm, f'clear its way, then {self.release}')
+        arm, longest = 0.5 * self.limits().track, LONGEST_STEP / given.rate
+        remedy = f'clear its way, then {self.release}'
+        self.guard = BlockedReport(port, given.blocked, arm, remedy, longest)
         """Watches that the robot moves when told to"""
         self._command = twist_publisher(port, given.base_frame, stamped=given.stamped)
-        self._state = port.publisher(String, self.state_topic, LATCHED, sole=True)
-        if given.drives_by_odom:
-            port.listen(Odometry, 'odom', self._on_pose, SENSOR, sole=True)
-        else:
-            port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
+        self._state = StateReport(port, self.state_topic)
+        self._pose = PoseInput(port, given)
         port.every(1.0 / given.rate, self._on_cycle)
         port.watch_inputs(given.stop_after, self._watch)
 
     def begin(self) -> None:
         """Know nothing of before: where the robot is must be told anew."""
-        self.pose, self.lost = None, f'no {self.parameters.position} yet'
+        self._pose.begin()
         self._last_cycle = None
         self._twist, self._farewell = REST, 0.0
         self.guard.release()
@@ -152,6 +72,16 @@ class DrivingNode(PlainNode[P]):
         """Send the last word, no motion, and say so: who comes later hears what was said last."""
         self._send(REST)
         self.tell(INACTIVE)
+
+    @property
+    def lost(self) -> str:
+        """Why the pose cannot be used; empty if it can."""
+        return self._pose.lost
+
+    @property
+    def told(self) -> str:
+        """The state told last."""
+        return self._state.state
 
     def limits(self) -> TwistLimits:
         """Return what no command may pass."""
@@ -175,20 +105,12 @@ class DrivingNode(PlainNode[P]):
 
     def activity_values(self) -> dict[str, str]:
         """Return the activity for the diagnostics, and since when it is that."""
-        activity = self.activity()
-        if activity != self._activity:
-            self._activity, self._active_since = activity, self.port.seconds()
-        return {
-            'activity': activity[0].value,
-            'because': activity[1].value,
-            'since [s]': f'{self._active_since:.1f}',
-        }
+        self._state.note(*self.activity())
+        return self._state.values()
 
     def tell(self, state: str) -> None:
         """Say what the robot does, where that has changed."""
-        if state != self.told:
-            self.told = state
-            self._state.publish(String(data=state))
+        self._state.tell(state)
 
     @property
     def obstacle(self) -> str:
@@ -213,10 +135,7 @@ class DrivingNode(PlainNode[P]):
 
     def pose_now(self) -> Pose | None:
         """Return the pose, carried on to now by what was commanded since; None while it is lost."""
-        if self.pose is None or self.lost:
-            return None
-        age = self.port.seconds() - self._pose_time
-        return integrate(self.pose, self._twist, age) if 0.0 < age < OLDEST_POSE else self.pose
+        return self._pose.now(self._twist)
 
     def require_pose(self) -> Pose:
         """Return where the robot is now.
@@ -225,13 +144,7 @@ class DrivingNode(PlainNode[P]):
             SignalError: Nobody knows.
 
         """
-        pose = self.pose_now()
-        if pose is None:
-            msg = f'{self.lost}: where the robot is must be known before it can go anywhere'
-            if not self.parameters.drives_by_odom:
-                msg += ': tell its localization (topic initialpose), or let it move'
-            raise SignalError(msg)
-        return pose
+        return self._pose.require(self._twist)
 
     def require_frame(self, frame: str) -> None:
         """Raise unless ``frame`` is the one in which this node drives.
@@ -240,47 +153,20 @@ class DrivingNode(PlainNode[P]):
             ConfigurationError: It is another.
 
         """
-        if self.parameters.named(frame) not in {'', self.parameters.frame}:
-            msg = (
-                f"frame '{frame}': this node drives in '{self.parameters.frame}'; transform it "
-                'first, or set the parameter frame'
-            )
-            raise ConfigurationError(msg)
-
-    def _on_pose(self, message: Any) -> None:
-        self.require_frame(message.header.frame_id)
-        pose = pose_of(message.pose.pose)
-        if self._pose_watch.is_news(message.header.stamp):
-            self._pose_watch.note()
-            self.pose, self._pose_time = pose, seconds_of(message.header.stamp)
-            self.lost = ''
+        self._pose.require_frame(frame)
 
     def _on_cycle(self) -> None:
         now = self.port.seconds()
         dt = 0.0 if self._last_cycle is None else max(now - self._last_cycle, 0.0)
         dt = min(dt, LONGEST_STEP / self.parameters.rate)
         self._last_cycle = now
-        self._look_for_block(dt)
+        self.guard.look(self.parameters.blocked, self._pose.measured, self._twist)
         self.cycle(dt)
-
-    def _look_for_block(self, dt: float) -> None:
-        """Find out whether the robot has moved as it was told, by its pose as measured."""
-        pose = None if self.lost else self.pose
-        self.guard.look(self.parameters.blocked, pose, self._twist, dt)
 
     def _watch(self) -> None:
         """Stop where the pose is lost; again and again where no cycle will, as the clock stands."""
-        before, self.lost = self.lost, self._why_lost()
-        if self.lost and self._farewell > 0.0 and (self.port.clock.fault or not before):
+        if self._pose.look() and self._farewell > 0.0:
             self._send(REST)
-
-    def _why_lost(self) -> str:
-        """Return why the pose cannot be used; empty if it can."""
-        watch, given = self._pose_watch, self.parameters
-        if watch.tell() is not Silence.LOST:
-            return ''
-        silent = watch.age(self.port.steady_seconds()) is not None and not self.port.clock.fault
-        return f'no {given.position} for {given.stop_after:g} s' if silent else watch.why()
 
     def _send(self, twist: Twist) -> None:
         self._twist = twist

@@ -12,7 +12,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.errors import SignalError
-from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.nodes.driving import DrivingNode
+from agv_motion.nodes.driving_parameters import DrivingParameters
 from agv_motion.parameters import Spec
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import fill_path, fill_pose, pose_of

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
-from std_msgs.msg import String
 
 from agv_motion.activity import Activity, Cause, Doing
+from agv_motion.nodes.state_report import StateReport
 from agv_motion.planar import Pose
 from agv_motion.ros.messages import fill_path, fill_pose
 from agv_motion.ros.qos import LATCHED
@@ -34,39 +34,26 @@ class MotionReport:
             frame: Of the map.
 
         """
-        self.doing = Doing('', Activity.STARTING, Cause.NOTHING)
-        """as it was told last"""
-        self._since = port.seconds()
         self._port, self._frame = port, frame
         self._goal: Goal | None = None
         self._path: Corners = ()
         self._paths = port.publisher(Path, 'path', LATCHED, sole=True)
         self._goals = port.publisher(PoseStamped, 'goal', LATCHED)
-        self._states = port.publisher(String, 'state', LATCHED, sole=True)
+        self._states = StateReport(port, 'state')
 
     @property
     def state(self) -> str:
         """What the tree does, in words, as it was told last."""
-        return self.doing.state
+        return self._states.state
 
     def publish_state(self, doing: Doing) -> None:
         """Tell what the tree does, if that is new."""
-        before, self.doing = self.doing, doing
-        if doing == before and self._since > 0.0:
-            return
-        if doing[1:3] != before[1:3] or self._since <= 0.0:
-            self._since = self._port.seconds()
-        if doing.state != before.state:
-            self._states.publish(String(data=doing.state))
+        self._states.update(doing)
 
     def values(self, hour: Hour, time_zone: str) -> dict[str, str]:
         """Return what the tree does, for programs that read the diagnostics."""
-        doing = self.doing
-        return {
-            'activity': doing.activity.value,
-            'because': doing.because.value,
-            'since [s]': f'{self._since:.1f}',
-            'waits for': doing.waits_for,
+        return self._states.values() | {
+            'waits for': self._states.doing.waits_for,
             'hours': hour.phase.name.lower(),
             'hours until [s]': f'{hour.until:.0f}',
             'time zone': time_zone,

@@ -11,9 +11,10 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path
 from std_srvs.srv import SetBool, Trigger
 
-from agv_motion.activity import Activity, Cause
+from agv_motion.activity import Activity, Cause, Doing
 from agv_motion.errors import SignalError
-from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.nodes.driving import DrivingNode
+from agv_motion.nodes.driving_parameters import DrivingParameters
 from agv_motion.parameters import Spec
 from agv_motion.planar import Pose
 from agv_motion.ros.config import find_config
@@ -71,7 +72,8 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         super().__init__(port, parameters)
         self._follower: RouteFollower | None = None
         self._route: Route | None = None
-        self._ended, self._idle_as = IDLE, (Activity.WAITING, Cause.NOTHING)
+        self._idle = Doing(IDLE, Activity.WAITING, Cause.NOTHING)
+        """What it does without a route"""
         self._paused = False
         self._point = port.publisher(PointStamped, 'route/virtual_point', SENSOR)
         self._limits = port.publisher(DiagnosticStatus, 'route/limits', SENSOR)
@@ -97,7 +99,9 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         """Leave the route, and send the last word: no motion."""
         if self._follower is not None:
             self._follower = None
-            self._ended = 'left the route: ~/restart follows it from its start'
+            self._idle = self._idle._replace(
+                state='left the route: ~/restart follows it from its start'
+            )
         super().halt()
 
     def limits(self) -> TwistLimits:
@@ -123,7 +127,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
     def activity(self) -> tuple[Activity, Cause]:
         """Return what the robot does, for programs, and what that goes back to."""
         if self._follower is None:
-            return self._idle_as
+            return self._idle.activity, self._idle.because
         if self._paused:
             return Activity.PAUSED, Cause.PERSON
         return self.hindered() if self.obstacle else (Activity.DRIVING, Cause.GOAL)
@@ -133,7 +137,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         follower, pose = self._follower, self.pose_now()
         if follower is None:
             self.leave(dt)
-            self.tell(self._ended)
+            self.tell(self._idle.state)
         elif self._paused or pose is None or self.obstacle:
             follower.rest()
             self.stand()
@@ -172,7 +176,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
 
     def _end(self, how: str, activity: Activity, because: Cause) -> None:
         self._follower = None
-        self._ended, self._idle_as = how, (activity, because)
+        self._idle = Doing(how, activity, because)
         self.port.info(how)
         self.tell(how)
 

@@ -5,19 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any
 
-from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from nav_msgs.msg import Path
-from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
-from agv_motion.nodes.driving import DrivingNode, DrivingParameters
+from agv_motion.nodes.driving import DrivingNode
+from agv_motion.nodes.driving_parameters import DrivingParameters
+from agv_motion.nodes.sequence_report import SequenceReport
 from agv_motion.parameters import Spec
 from agv_motion.ros.config import find_config
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
-from agv_motion.ros.messages import fill_path
-from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.sequence.prediction import predict
@@ -41,9 +38,6 @@ ACTIVITIES = {
     SequenceState.FAILED: (Activity.FAILED, Cause.MOTION),
     SequenceState.ABORTED: (Activity.STOPPED, Cause.PERSON),
 }
-
-TOLD_EVERY = 0.2
-"""[s] between two words on progress."""
 
 
 @dataclass(frozen=True)
@@ -86,10 +80,7 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         self.refusal = ''
         """Why it did not start by itself"""
         self._armed = parameters.autorun
-        self._untold = 0.0
-        self._status = port.publisher(DiagnosticStatus, 'sequence/status', LATCHED)
-        self._progress = port.publisher(Float64, 'sequence/progress', SENSOR)
-        self._path = port.publisher(Path, 'sequence/path', LATCHED)
+        self._report = SequenceReport(port)
         port.serve(Trigger, '~/start', self._on_start)
         port.serve(SetBool, '~/pause', self._on_pause)
         port.serve(Trigger, '~/abort', self._on_abort)
@@ -153,9 +144,11 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         if runner.status.reason != reason:
             self.port.error(runner.status.reason)
         self.tell(self._words(runner))
-        self._untold += dt
-        if runner.ended or runner.status.number != number or self._untold >= TOLD_EVERY:
-            self._report(runner)
+        due = self._report.is_due(dt)
+        if due or runner.ended or runner.status.number != number:
+            failed = runner.status.state is SequenceState.FAILED
+            level = ERROR if failed else OK
+            self._report.publish(runner, level, self.told, self.share_done())
         if runner.ended:
             self.stand()
             self.port.info(self.told)
@@ -192,33 +185,6 @@ class SequenceNode(DrivingNode[SequenceParameters]):
             return f'failed: {status.reason}'
         return status.state.value if runner.ended else f'{status.state.value}, {where}'
 
-    def _report(self, runner: SequenceRunner) -> None:
-        self._untold = 0.0
-        share = self.share_done()
-        self._progress.publish(Float64(data=share))
-        status = runner.status
-        pairs = {
-            'sequence': runner.sequence.name,
-            'state': status.state.value,
-            'action': runner.present.name,
-            'number': f'{status.number + 1}',
-            'of': f'{len(runner.sequence.steps)}',
-            'attempt': f'{status.attempt}',
-            'elapsed [s]': f'{status.elapsed:.1f}',
-            'timeout [s]': f'{runner.present.timeout:g}',
-            'action done': f'{status.progress:.3f}',
-            'sequence done': f'{share:.3f}',
-            'last failure': status.reason,
-        }
-        self._status.publish(
-            DiagnosticStatus(
-                level=ERROR if status.state is SequenceState.FAILED else OK,
-                name=self.port.name,
-                message=self.told,
-                values=[KeyValue(key=key, value=value) for key, value in pairs.items()],
-            )
-        )
-
     def _on_start(self, _: Any) -> str:
         if self.runner is not None and not self.runner.ended:
             msg = f'running already ({self.told}): call ~/abort first'
@@ -234,16 +200,9 @@ class SequenceNode(DrivingNode[SequenceParameters]):
         self.predicted = predicted
         for warning in filter(None, (each.warning for each in predicted)):
             self.port.warning(warning)
-        self._show(predicted)
+        self._report.show(predicted, given.frame)
         total = sum(each.duration for each in predicted)
         return f'{sequence.name}: {len(sequence.steps)} actions, about {total:.0f} s'
-
-    def _show(self, predicted: list[Predicted]) -> None:
-        message = Path()
-        self.port.stamp(message)
-        message.header.frame_id = self.parameters.frame
-        fill_path(message, [pose for each in predicted for pose in each.poses])
-        self._path.publish(message)
 
     def _on_pause(self, request: Any) -> str:
         runner = self._running()

@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-from array import array
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import Trigger
 
 from agv_motion.activity import HeldBy
 from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.steering.controller import SteeringController
-from agv_motion.kinematics.steering.state import Limiter
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.steering_parameters import WheelKinematicsParameters
+from agv_motion.nodes.turret_commands import LimiterReport, TurretCommands
 from agv_motion.nodes.turret_states import TurretStates
 from agv_motion.planar import REST, Twist
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
 from agv_motion.ros.messages import (
     TurretJoints,
-    stamp_of,
 )
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.run import run
-from agv_motion.ros.turret_rows import TurretRows
-from agv_motion.ros.twist_rows import TwistRows
 from agv_motion.watchdog import Silence
 
 if TYPE_CHECKING:
@@ -58,26 +52,18 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         """Build the kinematics and open the topics."""
         super().__init__(port, parameters)
         given = parameters
-        turrets = Turrets.of(given)
-        self._zero = given.zeros()
-        self._period = 1.0 / given.rate
-        self._driving = SteeringController(turrets, given, self._period, given.unwind_after)
-        self._joints = TurretJoints(len(turrets))
+        turrets, joints = Turrets.of(given), TurretJoints(len(given.turret_x))
+        period = 1.0 / given.rate
+        self._driving = SteeringController(turrets, given, period, given.unwind_after)
         self._residual = 0.0
-        self._arrays_wanted = False
-        self._limiter = Limiter.NONE
         self._instant = 0
         """for which the last command was planned [ns]"""
-        rows = TurretRows(self._joints, len(turrets), given.base_frame)
-        self._command = port.row_publisher(rows, 'turrets/command', COMMAND, sole=True)
-        self._limited = port.row_publisher(TwistRows(given.base_frame), 'cmd_vel/limited', COMMAND)
-        self._steering = port.publisher(Float64MultiArray, 'turrets/steering_commands', COMMAND)
-        self._wheels = port.publisher(Float64MultiArray, 'turrets/wheel_commands', COMMAND)
-        self._limits = port.publisher(String, 'turrets/limiter', LATCHED)
+        self._commands = TurretCommands(port, given, joints)
+        self._limiter = LimiterReport(port)
         self._guard = CommandGuard(port, given, 'turrets/state', self)
-        self._states = TurretStates(port, given, self._joints, self, self._guard.state)
+        self._states = TurretStates(port, given, joints, self, self._guard.state)
         port.serve(Trigger, '~/unwind', self._on_unwind)
-        port.every(self._period, self._go_on)
+        port.every(period, self._go_on)
         port.watch_inputs(given.stop_after, self._watch)
 
     def halt(self) -> None:
@@ -94,7 +80,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         values = {
             'residual [m/s]': f'{self._residual:.5f}',
             'cmd_vel': silence.value,
-            'limited by': self._limiter.value,
+            'limited by': self._limiter.limiter.value,
             'wheel speed [m/s]': f'{self._states.fastest:.5f}',
             'commanded wheel speed [m/s]': f'{self._fastest_command():.5f}',
         } | self._guard.values()
@@ -153,14 +139,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         """Command zero to the wheels; turrets that nobody has set or seen yet are left alone."""
         self._driving.stop()
         self._instant = self.port.nanoseconds()
-        if self._driving.setpoints is None:
-            message = self._joints.standstill()
-            message.header.frame_id = self.parameters.base_frame
-            message.header.stamp = stamp_of(self._instant)
-            self._command.publish_message(message)
-            self._tell_limited()
-        else:
-            self._send()
+        self._send()
 
     def _go_on(self) -> None:
         """Bring the wheels nearer to the wanted twist, also between two messages."""
@@ -169,7 +148,7 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         lost = self._guard.command.silence() is Silence.LOST
         if lost and not self._driving.unwinding:
             return  # _watch has stopped the wheels
-        if self._step(0.5 * self._period):
+        if self._step(0.5 / self.parameters.rate):
             self._send()
 
     def _step(self, soonest: float) -> bool:
@@ -178,41 +157,16 @@ class WheelKinematics(PlainNode[WheelKinematicsParameters]):
         if not self._driving.step(self._instant * 1e-9, soonest):
             return False
         setpoints = self._driving.setpoints
-        if setpoints is not None and setpoints.limiter is not self._limiter:
-            self._limiter = setpoints.limiter
-            self._limits.publish(String(data=setpoints.limiter.value))
+        if setpoints is not None:
+            self._limiter.update(setpoints.limiter)
         return True
 
     def _send(self) -> None:
-        """Command the turrets; the two plain arrays only where someone listens."""
-        setpoints = self._driving.setpoints
-        if setpoints is None:
-            return
-        share = self._driving.share()
-        factor = share / self.parameters.wheel_radius
-        rates = [factor * speed for speed in setpoints.speeds]
-        angles = [angle - zero for angle, zero in zip(setpoints.angles, self._zero, strict=True)]
-        self._command.publish((angles, rates), self._instant)
-        self._tell_limited()
-        if self._arrays_wanted:
-            self._steering.publish(Float64MultiArray(data=array('d', angles)))
-            self._wheels.publish(Float64MultiArray(data=array('d', rates)))
-
-    def _tell_limited(self) -> None:
-        """Tell where someone listens what twist is commanded in truth, after all limits."""
-        if not self._limited.get_subscription_count():
-            return
-        driving, twist = self._driving, REST
-        if driving.setpoints is not None:
-            share = driving.share()
-            vx, vy, wz = driving.setpoints.twist(driving.planner.turrets)
-            twist = Twist(share * vx, share * vy, share * wz)
-        self._limited.publish(twist, self._instant)
+        self._commands.send(self._driving, self._instant)
 
     def _watch(self) -> None:
         """Look at the inputs, and at who listens."""
-        listeners = self._steering.get_subscription_count() + self._wheels.get_subscription_count()
-        self._arrays_wanted = listeners > 0
+        self._commands.arrays.look_for_listeners()
         self._guard.judge()
 
     def _on_unwind(self, _: Any) -> str:

@@ -30,10 +30,12 @@ if TYPE_CHECKING:
 class Carrier(Protocol):
     """Who carries the odometry on."""
 
-    joints: WheelJoints
-    """Names of the wheels"""
     reckoning: WheelOdometry
     """The odometry"""
+
+    @property
+    def joints(self) -> WheelJoints:
+        """Names of the wheels."""
 
     def carry(self, stamp: float, angles: Sequence[float | None], *, by_rate: bool) -> Succession:
         """Carry the odometry on to ``angles`` [rad], None where a wheel tells nothing.

@@ -9,25 +9,19 @@ how hard the wheels can brake their motors know best.
 
 from __future__ import annotations
 
-from array import array
-from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64MultiArray
-
 from agv_motion.activity import HeldBy
+from agv_motion.kinematics.paced_ramp import PacedRamp
 from agv_motion.kinematics.twist_ramp import TwistRamp
 from agv_motion.nodes.blocked_report import BlockedReport
 from agv_motion.nodes.command_guard import CommandGuard
+from agv_motion.nodes.wheel_commands import WheelCommands
 from agv_motion.nodes.wheel_states import WheelStates
 from agv_motion.nodes.wheels_parameters import WheelsParameters
 from agv_motion.odometry.wheel_angles import WheelAngles
 from agv_motion.planar import REST, Twist
-from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.plain_node import PlainNode
-from agv_motion.ros.qos import COMMAND
-from agv_motion.ros.twist_rows import TwistRows
 from agv_motion.ros.wheel_joints import WheelJoints
 
 if TYPE_CHECKING:
@@ -90,24 +84,23 @@ class WheelsNode(PlainNode[P]):
 
         """
         given, port = self.parameters, self.port
-        self._rows = rows
-        self._ramp = TwistRamp(rows, given)
-        self._ramped_at, self._settled = -inf, True
-        self.joints, self.reckoning = WheelJoints(joint_names), reckoning
+        self._ramp = PacedRamp(TwistRamp(rows, given), 1.0 / given.rate)
+        self.reckoning = reckoning
         self.standing = True
         """Whether the last twist was zero: then nobody needs to drive on."""
-        self._extras_wanted = False
-        self._blocked = BlockedReport(port, given.blocked, ARM, RELEASE)
-        self._sent, self._looked_at = REST, port.seconds()
-        self._command = port.publisher(JointState, 'wheels/command', COMMAND, sole=True)
-        self._rates = port.publisher(Float64MultiArray, 'wheels/velocity_commands', COMMAND)
-        self._limited = port.row_publisher(TwistRows(given.base_frame), 'cmd_vel/limited', COMMAND)
+        self._blocked = BlockedReport(port, given.blocked, ARM, RELEASE, LONGEST_STEP)
+        self.commands = WheelCommands(port, WheelJoints(joint_names), given.base_frame)
         self.guard = CommandGuard(port, given, 'wheels/state', self)
         fastest = given.odometry.max_wheel_speed / min(wheel_radii)
         angles = WheelAngles(len(joint_names), given.odometry.max_gap, fastest)
         self.states = WheelStates(port, given, self, angles, self.guard.state)
         port.every(1.0 / given.rate, self._go_on)
         port.watch_inputs(given.stop_after, self._watch)
+
+    @property
+    def joints(self) -> WheelJoints:
+        """Names of the wheels."""
+        return self.commands.joints
 
     def begin(self) -> None:
         """Stand until a twist comes."""
@@ -124,18 +117,14 @@ class WheelsNode(PlainNode[P]):
 
     def held_values(self) -> dict[str, str]:
         """Return for the diagnostics what holds the wheels, and how fast they are."""
+        fastest = self._ramp.ramp.fastest
         values = self.guard.values() | {
-            'wheel speed [m/s]': f'{self._fastest(self.reckoning.twist):.5f}',
-            'commanded wheel speed [m/s]': f'{self._fastest(self._sent):.5f}',
+            'wheel speed [m/s]': f'{fastest(self.reckoning.twist):.5f}',
+            'commanded wheel speed [m/s]': f'{fastest(self.commands.twist):.5f}',
         }
         if not self.guard.reason and self._blocked.reason:
             values['held by'] = HeldBy.BLOCKED.value
         return values
-
-    def _fastest(self, twist: Twist) -> float:
-        """Return the speed of the fastest rim with ``twist`` [m/s]."""
-        speeds = (sum(a * b for a, b in zip(row, twist, strict=True)) for row in self._rows)
-        return max(map(abs, speeds))
 
     # cmd_vel -> wheels/command
 
@@ -158,7 +147,6 @@ class WheelsNode(PlainNode[P]):
     def stand(self) -> None:
         """Stop all wheels at once, for safety."""
         self._ramp.stop()
-        self._settled = True
         self._send(REST, self.port.nanoseconds())
 
     def start_anew(self) -> None:
@@ -167,49 +155,31 @@ class WheelsNode(PlainNode[P]):
     def _follow(self, twist: Twist) -> None:
         """Go over to ``twist`` as fast as the wheels may, and answer with a command at once."""
         self.rates(twist)  # refuses what the wheels cannot make
-        self._ramp.set_target(twist)
+        self._ramp.ramp.set_target(twist)
         self._advance()
 
     def _go_on(self) -> None:
         """Command the next step of a ramp, however seldom `cmd_vel` comes."""
-        if not self._ramp.settled:
+        if not self._ramp.ramp.settled:
             self._advance()
 
     def _advance(self) -> None:
-        """Command what the ramp has come to; a step counts for no more than its period, or two.
-
-        After a rest one period has passed, however long it was.
-        """
+        """Command what the ramp has come to."""
         instant = self.port.nanoseconds()  # of what is commanded for it
-        now = instant * 1e-9
-        period, ramp = 1.0 / self.parameters.rate, self._ramp
-        longest = period if self._settled else 2.0 * period
-        ramp.update(min(max(now - self._ramped_at, 0.0), longest))
-        self._settled, self._ramped_at = ramp.settled, now
-        self._send(ramp.twist, instant)
+        self._send(self._ramp.advance(instant * 1e-9), instant)
 
     def _send(self, twist: Twist, instant: int) -> None:
-        """Command the wheels for an instant [ns]; tell the other two only where someone listens."""
-        rates, self._sent = self.rates(twist), twist
-        message = self.joints.message(rates)
-        message.header.stamp = stamp_of(instant)
-        message.header.frame_id = self.parameters.base_frame
-        self._command.publish(message)
-        if self._limited.get_subscription_count():
-            self._limited.publish(twist, instant)
-        if self._extras_wanted:
-            self._rates.publish(Float64MultiArray(data=array('d', rates)))
+        self.commands.send(twist, self.rates(twist), instant)
 
     def _watch(self) -> None:
         """Look at the inputs, and at who listens."""
-        self._extras_wanted = bool(self._rates.get_subscription_count())
+        self.commands.look_for_listeners()
         self.guard.judge()
 
     # wheels/state -> odom
 
     def note_motion(self) -> None:
         """Stop wheels that do not turn though told to, by their encoders."""
-        now = self.port.seconds()
-        dt, self._looked_at = min(max(now - self._looked_at, 0.0), LONGEST_STEP), now
-        if self._blocked.look(self.parameters.blocked, self.reckoning.pose, self._sent, dt):
+        blocked, commanded = self.parameters.blocked, self.commands.twist
+        if self._blocked.look(blocked, self.reckoning.pose, commanded):
             self.stand()

@@ -36,7 +36,7 @@ class Quality(Enum):
         return self in {Quality.GOOD, Quality.NEGATIVE_FLOW}
 
 
-class Level:
+class ReadingLevel:
     """The level of recent readings; those that persist elsewhere become the level."""
 
     def __init__(self, spike_threshold: float) -> None:
@@ -89,7 +89,7 @@ class ReadingJudge:
         """
         self._off_below, self._highest = off_below, highest
         self._stuck_after = stuck_after
-        self._level = Level(spike_threshold)
+        self._level = ReadingLevel(spike_threshold)
         self._last_time = -FORGET
         self._same_value, self._same_since = 0.0, 0.0
 

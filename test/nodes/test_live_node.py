@@ -88,7 +88,7 @@ def test_a_defect_at_a_message_leaves_an_explicit_zero_and_the_node_can_go_on(ro
 
 
 def test_a_defect_at_a_timer(robot):
-    robot.node.plain._rates.get_subscription_count = fail  # noqa: SLF001 - asked by its watch
+    robot.node.plain.commands._rates.get_subscription_count = fail  # noqa: SLF001 - asked by its watch
     robot.stands_and_says_so('a timer', 'ZeroDivisionError')
 
 

@@ -101,9 +101,9 @@ def test_what_is_remembered_of_places_that_are_still_there_stays(make, tmp_path)
     file = tmp_path / 'memory'
     tree = make(**{'goals.strategy': 'memory', 'memory_file': str(file)})
     tree.live(5.1, 5.1, (1.0, 0.5, 0.75))
-    before = tree.node.plain._agent.memory  # noqa: SLF001
+    before = tree.node.plain._tree.agent.memory  # noqa: SLF001
     tree.set(zone='{boundary: [[1, 1], [12, 1], [12, 12], [1, 12]], margin: 0.2, home: [4, 4]}')
-    memory = tree.node.plain._agent.memory  # noqa: SLF001
+    memory = tree.node.plain._tree.agent.memory  # noqa: SLF001
     assert memory is not before
     assert memory.flow[memory.cell_of(5.1, 5.1)] == 0.75
     tree.graph.stop()
@@ -159,7 +159,7 @@ def test_among_others_the_tree_lets_go_of_its_floor_and_asks_anew(make):
     other = walked(tree, (15.0, 10.0))
     assert other.held[-1] != other.held[0]
     tree.set(zone='{boundary: [[0, 0], [18, 0], [18, 12], [0, 12]], margin: 0.2}')
-    right = tree.node.plain._exchange._navigator.right  # noqa: SLF001
+    right = tree.node.plain._tree.exchange._navigator.right  # noqa: SLF001
     assert (len(right.held), right.requested) == (1, ())
     assert right is other, 'what it knows of the others, and its run, stay'
 
@@ -195,7 +195,7 @@ def walked(tree, place):
     """Let the tree walk beside another that stands at ``place`` and answers; return its right."""
     for number in range(20):
         tree.live()
-        right = tree.node.plain._exchange._navigator.right  # noqa: SLF001
+        right = tree.node.plain._tree.exchange._navigator.right  # noqa: SLF001
         answer = Reservation(
             'ash', MessageId(7, number), 1.5, (place,),
             received={'oak': MessageId(right.run, right._number)},  # noqa: SLF001

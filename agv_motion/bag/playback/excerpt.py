@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 NO_OFFERS: dict[str, OfferedQos] = {}
 
 
-class Excerpt:
+class PlaybackExcerpt:
     """Chosen topics of a bag between two times."""
 
     def __init__(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from agv_motion.bag.playback.excerpt import NO_OFFERS, Excerpt
+from agv_motion.bag.playback.excerpt import NO_OFFERS, PlaybackExcerpt
 from agv_motion.bag.playback.playback_parameters import PlaybackParameters
 from agv_motion.bag.playback.transport import Transport
 from agv_motion.errors import ConfigurationError
@@ -41,7 +41,7 @@ class Playback:
             ConfigurationError: A topic is not in the bag, none is chosen, or the span is empty.
 
         """
-        self.excerpt = Excerpt(bag, given, offers)
+        self.excerpt = PlaybackExcerpt(bag, given, offers)
         self.finished = threading.Event()
         """set when the last message was sent, until :meth:`seek`, and at :meth:`stop`"""
         self.failure = ''
