@@ -30,6 +30,8 @@ AGREEING = 6
 """So many of them do, or somebody carried the robot."""
 SHARES = 0.01, 0.02, 0.05, 0.1
 """[-] How wrong lengths may be: as a calibration leaves them, and up to a bad drawing."""
+LEAST = 3
+"""References between which a robot was left alone, or they tell nothing."""
 EXPLAINED = 0.8
 """[-] of the references must be explained: outliers are not, nor places on the way."""
 GATE = 5.0
@@ -85,7 +87,19 @@ def _apart(
     for i, (a, b) in enumerate(pairwise(kept)):
         windows = range(max(b - WINDOW + 1, 0), min(a, len(agreeing) - 1) + 1)
         linked[i] = any(agreeing[j, a - j] and agreeing[j, b - j] for j in windows)
-    return [part for part in np.split(kept, np.flatnonzero(~linked) + 1) if len(part) > 2]
+    return groups(kept, linked)
+
+
+def groups(kept: NDArray[np.int_], linked: Mask) -> list[NDArray[np.int_]]:
+    """Return references in groups of neighbours that are linked; less than three tell nothing.
+
+    Args:
+        kept: (n,) indices of references.
+        linked: (n - 1,) whether each belongs together with the next.
+
+    """
+    parts = np.split(kept, np.flatnonzero(~linked) + 1)
+    return [part for part in parts if len(part) >= LEAST]
 
 
 def _windows(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import inf, nan
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -95,3 +97,21 @@ def test_what_is_no_number_is_noticed_wherever_it_stands(values):
     """The greatest of 0 and NaN is 0: a comparison with that alone let NaN through."""
     with pytest.raises(SignalError, match='way'):
         require_within('way', values, 3.0, 'm', 'drive less')
+
+
+@pytest.mark.parametrize('signs', list(product((-1.0, 0.0, 1.0), repeat=3)))
+@pytest.mark.parametrize('size', [0.3, 0.6, 0.8])
+def test_three_correlations_pass_where_all_axes_keep_a_variance(size, signs):
+    """Each of them may be possible, and not all three: numpy's eigenvalues tell."""
+    xy, xt, yt = (size * sign for sign in signs)
+    scale = np.diag([2.0, 0.5, 0.1])
+    shape = np.array([[1.0, xy, xt], [xy, 1.0, yt], [xt, yt, 1.0]])
+    matrix = scale @ shape @ scale
+    covariance = Covariance(*map(float, matrix[np.triu_indices(3)]))
+    least = float(np.linalg.eigvalsh(shape)[0])
+    assert abs(least) > 0.01
+    if least > 0.0:
+        require_measurement('fix', covariance, heading=True)
+        return
+    with pytest.raises(SignalError, match='not positive definite'):
+        require_measurement('fix', covariance, heading=True)

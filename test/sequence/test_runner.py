@@ -296,3 +296,16 @@ def test_an_action_that_does_not_come_to_its_end_has_failed_by_so_much():
     drive.pose = Pose(0.94, 0.0, 0.0)
     assert drive.run(stuck=True) is SequenceState.FAILED
     assert re.search(r'GoTo: 6\.\d cm short, .* tolerance 3 cm', drive.runner.status.reason)
+
+
+def test_after_a_failure_that_is_skipped_the_next_action_leaves_from_where_the_robot_is():
+    """Where the failed one was to end counts for no other, however near that is."""
+    drive = Drive(GoTo(0.5, 0.0, 0.0), DriveArc(180.0, 2.0), timeout=2.0, on_failure=SKIP)
+    while drive.runner.status.number == 0:
+        drive.tick()
+    assert 'not done within' in drive.runner.status.reason
+    assert hypot(drive.pose.x - 0.5, drive.pose.y) < 0.01
+    begun = drive.pose = drive.pose._replace(y=0.03)
+    drive.tick()
+    leader = drive.runner._follower.leader.pose  # noqa: SLF001 - before anything has moved
+    assert hypot(leader.x - begun.x, leader.y - begun.y) < 0.001

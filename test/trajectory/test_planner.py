@@ -130,3 +130,10 @@ def test_a_goal_aside_by_less_than_any_angle_lies_straight_ahead(delta, aside):
     trajectory = ghost.compute_trajectory(Pose(900.0, aside, 0.0), delta, *PACE)
     assert trajectory.pose(100.0).theta == pytest.approx(0.0, abs=1e-12)
     assert trajectory.pose(100.0).y == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_time_of_an_arc_is_its_length_by_its_speed():
+    """1.45 m at 0.02 m/s are 72.5 s: refused before the ramps of 10 s are planned."""
+    given = GhostParameters(longest_time=60.0)
+    with pytest.raises(ConfigurationError, match=r'of 72\.5 s or more: at most 60 s'):
+        Ghost(ORIGIN, given).compute_arc(2.0, 1.0 - given.track / 2.0, 0.002, 0.02)

@@ -112,3 +112,14 @@ def test_a_moment_in_words():
 def test_hours_that_are_none_are_refused(parameters, word):
     with pytest.raises(ConfigurationError, match=word):
         ScheduleParameters(**parameters)
+
+
+@pytest.mark.parametrize('offset', [-3.0, 0.25, 6.0])
+def test_the_hours_before_dawn_are_those_of_the_sun_over_the_place(offset):
+    hours = schedule(
+        opens='00:00', closes='23:59', night_start=2.0, night_end=5.0, solar_offset=offset
+    )
+    start = datetime(2015, 6, 17, tzinfo=timezone.utc).timestamp() + (2.0 - offset) * 3600.0
+    found = [hours.hour(start + seconds) for seconds in (-1.0, 0.0, 10_799.0, 10_800.0)]
+    assert [hour.phase is Phase.CALIBRATING for hour in found] == [False, True, True, False]
+    assert found[1].until == found[2].until == start + 10_800.0
