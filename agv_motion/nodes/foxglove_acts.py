@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from agv_motion.ros.live_port import LivePort
 
 ARBITER = 'arbiter'
+MOST_OPENED = 200
+"""topics on which something may ever be published here, each by its type"""
+PADDING = 3
+"""[bytes] that may follow a message in CDR"""
 CALL_PATIENCE = 5.0
 """[s] within which a service is to answer"""
 
@@ -40,13 +44,23 @@ class FoxgloveActs:
         self._node = port.node
         self._services = RobotServices(port)
         self._publisher = publisher
+        self._opened: set[tuple[str, str]] = set()
 
     def poll(self) -> None:
         """Hand on what services have answered."""
         self._services.poll()
 
     def prepare(self, topic: str, kind: str) -> bool:
-        """Open a topic, so that who listens has been found when something is published."""
+        """Open a topic, so that who listens has been found when something is published.
+
+        Raises:
+            RefusedError: Too many were opened before: they stay open.
+
+        """
+        self._opened |= {(topic, kind)} if len(self._opened) < MOST_OPENED else set()
+        if (topic, kind) not in self._opened:
+            msg = f'{topic}: {MOST_OPENED} topics were opened here before: no more can be'
+            raise RefusedError(msg)
         self._publisher(message_class(kind), topic)
         return True
 
@@ -65,8 +79,8 @@ class FoxgloveActs:
 
         """
         whole = message_class(kind)
-        message = codec(whole).decode(data)
-        require_finite(topic, message)
+        message = decoded(topic, whole, data)
+        self.prepare(topic, kind)
         publisher = self._publisher(whole, topic)
         listeners = self._node.get_subscriptions_info_by_topic(topic)
         if not listeners or not publisher.get_subscription_count():
@@ -85,12 +99,11 @@ class FoxgloveActs:
         """Call a service with a request in CDR; ``answer`` gets the response in CDR, later.
 
         Raises:
-            SignalError: The data are no request of the type.
+            SignalError: The data are no request of the type, or hold a number that is none.
 
         """
         whole = message_class(kind)
-        request = codec(whole.Request).decode(data)
-        require_finite(service, request)
+        request = decoded(service, whole.Request, data)
 
         def told(response: Any) -> None:
             failed = isinstance(response, Exception)
@@ -115,6 +128,22 @@ def _require_arbiter(topic: str, listeners: list[Any]) -> None:
     if wheels:
         msg = f'{topic}: {wheels[0]} listens beside the arbiter, past its STOP'
         raise RefusedError(msg)
+
+
+def decoded(where: str, kind: Any, data: bytes) -> Any:
+    """Return the message of a class that data in CDR are, whole, and with no number that is none.
+
+    Raises:
+        SignalError: They are none, or more than one: those of another type, as like as not.
+
+    """
+    message = codec(kind).decode(data)
+    size = len(codec(kind).encode(message))
+    if len(data) - size > PADDING:
+        msg = f'{where}: {len(data)} bytes, where {kind.__name__} has {size}: is it another type?'
+        raise SignalError(msg)
+    require_finite(where, message)
+    return message
 
 
 def require_finite(where: str, message: Any, path: str = '') -> None:

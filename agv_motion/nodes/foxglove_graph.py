@@ -92,8 +92,9 @@ class FoxgloveGraph:
 
     def _arrived(self) -> Iterator[tuple[str, int, bytes]]:
         for topic, subscription in self._taken:
+            heard = topic in TYPES
             for data, received in subscription.take():
-                if topic in TYPES:
+                if heard:
                     self._hear(topic, data)
                 yield topic, received if self._now is None else self._now, data
 

@@ -104,19 +104,21 @@ class Channels:
             messages: GraphTopic, time [ns] and data of each.
 
         """
-        for channel in self._fresh:
-            channel.fresh = []
-        fresh, by_topic, count = [], self.by_topic, self.count
+        for known in self._fresh:
+            known.fresh = []
+        fresh, by_topic, count, last = [], self.by_topic, self.count, ''
+        channel: LiveChannel | None = None
         for topic, stamp, data in messages:
-            channel = by_topic.get(topic)  # type: ignore[assignment]
+            if topic != last:  # they come topic by topic
+                last, channel = topic, by_topic.get(topic)
+                if channel is not None and not channel.fresh:
+                    fresh.append(channel)
             if channel is None:
                 continue  # it is gone just now
             count += 1
-            said = Said(count, stamp, data)
-            if not channel.fresh:
-                fresh.append(channel)
-            channel.fresh.append(said)
-            channel.slots.append(said)
+            one = Said(count, stamp, data)
+            channel.fresh.append(one)
+            channel.slots.append(one)
         self.count, self._fresh = count, fresh
         return fresh
 

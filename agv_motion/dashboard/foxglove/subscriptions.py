@@ -98,5 +98,7 @@ class Subscriptions:
 
 
 def _write(parts: list[bytes], number: int, messages: Iterable[Said]) -> None:
+    head, add = message_header, parts.append
     for _, stamp, data in messages:
-        parts += message_header(number, stamp, len(data)), data
+        add(head(number, stamp, len(data)))
+        add(data)

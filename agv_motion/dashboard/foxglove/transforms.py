@@ -66,11 +66,14 @@ class DerivedTransforms:
 
         """
         sources = self.needed(chosen)
+        last, is_chosen, is_source = '', False, False
         for message in messages:
             topic, stamp, data = message
-            if topic in chosen:
+            if topic != last:  # they come topic by topic
+                last, is_chosen, is_source = topic, topic in chosen, topic in sources
+            if is_chosen:
                 yield message
-            if topic in sources:
+            if is_source:
                 for name, made in self._transforms.take(topic, data):
                     if name in chosen:
                         yield name, stamp, made

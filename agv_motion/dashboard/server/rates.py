@@ -31,13 +31,13 @@ class RateLimit:
         self._levels: OrderedDict[str, tuple[float, float]] = OrderedDict()
         """what is left of each key, and when that was so"""
 
-    def allows(self, key: str) -> bool:
-        """Return whether ``key`` may once more, and count it."""
+    def allows(self, key: str, cost: float = 1.0) -> bool:
+        """Return whether ``key`` may once more, and count it: as ``cost``, where that is larger."""
         now = self._clock()
         level, since = self._levels.pop(key, (self._burst, now))
         level = min(level + (now - since) * self._rate, self._burst)
-        allowed = level >= 1.0
-        self._levels[key] = level - 1.0 if allowed else level, now
+        allowed = level >= cost
+        self._levels[key] = level - cost if allowed else level, now
         if len(self._levels) > MOST_KEYS:
             self._levels.popitem(last=False)
         return allowed

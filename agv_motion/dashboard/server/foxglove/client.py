@@ -13,7 +13,7 @@ from agv_motion.dashboard.foxglove.subscriptions import Subscriptions
 from agv_motion.errors import AgvMotionError, shortened
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Iterable
+    from collections.abc import Callable, Coroutine, Iterable, Sequence
 
     from agv_motion.dashboard.foxglove.channels import LiveChannel
     from agv_motion.dashboard.foxglove.permissions import Permissions
@@ -24,6 +24,8 @@ MOST_WAITING = 8 * 1024 * 1024
 """[bytes] of answers that a client may leave untaken before it is sent away"""
 MOST_TASKS = 16
 """requests that may be under way at once"""
+TOLD = 5
+"""refusals of one request that are told one by one: its thousands would keep others waiting"""
 MOST_CHANNELS = 50
 """topics on which one client may publish"""
 
@@ -68,6 +70,13 @@ class FoxgloveClient:
     def refuse(self, why: object) -> None:
         """Tell it what was not done."""
         self.tell(Severity.ERROR, shortened(str(why)))
+
+    def refuse_each(self, reasons: Sequence[str]) -> None:
+        """Tell it why parts of a request were not done, of many only some."""
+        for why in reasons[:TOLD]:
+            self.refuse(why)
+        if len(reasons) > TOLD:
+            self.refuse(f'and {len(reasons) - TOLD} more of the same request are refused')
 
     def serve(self, fresh: Iterable[LiveChannel], count: int, time: bytes | None) -> None:
         """Send what is new, if it has taken what was sent before.

@@ -70,8 +70,8 @@ class FoxgloveDesk:
             client.refuse(error)
 
     def _unsubscribe(self, client: FoxgloveClient, request: asked.Unsubscribe) -> None:
-        for number in request.subscriptions:
-            _tell(client, client.subscriptions.remove(number))
+        told = [client.subscriptions.remove(number) for number in request.subscriptions]
+        client.refuse_each([why for why in told if why])
         self._hub.want()
 
     def _watch_parameters(self, client: FoxgloveClient, request: asked.WatchParameters) -> None:
@@ -83,21 +83,25 @@ class FoxgloveDesk:
         self._hub.want()
 
     def _subscribe(self, client: FoxgloveClient, request: asked.Subscribe) -> None:
-        for number, channel in request.channels.items():
-            found = self._hub.channels.by_number.get(channel)
-            if found is None:
-                client.refuse(f'subscribe: there is no channel {channel}')
-            else:
-                _tell(client, client.subscriptions.add(number, found))
+        by_number, add = self._hub.channels.by_number, client.subscriptions.add
+        told = [
+            add(number, by_number[channel]) if channel in by_number
+            else f'subscribe: there is no channel {channel}'
+            for number, channel in request.channels.items()
+        ]  # fmt: skip
+        client.refuse_each([why for why in told if why])
         self._hub.want()
 
     def _advertise(self, client: FoxgloveClient, request: asked.Advertise) -> None:
+        told = []
         for channel in request.channels:
             why = _advertised(client, channel)
-            _tell(client, why)
-            if not why:
+            if why:
+                told.append(why)
+            else:
                 ready = self._hub.source.prepare(channel.topic, channel.type)
                 ready.add_done_callback(lambda done: _tell_failure(client, done))
+        client.refuse_each(told)
 
     def _publish(self, client: FoxgloveClient, request: asked.Publish) -> None:
         channel = client.published.get(request.channel)
@@ -122,9 +126,10 @@ class FoxgloveDesk:
 
 
 def _unadvertise(client: FoxgloveClient, request: asked.Unadvertise) -> None:
-    for number in request.channels:
-        if client.published.pop(number, None) is None:
-            client.refuse(f'unadvertise: there is no channel {number} of yours')
+    client.refuse_each([
+        f'unadvertise: there is no channel {number} of yours'
+        for number in request.channels if client.published.pop(number, None) is None
+    ])  # fmt: skip
 
 
 def _advertised(client: FoxgloveClient, channel: ClientChannel) -> str:
@@ -147,8 +152,3 @@ def _advertised(client: FoxgloveClient, channel: ClientChannel) -> str:
 def _tell_failure(client: FoxgloveClient, done: Future[str]) -> None:
     if not done.cancelled() and done.exception() is not None:
         client.refuse(done.exception())
-
-
-def _tell(client: FoxgloveClient, why: str) -> None:
-    if why:
-        client.refuse(why)

@@ -35,6 +35,8 @@ MOST_OF_ONE = 20
 BURST, RATE = 1000, 100.0
 """messages that a client may send at once, and a second in the long run: a tool subscribes to each
 topic by a message of its own"""
+PIECE = 2048
+"""[characters] of a message that count as one more: a long list takes long to read"""
 
 
 class EndpointRoom(Protocol):
@@ -113,13 +115,16 @@ class FoxgloveDoor:
         """Hear a client until it leaves; one that floods is sent away."""
         rate = RateLimit(BURST, RATE, time.monotonic)
         try:
-            while rate.allows(''):
+            while True:
                 message = await socket.receive()
                 if message['type'] == 'websocket.disconnect':
                     return
-                text, data = message.get('text'), message.get('bytes')
-                self._room.hear(client, text if text is not None else data or b'')
-            client.refuse(f'more than {RATE:g} messages a second')
+                text = message.get('text')
+                said: str | bytes = text if text is not None else message.get('bytes') or b''
+                if not rate.allows('', 1.0 + len(said) / PIECE):
+                    break
+                self._room.hear(client, said)
+            client.refuse(f'more than {RATE:g} messages of {PIECE} characters a second')
             await socket.close(1008, 'too many messages')
         except (WebSocketDisconnect, RuntimeError):
             return

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 PATIENCE = 5.0
 """[s] within which the nodes of a robot must tell theirs"""
+MOST_WATCHED = 5000
+"""names by which a client may watch parameters"""
 FRESH = 1.0
 """[s] for which what was read counts"""
 
@@ -57,8 +59,9 @@ class FoxgloveParameters:
                 '--foxglove-acts'
             )
         else:
-            for node, values in _by_node(request.values).items():
-                await self._set(client, node, values)
+            by_node = _by_node(request.values).items()
+            told = [await self._set(node, values) for node, values in by_node]
+            client.refuse_each([why for why in told if why])
         if request.id:
             self._read.clear()
             names = list(request.values)
@@ -73,23 +76,26 @@ class FoxgloveParameters:
     def watch(client: FoxgloveClient, request: WatchParameters) -> None:
         """Let a client be told of changes, or no more."""
         names = set(request.names or (ALL,))
-        if request.on:
+        if request.on and len(client.watched | names) > MOST_WATCHED:
+            client.refuse(f'{MOST_WATCHED} parameters are watched: watch all of them, by no name')
+        elif request.on:
             client.watched |= names
         elif request.names:
             client.watched -= names
         else:
             client.watched.clear()
 
-    async def _set(self, client: FoxgloveClient, place: str, values: dict[str, Any]) -> None:
+    async def _set(self, place: str, values: dict[str, Any]) -> str:
+        """Set values of one node; return why not, or nothing."""
         namespace, _, node = place.rpartition('/')
         robot = robot_of(namespace)
         if robot not in self._fleet.robots or not node:
-            client.refuse(f"no robot has a node '{place}'")
-            return
+            return f"no robot has a node '{place}'"
         try:
             await self._fleet.act(robot, 'set_parameters', {'node': node, 'values': values})
         except AgvMotionError as error:
-            client.refuse(f'{place}: {error}')
+            return f'{place}: {error}'
+        return ''
 
     async def _values(self, robot: str) -> dict[str, Any]:
         """Return the values of all parameters of a robot, read a moment ago at most."""

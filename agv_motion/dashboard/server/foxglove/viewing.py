@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 PERIOD = 0.01
 """[s] between two looks for what is due"""
+MOST_ASKED = 2000
+"""requests that may wait for the next look, which a client puts off by taking nothing"""
 TIME_PERIOD = 0.1
 """[s] after which the time is told again though nothing is due"""
 PLAYING, RATE, PLACE = '/playback.playing', '/playback.rate', '/playback.seconds'
@@ -125,6 +127,9 @@ class Viewing:
         act = self._acts.get(type(request))
         if act is None:
             raise ProtocolError(RECORDED)
+        if len(self._asked) >= MOST_ASKED:
+            msg = f'{MOST_ASKED} requests wait until you have taken what you were sent'
+            raise ProtocolError(msg)
         act(request)
 
     async def _run(self) -> None:
@@ -161,18 +166,18 @@ class Viewing:
             return list(self._transforms.passed(self._player.due(now), self._chosen))
 
     def _subscribe(self, request: asked.Subscribe) -> None:
-        for number, channel in request.channels.items():
-            found = self._channels.by_number.get(channel)
-            if found is None:
-                self._client.refuse(f'subscribe: there is no channel {channel}')
-            elif why := self._client.subscriptions.add(number, found):
-                self._client.refuse(why)
+        by_number, add = self._channels.by_number, self._client.subscriptions.add
+        told = [
+            add(number, by_number[channel]) if channel in by_number
+            else f'subscribe: there is no channel {channel}'
+            for number, channel in request.channels.items()
+        ]  # fmt: skip
+        self._client.refuse_each([why for why in told if why])
         self._choose()
 
     def _unsubscribe(self, request: asked.Unsubscribe) -> None:
-        for number in request.subscriptions:
-            if why := self._client.subscriptions.remove(number):
-                self._client.refuse(why)
+        told = [self._client.subscriptions.remove(number) for number in request.subscriptions]
+        self._client.refuse_each([why for why in told if why])
         self._choose()
 
     def _choose(self) -> None:
@@ -190,7 +195,7 @@ class Viewing:
         if not self._controls:
             msg = f'playback is controlled by the parameters {PLAYING}, {RATE} and {PLACE}'
             raise ProtocolError(msg)
-        rate = request.speed if request.speed > 0.0 else self._player.rate
+        rate = request.speed or self._player.rate  # without a speed it stays as it is
         require_rate(rate)
         self._change(request.playing, rate, request.seek, request.id)
 
@@ -210,9 +215,10 @@ class Viewing:
     def _get(self, request: asked.GetParameters) -> None:
         values = self._values()
         names = request.names or list(values)
-        for name in names:
-            if name not in values:
-                self._client.refuse(f"no parameter '{name}'; there are {', '.join(values)}")
+        self._client.refuse_each([
+            f"no parameter '{name}'; there are {', '.join(values)}"
+            for name in names if name not in values
+        ])  # fmt: skip
         told = {name: values[name] for name in names if name in values}
         self._client.send(protocol.parameter_values(told, request.id))
 

@@ -9,6 +9,7 @@ import pytest
 from argon2 import PasswordHasher
 from websockets.exceptions import ConnectionClosed
 
+from agv_motion.dashboard.server.foxglove import parameters
 from agv_motion.dashboard.server.users import Users
 
 QUICK = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
@@ -145,3 +146,38 @@ def test_a_flood_ends_the_connection(kept_tool):
         for _ in range(6000):
             kept_tool.socket.send('{"op":"unsubscribe","subscriptionIds":[]}')
     assert kept_tool.closed().code == 1008
+
+
+@pytest.mark.parametrize(
+    ('said', 'words'),
+    [
+        ({'op': 'unsubscribe', 'subscriptionIds': [7] * 5000}, 'no subscription 7'),
+        ({'op': 'unadvertise', 'channelIds': [7] * 5000}, 'no channel 7 of yours'),
+        ({'op': 'subscribe',
+          'subscriptions': [{'id': n, 'channelId': 7} for n in range(1500)]}, 'no channel 7'),
+    ],
+)  # fmt: skip
+def test_of_thousands_of_refusals_some_are_told(kept_tool, said, words):
+    """Each of them would cost the server a message, and everybody else the time."""
+    kept_tool.ask(**said)
+    for _ in range(5):
+        assert words in kept_tool.refusal()
+    count = len(next(rows for key, rows in said.items() if key != 'op'))
+    assert f'and {count - 5} more' in kept_tool.refusal()
+    kept_tool.ask('getParameters', parameterNames=['/nobody.x'])
+    assert "no parameter '/nobody.x'" in kept_tool.refusal()
+
+
+def test_a_flood_of_long_lists_ends_sooner(kept_tool):
+    """A message of 60 kB counts as thirty."""
+    names = [f'/a{n:0500}' for n in range(115)]
+    with suppress(ConnectionClosed):
+        for _ in range(200):
+            kept_tool.ask('subscribeParameterUpdates', parameterNames=names)
+    assert kept_tool.closed().code == 1008
+
+
+def test_names_that_are_watched_have_an_end(kept_tool, monkeypatch):
+    monkeypatch.setattr(parameters, 'MOST_WATCHED', 10)
+    kept_tool.ask('subscribeParameterUpdates', parameterNames=[f'/a.{n}' for n in range(11)])
+    assert '10 parameters are watched' in kept_tool.refusal()

@@ -139,3 +139,53 @@ def test_each_plays_by_itself(server, connect):
     control(second, PAUSE, 1.0, 5 * SECOND)
     assert state(first, 'n')[1] == 3 * SECOND
     assert state(second, 'n')[1] == 5 * SECOND
+
+
+@pytest.mark.parametrize('speed', [-1.0, 1e-9, 1e30, -0.01])
+def test_a_speed_that_is_none_is_refused_and_the_last_one_stays(server, connect, speed):
+    tool = connect(server)
+    control(tool, PAUSE, 4.0, 2 * SECOND, 'first')
+    assert state(tool, 'first')[2] == 4.0
+    control(tool, PLAY, speed)
+    assert 'rate = ' in tool.refusal()
+    control(tool, PAUSE, 0.0, None, 'second')  # no speed is told: it stays
+    assert state(tool, 'second')[:3] == (1, 2 * SECOND, 4.0)
+
+
+@pytest.mark.parametrize(('stamp', 'place'), [(0, SECOND), (2**64 - 1, 11 * SECOND)])
+def test_beyond_the_bag_it_goes_to_its_end(server, connect, stamp, place):
+    tool = connect(server)
+    for number in ('once', 'twice'):
+        control(tool, PAUSE, 1.0, stamp, number)
+        assert state(tool, number)[1] == place
+
+
+def test_numbers_that_are_none_are_refused(server, connect):
+    tool = connect(server)
+    for speed in (float('nan'), float('inf'), -float('inf')):
+        control(tool, PLAY, speed)
+        assert 'must be a finite number' in tool.refusal()
+
+
+def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch):
+    """A client that only speaks: what it asks waits for the next look, which it puts off."""
+    import asyncio
+
+    from agv_motion.dashboard.foxglove.permissions import Permissions
+    from agv_motion.dashboard.foxglove.requests import Control, ProtocolError
+    from agv_motion.dashboard.server.foxglove import viewing
+    from agv_motion.dashboard.server.foxglove.client import FoxgloveClient
+
+    monkeypatch.setattr(viewing, 'MOST_ASKED', 3)
+
+    async def pile_up():
+        client = FoxgloveClient(Some(waiting=1, write=lambda _: None), Permissions())
+        made = viewing.Viewing(RecordedRoom(bag), client, controls=True)
+        request = Control(False, 1.0, None, 'n')  # noqa: FBT003 - pause
+        for _ in range(3):
+            made.do(request)
+        with pytest.raises(ProtocolError, match='3 requests wait'):
+            made.do(request)
+        made.end()
+
+    asyncio.run(pile_up())
