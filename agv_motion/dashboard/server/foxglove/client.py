@@ -113,6 +113,7 @@ class FoxgloveClient:
         task = asyncio.create_task(self._guarded(work))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(lambda _: work.close())  # one that was never begun
 
     async def _guarded(self, work: Coroutine[Any, Any, None]) -> None:
         try:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
+import inspect
+from types import SimpleNamespace as Some
+
 from agv_motion.dashboard.foxglove.permissions import Permissions
 from agv_motion.dashboard.server.foxglove import client
 from agv_motion.dashboard.server.foxglove.client import FoxgloveClient, Renewal
@@ -41,3 +45,22 @@ def test_a_session_is_looked_at_now_and_then():
     times = [0.0, 1.0, 2.5, 2.6, 5.0]
     renewal = Renewal(lambda: times.pop(0))
     assert [renewal.is_due() for _ in range(4)] == [False, True, False, True]
+
+
+def test_a_request_of_a_client_that_leaves_at_once_is_closed():
+    """Its task is cancelled before it is begun."""
+    begun = []
+
+    async def work():
+        begun.append(True)
+
+    async def leave():
+        client, request = FoxgloveClient(Some(), Permissions()), work()
+        client.begin(request)
+        client.close()
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+        return inspect.getcoroutinestate(request)
+
+    assert asyncio.run(leave()) == inspect.CORO_CLOSED
+    assert begun == []
