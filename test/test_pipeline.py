@@ -76,9 +76,9 @@ def moves_by_day_and_rests_by_night(hours, moving):
     assert moving[night].mean() < 0.05
 
 
-def test_it_moves_by_day_and_rests_by_night(spruce):
+def test_it_moves_by_day_and_rests_by_night(springs):
     """One June, shifted by a day and by two."""
-    walk = Walk(spruce, '2013-06-10T00:00:00', days=3.0, seconds=2.6, offsets=(0.0, 1.0, 2.0))
+    walk = Walk(springs, '2013-06-10T00:00:00', days=3.0, seconds=2.6, offsets=(0.0, 1.0, 2.0))
     moves_by_day_and_rests_by_night(*walk.moving_by_hour())
     rates = np.concatenate([message.velocity for message in walk.rates])
     assert np.isfinite(rates).all()
@@ -87,18 +87,18 @@ def test_it_moves_by_day_and_rests_by_night(spruce):
     assert not any(walk.rates[-1].velocity)
 
 
-def test_the_end_of_the_heating_ends_in_rest(spruce):
+def test_the_end_of_the_heating_ends_in_rest(springs):
     """The first probe goes off in the middle of May 2012."""
-    walk = Walk(spruce, '2012-05-15T00:00:00', days=4.0, seconds=2.7, offsets=(0.0, 0.0, 0.0))
+    walk = Walk(springs, '2012-05-15T00:00:00', days=4.0, seconds=2.7, offsets=(0.0, 0.0, 0.0))
     hours, moving = walk.moving_by_hour()
     off = hours > walk.begin / 3600.0 + 2 * 24.0
     assert moving[~off].any()
     assert not moving[off].any()
 
 
-def test_a_gap_in_one_of_three_years_ends_in_rest(spruce):
+def test_a_gap_in_one_of_three_years_ends_in_rest(springs):
     """June 2014, the third probe, is silent from the 18th on; that of 2012 begins on the 14th."""
-    walk = Walk(spruce, '2012-06-16T00:00:00', days=5.0, seconds=3.0)
+    walk = Walk(springs, '2012-06-16T00:00:00', days=5.0, seconds=3.0)
     hours, moving = walk.moving_by_hour()
     gap = hours > walk.begin / 3600.0 + 2.7 * 24.0
     assert not moving[gap].any()

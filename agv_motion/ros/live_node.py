@@ -25,6 +25,7 @@ from agv_motion.ros.diagnostics import Diagnostics
 from agv_motion.ros.graph_guard import GraphGuard
 from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.live_port import LivePort
+from agv_motion.ros.log_callers import note_log_callers
 from agv_motion.ros.parameter_changes import differing, refusal
 from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.plain_node import PlainNode
@@ -61,6 +62,7 @@ class LiveNode(LifecycleNode, Generic[N]):
         self._kind = kind
         self._made: N | None = None
         self.steady = Clock(clock_type=ClockType.STEADY_TIME)
+        note_log_callers()
         self.defect = ''
         """What went wrong in a callback by a fault of ours: the node was deactivated for it."""
         complaints = Complaints(self.get_logger(), time.monotonic)

@@ -34,13 +34,23 @@ SCENES = {
 }  # fmt: skip
 
 
-def read(path, *ends):
-    """Yield topic and message of topics with these ends, by rosbags' reader."""
-    with AnyReader([path]) as reader:
-        wanted = [c for c in reader.connections if c.topic.endswith(ends)]
-        assert wanted, f'none of {ends}'
-        for connection, _, data in reader.messages(wanted):
-            yield connection.topic, reader.deserialize(data, connection.msgtype)
+READ = '/tf', '/tf_static', '/pose', '/fix', '/joint_states', '/robot_description'
+
+
+class Told:
+    """What was recorded, by rosbags' reader; read once, since opening a bag takes it seconds."""
+
+    def __init__(self, path):
+        with AnyReader([path]) as reader:
+            wanted = [c for c in reader.connections if c.topic.endswith(READ)]
+            self._messages = [(connection.topic, reader.deserialize(data, connection.msgtype))
+                              for connection, _, data in reader.messages(wanted)]  # fmt: skip
+
+    def read(self, *ends):
+        """Return topic and message of topics with these ends."""
+        found = [row for row in self._messages if row[0].endswith(ends)]
+        assert found, f'none of {ends}'
+        return found
 
 
 def stamp_of(message):
@@ -50,14 +60,14 @@ def stamp_of(message):
 class Tree:
     """An independent tree of transforms: each frame with its parent, and where it was when."""
 
-    def __init__(self, path):
+    def __init__(self, told):
         self.parents, self.when, self.fixed = {}, {}, set()
-        for topic, message in read(path, '/tf', '/tf_static'):
-            for told in message.transforms:
-                child = told.child_frame_id
-                assert self.parents.setdefault(child, told.header.frame_id) == told.header.frame_id
-                p, q = told.transform.translation, told.transform.rotation
-                self.when.setdefault(child, {})[stamp_of(told)] = (
+        for topic, message in told.read('/tf', '/tf_static'):
+            for one in message.transforms:
+                child = one.child_frame_id
+                assert self.parents.setdefault(child, one.header.frame_id) == one.header.frame_id
+                p, q = one.transform.translation, one.transform.rotation
+                self.when.setdefault(child, {})[stamp_of(one)] = (
                     np.array([p.x, p.y, p.z]), np.array([q.x, q.y, q.z, q.w])
                 )  # fmt: skip
                 self.fixed |= {child} if topic == '/tf_static' else set()
@@ -123,9 +133,8 @@ def scene(request, tmp_path_factory, live_in_process):
         for handle, told in transforms.last():
             bag.write(handle, graph.now, told)
     assert not [text for text in graph.complaints if 'joint' in text or 'frame' in text]
-    return SimpleNamespace(
-        path=path, ends=ends, namespaces=namespaces, seconds=seconds, tree=Tree(path)
-    )
+    told = Told(path)
+    return SimpleNamespace(read=told.read, ends=ends, namespaces=namespaces, tree=Tree(told))
 
 
 def test_the_tree_of_transforms_reaches_from_the_map_to_every_wheel_at_every_instant(scene):
@@ -142,9 +151,7 @@ def test_the_tree_of_transforms_reaches_from_the_map_to_every_wheel_at_every_ins
 def test_a_look_up_at_the_instant_of_a_pose_is_the_pose(scene):
     tree = scene.tree
     topic = '/fix' if scene.namespaces == ['/hare'] else '/pose'
-    told = list(read(scene.path, topic))
-    assert told
-    for name, message in told:
+    for name, message in scene.read(topic):
         prefix = name.removesuffix(topic)[1:]
         place = message.pose.pose.position
         found = tree.place(f'{prefix}/base_link'.lstrip('/'), stamp_of(message))
@@ -154,8 +161,8 @@ def test_a_look_up_at_the_instant_of_a_pose_is_the_pose(scene):
 def test_wheels_roll_as_fast_as_they_say(scene):
     for namespace in scene.namespaces:
         topic = f'{namespace}/joint_states'.replace('//', '/')
-        told = [m for t, m in read(scene.path, '/joint_states') if t == topic]
-        (description,) = [m for t, m in read(scene.path, '/robot_description')
+        told = [m for t, m in scene.read('/joint_states') if t == topic]
+        (description,) = [m for t, m in scene.read('/robot_description')
                           if t.startswith(namespace)]  # fmt: skip
         model = read_urdf(description.data)
         assert set(told[0].name) == set(model.moving)

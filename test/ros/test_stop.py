@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -72,7 +73,7 @@ def test_during_the_imports(slow_import, command, number):
     root = str(Path(__file__).parents[2])
     process = subprocess.Popen(  # noqa: S603 - our own
         [sys.executable, *command], cwd=slow_import, text=True,
-        env={'PYTHONPATH': f'{slow_import}:{root}', 'PATH': '/usr/bin:/bin'},
+        env=os.environ | {'PYTHONPATH': f'{slow_import}:{root}'},
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
     assert process.stdout.readline() == 'importing\n'

@@ -28,9 +28,18 @@ def test_a_short_walk_leaves_a_bag_and_a_figure(alone, tmp_path):
         assert reader.duration == pytest.approx(30e9, rel=0.1)
 
 
-def test_a_walk_on_the_spruce(alone, tmp_path, spruce):
+def test_a_walk_on_the_spruce(alone, tmp_path, springs):
     status, out, errors = alone(
-        'demo', '--minutes', 0.5, '--no-page', '--output', tmp_path, '--probes', spruce, '--days', 2
+        'demo',
+        '--minutes',
+        0.5,
+        '--no-page',
+        '--output',
+        tmp_path,
+        '--probes',
+        springs,
+        '--days',
+        2,
     )
     assert status == 0, errors
     assert 'delta_v_mv' in out
