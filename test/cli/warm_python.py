@@ -8,6 +8,7 @@ is a child of who asked, since its parent here ends at once.
 
 from __future__ import annotations
 
+import atexit
 import fcntl
 import gc
 import json
@@ -17,6 +18,7 @@ import runpy
 import socket
 import sys
 import termios
+from contextlib import suppress
 from importlib import import_module
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
@@ -93,7 +95,22 @@ def become(given, streams):
     os.environ.clear()
     os.environ.update(given['environment'])
     sys.argv[1:] = given['arguments']
-    runpy.run_module(MAIN, run_name='__main__', alter_sys=True)
+    status = []
+    atexit.register(leave, status)  # the first, and so the last to be called
+    try:
+        runpy.run_module(MAIN, run_name='__main__', alter_sys=True)
+    except SystemExit as end:
+        status += [end.code or 0] if isinstance(end.code, int | None) else []
+        raise
+
+
+def leave(status):
+    """End at once where a command gave its status: to take all modules apart costs more than it."""
+    with suppress(OSError, ValueError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        if status:
+            os._exit(status[0])
 
 
 if __name__ == '__main__':
