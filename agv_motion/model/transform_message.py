@@ -8,6 +8,7 @@ Source: OMG, DDS-XTypes 1.3, 7.4.1: XCDR version 1, plain, little-endian.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from struct import Struct
 from typing import TYPE_CHECKING
 
@@ -28,23 +29,26 @@ _SECOND = 1_000_000_000
 def encoded(transforms: Iterable[Transform]) -> bytes:
     """Return transforms as one message in CDR."""
     several = list(transforms)
-    data = bytearray(_COUNT.pack(len(several)))
+    data = _COUNT.pack(len(several))
     for one in several:
-        _align(data, 4)
         data += _STAMP.pack(*divmod(one.stamp, _SECOND))
-        _add_text(data, one.parent)
-        _add_text(data, one.child)
-        _align(data, 8)
+        data += _names(one.parent, one.child, len(data) % 8)
         data += _SEVEN.pack(*one.translation, *one.rotation)
-    return _LITTLE_ENDIAN + bytes(data)
+    return _LITTLE_ENDIAN + data
 
 
-def _add_text(data: bytearray, text: str) -> None:
-    _align(data, 4)
-    content = text.encode() + b'\0'
-    data += _COUNT.pack(len(content)) + content
+@lru_cache(maxsize=1024)
+def _names(parent: str, child: str, begin: int) -> bytes:
+    """Return both names, filled up to where numbers of eight bytes may follow.
 
+    Args:
+        parent: Frame.
+        child: Frame.
+        begin: Where they begin, counted from a multiple of eight [bytes]: 4 or 0.
 
-def _align(data: bytearray, size: int) -> None:
-    """Fill up to a multiple of ``size`` [bytes], counted from behind the four of the header."""
-    data += bytes(-len(data) % size)
+    """
+    data = bytes(begin)
+    for name in (parent, child):
+        content = name.encode() + b'\0'
+        data += bytes(-len(data) % 4) + _COUNT.pack(len(content)) + content
+    return data[begin:] + bytes(-len(data) % 8)

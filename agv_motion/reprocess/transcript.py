@@ -97,8 +97,10 @@ class Transcript:
                 messages[i] = message
         found: list[tuple[int, int, bytes]] = []
         for (publisher, stamp, _), message in zip(waiting, messages, strict=True):
-            name = publisher if isinstance(publisher, str) else publisher.topic
-            if not isinstance(publisher, str):
+            if isinstance(publisher, str):
+                name = publisher
+            else:
+                name = publisher.topic
                 found.append((self._topic(publisher), stamp, message))
             if self._moves is not None and name in self._moving:
                 told = self._moves.take(name, message)

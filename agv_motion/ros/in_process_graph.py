@@ -7,7 +7,7 @@ the same to the bit whenever and wherever it is made.
 from __future__ import annotations
 
 import heapq
-from collections import deque
+from collections import defaultdict, deque
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ class InProcessGraph:
         self.nodes: list[GraphMember] = []
         self.complaints: dict[str, int] = {}
         """what the nodes warned of, and how often"""
-        self.listeners: dict[str, list[Hearer]] = {}
+        self.listeners: defaultdict[str, list[Hearer]] = defaultdict(list)
         self.publishers: dict[str, list[Sender]] = {}
         self._timers: list[tuple[int, int, int, Callable[[], None]]] = []
         """when each is due [ns], its number, its period [ns], and what it calls"""
@@ -136,7 +136,8 @@ class InProcessGraph:
         return {
             topic
             for topic, listeners in self.listeners.items()
-            if all(
+            if listeners
+            and all(
                 publisher.port is listener.port
                 for listener in listeners
                 for publisher in self.publishers.get(topic, ())

@@ -211,4 +211,4 @@ class InProcessPort:
         self.warning(f'refused: {shortened(reason)}')
 
     def _add(self, topic: str, listener: InProcessListener) -> None:
-        self.graph.listeners.setdefault(self.full_name(topic), []).append(listener)
+        self.graph.listeners[self.full_name(topic)].append(listener)

@@ -49,6 +49,8 @@ class InProcessEnd:
         self._encode = codec(kind).encode
         self._graph = port.graph
         self._graph.publishers.setdefault(topic, []).append(self)
+        self._listeners = self._graph.listeners[topic]
+        """all who listen, now or later"""
 
     def publish_message(self, message: Any) -> None:
         """Send a message, or the bytes of one."""
@@ -56,8 +58,7 @@ class InProcessEnd:
 
     def get_subscription_count(self) -> int:
         """Return how many listen, a recording included."""
-        listeners = self._graph.listeners.get(self.topic, ())
-        return len(listeners) + (self.topic in self._graph.recorded)
+        return len(self._listeners) + (self.topic in self._graph.recorded)
 
 
 class InProcessPublisher(InProcessEnd):
@@ -80,10 +81,7 @@ class InProcessRowPublisher(InProcessEnd):
         """Return whether the recording and everyone else who listens take such rows."""
         if not self._graph.takes_rows:
             return False
-        for listener in self._graph.listeners.get(self.topic, ()):
-            if listener.takes is not self._kind:
-                return False
-        return True
+        return all(listener.takes is self._kind for listener in self._listeners)
 
     def publish(self, row: Any, stamp: int) -> None:
         """Send a row; no time passes in a callback, so ``stamp`` [ns] is that of the graph."""

@@ -76,10 +76,10 @@ class RollingShare:
 
     def update(self, phase: Phase, measured: Sequence[float] | None, change: float) -> None:
         """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step."""
-        speeds = phase.setpoints.speeds
+        speeds = list(map(abs, phase.setpoints.speeds))
         self._most = 1.0
         for speed, before in zip(speeds, self._rolled, strict=True):
-            if abs(speed) * SHARE_ROUNDING > before + change:
-                self._most = min(self._most, (before + change) / abs(speed))
+            if speed * SHARE_ROUNDING > before + change:
+                self._most = min(self._most, (before + change) / speed)
         share = self.of(phase, measured)
-        self._rolled = [share * abs(speed) for speed in speeds]
+        self._rolled = [share * speed for speed in speeds]

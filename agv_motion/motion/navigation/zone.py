@@ -153,6 +153,8 @@ class Zone:
 
     def holds(self, x: float, y: float) -> bool:
         """Return whether the whole platform, its rim included, lies on the floor at (x, y)."""
+        if self.walkable(x, y):
+            return True  # and the margin beside it is free, too
         return self.contains(x, y) and self.edge_distance(x, y) >= self.rim - ROUNDING
 
     def edge_distance(self, x: float, y: float) -> float:
