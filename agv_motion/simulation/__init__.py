@@ -1,7 +1,7 @@
 """What stands in for the world: sun, tree, vehicle, measurements; all seeded.
 
-The parameters of each stand beside it in its module; light over a zone: :mod:`.sun` and
-:mod:`.shade`.
+The parameters of each stand beside it in its module; light over a zone: :mod:`.shade`, by
+:mod:`agv_motion.sun`.
 """
 
 from agv_motion.simulation.differential import DifferentialRobot
