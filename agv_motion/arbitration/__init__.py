@@ -1,18 +1,16 @@
 """Of all who ask a robot to move, one is obeyed.
 
-An `Arbiter` takes what each `TwistSource` says and chooses; `ChassisLimits` come after it. A
-`Choice` tells who drives and how all others stand; `sentence` says it in plain English.
+An `Arbiter` takes what each `TwistSource` says and makes a `Choice`: who drives and how all others
+stand; `sentence` says it in plain English. Limits of the whole robot come after it:
+:mod:`.chassis_limits`.
 """
 
 from agv_motion.arbitration.arbiter import Arbiter
-from agv_motion.arbitration.chassis_limits import ChassisLimitParameters, ChassisLimits
 from agv_motion.arbitration.sentence import sentence
 from agv_motion.arbitration.source import TwistSource
 
 __all__ = [
     'Arbiter',
-    'ChassisLimitParameters',
-    'ChassisLimits',
     'TwistSource',
     'sentence',
 ]

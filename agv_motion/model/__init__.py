@@ -1,20 +1,15 @@
 """What a robot is made of, the frames of its parts, and where they are: for all tools that draw."""
 
 from agv_motion.model.graph_transforms import GraphTransforms
-from agv_motion.model.robot_model import JointKind, RobotJoint, RobotLink, RobotModel
+from agv_motion.model.robot_model import RobotModel
 from agv_motion.model.robot_transforms import RobotTransforms
 from agv_motion.model.transform import Transform
-from agv_motion.model.transform_message import encoded
 from agv_motion.model.urdf_reading import read_urdf
 
 __all__ = [
     'GraphTransforms',
-    'JointKind',
-    'RobotJoint',
-    'RobotLink',
     'RobotModel',
     'RobotTransforms',
     'Transform',
-    'encoded',
     'read_urdf',
 ]

@@ -5,17 +5,15 @@
 :mod:`agv_motion.probe.sources`.
 """
 
-from agv_motion.probe.granier import flow_index, flux_density, flux_density_columns
+from agv_motion.probe.granier import flow_index, flux_density
 from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
-from agv_motion.probe.series import ProbeSeries, read_series
+from agv_motion.probe.series import read_series
 
 __all__ = [
     'Probe',
     'ProbeParameters',
     'ProbeReading',
-    'ProbeSeries',
     'flow_index',
     'flux_density',
-    'flux_density_columns',
     'read_series',
 ]

@@ -3,10 +3,9 @@
 `reprocess` runs a `Plan` over one bag; many at once: :mod:`agv_motion.reprocess.many_bags`.
 """
 
-from agv_motion.reprocess.one_bag import Plan, ReprocessOutcome, reprocess
+from agv_motion.reprocess.one_bag import Plan, reprocess
 
 __all__ = [
     'Plan',
-    'ReprocessOutcome',
     'reprocess',
 ]

@@ -4,7 +4,7 @@ A `RouteFollower` makes a twist of each pose; `route_speeds` is its speed as one
 a drive will look like: :mod:`agv_motion.route.prediction`.
 """
 
-from agv_motion.route.follower import RouteFollower, RouteLimits
+from agv_motion.route.follower import RouteFollower
 from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.route import Route
 from agv_motion.route.route_file import load_route
@@ -14,7 +14,6 @@ __all__ = [
     'FollowParameters',
     'Route',
     'RouteFollower',
-    'RouteLimits',
     'load_route',
     'route_speeds',
 ]

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.arbitration import ChassisLimitParameters, ChassisLimits
+from agv_motion.arbitration.chassis_limits import ChassisLimitParameters, ChassisLimits
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.planar import REST, Twist
 

@@ -9,12 +9,11 @@ from agv_motion.motion.behavior.goals import GoalParameters
 from agv_motion.motion.command import CommandLimits, LimitParameters, to_twist
 from agv_motion.motion.navigation import PathFollower, PathPlanner, Zone
 from agv_motion.motion.navigation.reservations import (
-    Reservation,
+    RightOfWay,
     SharedNavigator,
     TrafficParameters,
 )
-from agv_motion.motion.navigation.reservations.reservation import MessageId
-from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
+from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
 from agv_motion.motion.pilot import Pilot
 from agv_motion.planar import Pose
 
