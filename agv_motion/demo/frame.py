@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 REFRESH = 0.25
 """[s] between two pictures of the live view"""
 
+LEISURE = 4.0
+"""How many times longer than a picture took the next one waits at least: robots go first"""
+
 
 def explained(graph: DemoGraph) -> DemoGraph:
     """Return a graph with a node `why` beside each robot, told and recorded too."""
@@ -42,6 +45,14 @@ def explained(graph: DemoGraph) -> DemoGraph:
         nodes=[*graph.nodes, *why_nodes(namespaces)],
         topics=[*graph.topics, *why_topics(namespaces)],
     )
+
+
+def next_after(begun: float, done: float) -> float:
+    """Return when the next picture is due [s] after one that took from ``begun`` to ``done``.
+
+    A slow terminal, or a busy machine, has fewer pictures, and does not hold up the robots.
+    """
+    return max(begun + REFRESH, done + LEISURE * (done - begun))
 
 
 class Demo(Generic[R]):
@@ -111,8 +122,8 @@ class Demo(Generic[R]):
                 show_log()
                 now = time.perf_counter()
                 if now >= next_picture:
-                    next_picture = now + REFRESH
                     screen.update(picture(), refresh=True)
+                    next_picture = next_after(now, time.perf_counter())
                 return self._finished(console)
 
             self._spin(finished)

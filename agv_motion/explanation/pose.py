@@ -30,7 +30,7 @@ def pose_link(evidence: Evidence, now: float) -> Link:
         return _by_odometry(evidence)
     silent = now - report.at
     if fault := report.clock_fault:
-        return Link('pose', Level.ERROR, report.message, fault, remedy=CLOCK, age=silent)
+        return Link('pose', report.level, report.message, fault, remedy=CLOCK, age=silent)
     if silent > REPORT_OLD:
         return Link(
             'pose', Level.ERROR, f'localization is silent for {ago(silent)}',
@@ -53,7 +53,7 @@ def _told(report: Report, age: float) -> Link:
     if report.values.get('pose told') == 'no':
         why = report.message
         return Link(
-            'pose', Level.ERROR, f'no pose is told: {why}', f'no pose: {why}',
+            'pose', report.level, f'no pose is told: {why}', f'no pose: {why}',
             remedy=remedy or 'look at localization: agv nodes', age=age,
         )  # fmt: skip
     return Link(

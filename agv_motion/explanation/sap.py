@@ -64,7 +64,7 @@ def _flow(report: Report, now: float, probes: list[Link]) -> Link:
             age=silent,
         )  # fmt: skip
     if fault := report.clock_fault:
-        return Link('sap flow', Level.ERROR, report.message, fault, remedy=CLOCK, age=age)
+        return Link('sap flow', report.level, report.message, fault, remedy=CLOCK, age=age)
     bad = next((probe for probe in probes if probe.level is not Level.OK and probe.limit), None)
     if bad is not None:
         return Link('sap flow', Level.WARN, report.message, '', bad.name, age=age)

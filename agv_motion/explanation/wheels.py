@@ -88,7 +88,7 @@ def wheels_link(evidence: Evidence, now: float, ignored: float) -> Link:
         )  # fmt: skip
     seen, held = look(report), _held_by(report)
     if fault := report.clock_fault:
-        return Link('wheels', Level.ERROR, report.message, fault, remedy=CLOCK, age=seen.age)
+        return Link('wheels', report.level, report.message, fault, remedy=CLOCK, age=seen.age)
     if held is HeldBy.ARBITER:
         return Link(
             'wheels', Level.WARN, f'wheels are told to stand at once; {report.message}',

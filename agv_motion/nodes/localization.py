@@ -111,9 +111,11 @@ class Localization(PlainNode[LocalizationParameters]):
         }
         values |= {f'fixes {v.name.lower()}': str(n) for v, n in health.verdicts.items() if n}
         if self._odom_watch.silence() is Silence.LOST:
-            return Diagnosis(ERROR, 'odom is lost', values)
+            spoken = self._odom_watch.spoken
+            return Diagnosis(*(ERROR, 'odom is lost') if spoken else (WARN, 'no odom yet'), values)
         if health.state is not FusionState.WAITING and not self._trusted(health):
-            return Diagnosis(ERROR, f'pose not told: {health.state.value}', values)
+            level = WARN if health.state is FusionState.SEARCHING else ERROR
+            return Diagnosis(level, f'pose not told: {health.state.value}', values)
         return Diagnosis(LEVELS[health.state], health.state.value, values)
 
     # What comes in

@@ -127,12 +127,12 @@ class OmniKinematics(WheelsNode[OmniKinematicsParameters]):
         faulty = frozenset[int]() if blamed is None else frozenset([blamed])
         if faulty != self._odometry.faulty:
             self._odometry.faulty = faulty
-            (name,) = self._names(faulty) or ('every wheel',)
-            self.port.error(
-                f'{name} measures what the others do not: odometry goes on without it'
-                if faulty
-                else 'all wheels agree again: odometry uses each of them'
-            )
+            for name in self._names(faulty):
+                self.port.error(
+                    f'{name} measures what the others do not: odometry goes on without it'
+                )
+            if not faulty:
+                self.port.info('all wheels agree again: odometry uses each of them')
 
     def _names(self, wheels: Any) -> tuple[str, ...]:
         return tuple(self.parameters.joint_names[wheel] for wheel in sorted(wheels))

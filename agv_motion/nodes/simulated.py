@@ -248,7 +248,7 @@ class SimulatedNode(PlainNode[P]):
         if silent >= self.parameters.command_timeout:
             self._commanded_at = None
             self.let_go()
-            self.port.warning(f'no command for {silent:.2f} s: the motors stop')
+            self.port.warning(f'no command for {silent:.2f} s: the motors stop until one comes')
 
     def _step(self) -> None:
         """Let the robot go on by one step, and publish what there is to see."""

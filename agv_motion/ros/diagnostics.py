@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import QoSProfile
 
+from agv_motion.clock_watch import WAITING
 from agv_motion.ros.diagnosis import ERROR, WARN, Diagnosis
 from agv_motion.ros.ends import NO_EVENTS
 from agv_motion.ros.messages import stamp_of
@@ -60,7 +61,9 @@ class Diagnostics:
             found = found.worsened(WARN, mismatch)
         if fault:
             values = found.values | {'clock fault': fault}
-            found = Diagnosis(ERROR, f'{fault}: standing still', values, found.stamp)
+            waits = fault in WAITING
+            level, doing = (WARN, 'waiting for it') if waits else (ERROR, 'standing still')
+            found = Diagnosis(level, f'{fault}: {doing}', values, found.stamp)
         if complaints.is_recent():
             found = found.worsened(WARN, f'refused: {complaints.last}')
         return found

@@ -184,7 +184,7 @@ class InputWatch(Watchdog):
     def _log(self, silence: Silence, age: float) -> None:
         port = self._port
         if silence is Silence.FRESH:
-            text = f'{self._name} is back after {self._silent_for:.1f} s'
+            text = f'{self._name} is back after {self._silent_for:.1f} s: used again'
             port.info(text)
             self._back_at = self._port.steady_seconds()
         elif silence is Silence.LATE:

@@ -109,8 +109,19 @@ class Agv:
 JARRING = re.compile(r'-0\.?0*(?![\d.])|\.\.\.|\b0\.0 times')
 """Numbers that round to zero with a minus, what was cut off, and a pace of nothing"""
 
-PAUSE = 0.12
-"""[s] A picture that is being written does not pause for so long; half of the time between two"""
+
+PROGRESS = re.compile(r'\d %$')
+
+
+def whole(lines):
+    """Return whether lines are a live picture from the frame of its map down to its last line.
+
+    A picture is erased from below before the next one is written: one that is half written has no
+    last line yet, however long its writer is held up.
+    """
+    told = [line.rstrip() for line in lines if line.strip()]
+    frame = [line[0] for line in told if line[0] in '┌│└╭╰']
+    return bool(told and PROGRESS.search(told[-1]) and len(frame) > 3)
 
 
 class Terminal:
@@ -135,7 +146,7 @@ class Terminal:
         if not select.select([self._master], [], [], seconds)[0]:
             return False
         self._stream.feed(os.read(self._master, 65536))
-        if not select.select([self._master], [], [], PAUSE)[0]:
+        if whole(self.screen.display):
             self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
         return True
 
@@ -146,6 +157,20 @@ class Terminal:
             assert self.read(1.0) or self.process.poll() is None, self.told()
             assert time.monotonic() < end, self.told()
         return self.screen.display[:]
+
+    def picture(self, limit=120.0):
+        """Read until a live picture of the terminal's size stands whole; return its lines."""
+        size, before = (self.screen.columns, self.screen.lines), len(self.pictures)
+        end = time.monotonic() + limit
+        while not any(size == shown for shown, _ in self.pictures[before:]):
+            assert self.read(1.0) or self.process.poll() is None, self.told()
+            assert time.monotonic() < end, self.told()
+        return self.screen.display[:]
+
+    def resize(self, columns, rows):
+        """Give the terminal another size while the command runs."""
+        self.screen.resize(rows, columns)
+        self._resize(columns, rows)
 
     def press(self, keys):
         """Press keys."""
@@ -185,6 +210,7 @@ class Terminal:
                 assert not JARRING.search(line), line
                 if line.startswith('│') and '│' in line[1:]:
                     found.setdefault(size, set()).add(line.find('│', 1))
+        assert all(len(ends) == 1 for ends in found.values()), found
         return found
 
 

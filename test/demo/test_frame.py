@@ -15,7 +15,7 @@ from rich.console import Console
 from std_msgs.msg import String
 
 from agv_motion.bag.reader import BagReader
-from agv_motion.demo.frame import Demo
+from agv_motion.demo.frame import Demo, next_after
 from agv_motion.demo.recorder import RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, Scenario
 from agv_motion.errors import GeometryError
@@ -91,3 +91,8 @@ def test_the_speed_is_that_of_the_run_not_of_the_report_after_it(tmp_path):
     first = demo.factor
     assert first > 0.0
     assert demo.factor == first
+
+
+def test_a_slow_terminal_has_fewer_pictures():
+    assert next_after(10.0, 10.01) == pytest.approx(10.25)
+    assert next_after(10.0, 11.0) == pytest.approx(15.0)

@@ -21,6 +21,7 @@ from agv_motion.odometry.covariance import Covariance
 from agv_motion.odometry.yaw_rate import YawRate
 from agv_motion.planar import Pose, compose, wrap
 from agv_motion.ros.covariances import fill_covariance
+from agv_motion.ros.diagnosis import ERROR, WARN
 from agv_motion.ros.messages import fill_pose, pose_of, stamp_of
 from agv_motion.ros.qos import SENSOR
 
@@ -105,8 +106,10 @@ def set_pose(pose, covariance=None, frame='map'):
 @pytest.mark.parametrize('covariance', [ROUND, LOOKING], ids=['one tag', 'several tags'])
 def test_it_finds_the_robot_and_keeps_it(tester, covariance):
     robot = Robot(tester, covariance)
+    assert robot.node.plain.diagnose()[:2] == (WARN, 'no odom yet')
     robot.run(1.0, fixes=False)
     assert not robot.poses
+    assert robot.node.plain.diagnose().level == WARN  # it begins: nothing is wrong
     robot.run(20.0)
     told = robot.poses[-1]
     assert robot.missed() < 0.15
@@ -252,6 +255,7 @@ def test_a_pose_that_has_become_a_guess_is_no_longer_told(tester):
     robot.run(1.0, fixes=False)
     assert len(robot.poses) == count
     assert robot.node.plain.diagnose().message.startswith('pose not told: no fix for a while')
+    assert robot.node.plain.diagnose().level == ERROR
     assert robot.values()['state'] == 'odometry_only'
     tester.graph.spin_until(lambda: robot.node.plain.diagnose().message == 'odom is lost')
 

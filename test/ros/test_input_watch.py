@@ -54,4 +54,4 @@ def test_silence_by_hand(given, late, lost):
     watch.note()
     port.now += 0.1
     watch.tell()
-    assert port.told[2:] == ['cmd_vel is back after 5.5 s']
+    assert port.told[2:] == ['cmd_vel is back after 5.5 s: used again']

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-
 import pytest
 
 pytest.importorskip('rclpy')
@@ -69,11 +67,15 @@ def test_a_recording_without_probes_is_refused(alone, tmp_path):
     assert 'has the columns time, rain: name those of the probes by --columns' in errors
 
 
-def test_ctrl_c_ends_the_walk_with_its_results(alone, tmp_path, wait_until):
-    process = alone.start('demo', '--no-page', '--output', tmp_path)
-    files = (tmp_path / 'bag').glob  # the walk has begun when its bag holds a chunk
-    wait_until(lambda: any(file.stat().st_size > 1000 for file in files('*.mcap')))
-    process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=180.0)
-    assert process.returncode == 0, errors
-    assert 'distance' in out
+def test_ctrl_c_in_a_terminal_of_any_size_ends_the_walk_with_its_results(terminal, tmp_path):
+    screen = terminal('demo', '--no-page', '--output', tmp_path)
+    for columns, rows in ((80, 24), (200, 50)):
+        screen.resize(columns, rows)
+        picture = '\n'.join(screen.picture())
+        for word in ('pace', 'places', 'wheel2', 'pose', 'state', 'walking'):
+            assert word in picture
+    screen.press(b'\x03')
+    status, out = screen.end()
+    assert status == 0, out
+    assert 'Bag: ' in out
+    assert set(screen.frames()) == {(80, 24), (200, 50)}

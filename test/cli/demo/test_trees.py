@@ -40,6 +40,19 @@ def test_ctrl_c_at_the_very_beginning_is_no_error(alone, tmp_path, wait_until):
     assert 'Bag: ' in out
 
 
+def test_three_trees_in_a_terminal_of_any_size(terminal, tmp_path):
+    screen = terminal('demo', 'trees', '--no-page', '--output', tmp_path)
+    for columns, rows in ((80, 24), (200, 50)):
+        screen.resize(columns, rows)
+        picture = '\n'.join(screen.picture())
+        for word in ('pace', 'oak', 'ash', 'elm', 'sap', 'walking'):
+            assert word in picture
+    screen.press(b'\x03')
+    status, out = screen.end()
+    assert status == 0, out
+    assert set(screen.frames()) == {(80, 24), (200, 50)}
+
+
 def test_a_tree_alone_and_too_many_are_refused(alone):
     for count in (1, 6):
         status, _, errors = alone('demo', 'trees', '--count', count)
