@@ -73,12 +73,15 @@ def _check_element(name: str, value: Any, spec: Spec) -> None:
         raise ConfigurationError(msg)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return
+    unit = '' if spec.unit == '1' else spec.unit
     if not isfinite(value):
-        msg = f'{name} = {value}: must be a finite number ({spec.description} [{spec.unit}])'
+        of_unit = f' [{unit}]' * bool(unit)
+        msg = f'{name} = {value}: must be a finite number ({spec.description}{of_unit})'
         raise ConfigurationError(msg)
     if spec.between and not spec.between[0] <= value <= spec.between[1]:
         low, high = spec.between
-        msg = f'{name} = {value}: must lie in [{low:g}, {high:g}] {spec.unit} ({spec.description})'
+        within = f'[{low:g}, {high:g}] {unit}'.rstrip()
+        msg = f'{name} = {value}: must lie in {within} ({spec.description})'
         raise ConfigurationError(msg)
 
 

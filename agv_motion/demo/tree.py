@@ -71,6 +71,7 @@ class TreeScenario(Scenario[WalkRun]):
     """One tree with its eight nodes, on simulated probes or on a recording."""
 
     figure = 'walk.png'
+    doing = 'walking'
 
     def __init__(
         self, seconds: float, probes: dict[str, Any], zone: str, seed: int, time_factor: float

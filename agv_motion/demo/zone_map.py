@@ -66,11 +66,13 @@ class ZoneMap:
             floor: Character of the bare floor at (x, y) [m].
 
         """
-        text = Text()
+        text, run, style = Text(), '', ''  # as few runs of one style as there are: each costs bytes
         for (row, column), inside in self._inside.items():
+            mark = marks.get((row, column))
             bare = floor(*self.place_of(row, column)) if inside else OUTSIDE
-            text.append(*marks.get((row, column), (bare, 'dim')))
-            if column == self.columns - 1:
-                text.append('\n')
-        text.right_crop(1)
-        return text
+            character, wanted = mark or (bare, style if bare == ' ' else 'dim')
+            if wanted != style:
+                text.append(run, style)
+                run, style = '', wanted
+            run += character + '\n' * (column == self.columns - 1)
+        return text.append(run.removesuffix('\n'), style)

@@ -45,7 +45,8 @@ def read_bytes(path: Path, what: str = 'the file', limit: int = LIMIT, begin: in
                 file.seek(begin)
             data = file.read(limit + 1) if regular else b''
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
-        msg = f"cannot read {what} '{path}': {error}"
+        reason = getattr(error, 'strerror', None) or error
+        msg = f"cannot read {what} '{path}': {reason}"
         raise ConfigurationError(msg) from error
     if not regular:
         msg = f"cannot read {what} '{path}': it is a device or a pipe; give a file"

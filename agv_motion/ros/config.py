@@ -20,7 +20,7 @@ def config_folders() -> list[Path]:
     ]
     with suppress(LookupError, OSError):  # no AMENT_PREFIX_PATH, or an editable installation
         folders.insert(0, Path(get_package_share_directory('agv_motion')) / 'config')
-    return folders
+    return list(dict.fromkeys(folders))
 
 
 def find_config(name: str) -> Path:

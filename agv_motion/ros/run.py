@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 import traceback
@@ -47,6 +48,9 @@ HOPELESS = 5.0
 
 LONGEST_TRACE = 2000
 """Characters of a trace that are logged, from its end."""
+
+OUT_OF_RANGE = re.compile(r'Parameter (\S+) out of range Min: (\S+), Max: (\S+), value: ([^\s:]+)')
+"""What rclpy says of a parameter"""
 
 UNUSABLE = (
     AgvMotionError,
@@ -191,6 +195,9 @@ def declare(node: LiveNode[Any]) -> tuple[bool, str]:
 def _line(error: Exception) -> str:
     """Return an error in one line, without where in rcl's C code it was found."""
     text = ' '.join(str(error).split())
+    if found := OUT_OF_RANGE.search(text):
+        name, lowest, highest, value = found.groups()
+        return f'{name} = {value}: must lie in [{lowest}, {highest}]'
     return text.partition(', at /')[0]
 
 

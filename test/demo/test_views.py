@@ -11,6 +11,7 @@ pytest.importorskip('rclpy')
 from geometry_msgs.msg import PoseStamped, TwistStamped, Vector3Stamped
 from nav_msgs.msg import Odometry
 from rich.console import Console
+from rich.text import Text
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -18,6 +19,7 @@ from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.map_view import Room
 from agv_motion.demo.tree_view import TreeView
 from agv_motion.demo.trees_view import TreesView
+from agv_motion.demo.zone_map import ZoneMap
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.nodes.simulator import SimulatorParameters
 from agv_motion.ros.config import find_config
@@ -130,3 +132,14 @@ def test_the_map_follows_the_terminal(zone):
     narrow = '\n'.join(shown(view, 1.0, 40, 16))
     assert 'walking to (10.00,' in narrow
     assert '♣' not in narrow  # no room for a map
+
+
+def test_a_map_is_few_bytes_on_a_slow_line(zone):
+    """Cells of one style go together: a style for each cell took six times the bytes."""
+    console = Console(width=80, file=io.StringIO(), force_terminal=True, color_system='256')
+    drawn = ZoneMap(zone, 48, 20)
+    marks = {(3, 4): ('•', 'green'), (3, 5): ('•', 'green'), (9, 9): ('♣', 'bold green')}
+    console.print(drawn.text(marks, lambda x, _: '░' if x > 8.0 else ' '))
+    told = console.file.getvalue()
+    assert len(told) < 2.5 * drawn.rows * drawn.columns
+    assert Text.from_ansi(told).plain.rstrip('\n').count('░') > 100

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from agv_motion.cli.graph.discovery import DISCOVERY
+from agv_motion.cli.graph.options import SpinTime
 from agv_motion.cli.graph.session import joined, spin
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.nodes.catalogue import available, require_node
@@ -23,7 +24,7 @@ ANSWER_TIME = 1.0
 
 @app.callback(invoke_without_command=True)
 def nodes(
-    spin_time: Annotated[float, typer.Option(help='Seconds to wait for discovery.')] = DISCOVERY,
+    spin_time: SpinTime = DISCOVERY,
 ) -> None:
     """List the nodes of the graph; of lifecycle nodes, the state too."""
     with joined(spin_time, whole=True) as node:

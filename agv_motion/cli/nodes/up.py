@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,14 +14,16 @@ import yaml
 
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import VALUES
-from agv_motion.ros.robot_graphs import ROBOTS, GraphNode, RobotGraph
+from agv_motion.ros.parameter_arguments import VALUES, sections
+from agv_motion.ros.robot_graphs import ROBOTS, SIM_TIME, GraphNode, RobotGraph
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
 app = typer.Typer()
+
+NAMESPACE = re.compile(r'([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
 
 Words = Annotated[
     list[str] | None,
@@ -77,7 +81,8 @@ def arguments(graph: RobotGraph, words: Sequence[str]) -> dict[str, str]:
         words: As typed: ``--name value``, ``--name=value`` or ``name:=value``.
 
     Raises:
-        ConfigurationError: There is no such argument, or one has no value.
+        ConfigurationError: There is no such argument, one has no value or an impossible one, or
+            the file cannot be read.
 
     """
     values = {one.name: one.default for one in graph.arguments}
@@ -89,8 +94,32 @@ def arguments(graph: RobotGraph, words: Sequence[str]) -> dict[str, str]:
     from agv_motion.ros.config import find_config
 
     values['namespace'] = values['namespace'].strip('/')
+    if not NAMESPACE.fullmatch(values['namespace']):
+        msg = (
+            f"namespace = '{values['namespace']}': write letters, digits and _, no digit first; "
+            'a / may stand between two names'
+        )
+        raise ConfigurationError(msg)
     values['config'] = str(find_config(values['config']).resolve())
+    sections(values['config'])
+    changed = {one.name for one in graph.arguments if values[one.name] != one.default}
+    for node in graph.nodes:
+        if not node.condition or _true(node.condition, values[node.condition]):
+            _require_possible(node, values, changed)
     return values
+
+
+def _require_possible(node: GraphNode, given: Mapping[str, str], changed: set[str]) -> None:
+    """Raise unless a node can have the values that were given for it: else it alone would end."""
+    from agv_motion.nodes.catalogue import parameters_of
+
+    own = {
+        name: _typed(name, text.format(**given), kind)
+        for name, text, kind in node.values
+        if name != SIM_TIME[0] and any(f'{{{one}}}' in text for one in changed)
+    }
+    if own:
+        replace(parameters_of(node.name)(), **own)
 
 
 def _pairs(words: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -27,6 +27,7 @@ from agv_motion.cli.recording.topic_options import (
     chosen_topics,
 )
 from agv_motion.cli.terminal import terminal
+from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -94,6 +95,9 @@ def record(
         'storage__sync': sync,
     }
     named = [*(topic or ()), *(topics or ())]
+    if not (named or all_topics or regex):
+        msg = 'nothing to record: name topics, or give -a for all, or --regex for those that match'
+        raise ConfigurationError(msg)
     _record(given | chosen_topics(named, regex, exclude_topics, exclude_regex), duration)
 
 

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 HEAD_BYTES = 1 << 18
 """of a file, which are more than the rows by which it is judged"""
+CONTROLS = frozenset(map(chr, range(1, 32))) - set('\t\n\f\r') | {'\x7f'}
+"""Characters that no table has; NUL is what a power cut leaves"""
+ODD_OF, MOST_ODD = 4096, 0.02
+"""Characters at which is looked for them, and their share from which a file is no text"""
 LOOKED_AT = 400
 """Rows by which a file is judged."""
 MOST = 0.6
@@ -100,7 +104,12 @@ def inspect(file: str) -> Inspection:
         raise text.as_kind(error, SourceError) from error
     data = data[:HEAD_BYTES]
     encoding = file_text.encoding_of(data[: data.rfind(b'\n') + 1] or data, 'auto', file)
-    lines = file_text.lines_of(data.decode(encoding, errors='replace'))
+    told = data.decode(encoding, errors='replace')
+    odd = sum(character in CONTROLS for character in told[:ODD_OF])
+    if odd > MOST_ODD * len(told[:ODD_OF]):
+        msg = f'{file} is no table in text: it begins with {data[:8]!r}'
+        raise SourceError(msg)
+    lines = file_text.lines_of(told)
     lines = [line for line in lines if not line.fault]
     rows: dict[str, list[tuple[int, list[str]]]] = {
         name: _rows(lines, delimiter) for name, delimiter in DELIMITERS.items()

@@ -122,3 +122,16 @@ def test_help_waits_for_nothing_heavy(alone):
     seen = f'import sys; print([name for name in {heavy} if name in sys.modules])'
     code = f'import agv_motion.cli.main; {seen}'
     assert subprocess.check_output([sys.executable, '-c', code], text=True).strip() == '[]'  # noqa: S603 - our own
+
+
+def test_a_parameter_that_cannot_be_is_told_with_its_limits(alone):
+    words = 'run', 'wheel_kinematics', '--ros-args', '-p'
+    assert alone(*words, 'wheel_radius:=-1.0') == (
+        1, '', 'error: wheel_radius = -1.0: must lie in [0.001, 10.0]\n',
+    )  # fmt: skip
+    status, _, errors = alone(*words, 'wheel_radius:=.nan')
+    assert (status, errors) == (1, 'error: wheel_radius = nan: must lie in [0.001, 10.0]\n')
+
+
+def test_no_time_is_negative(alone):
+    assert alone('nodes', '--spin-time', '-1')[0] == 2

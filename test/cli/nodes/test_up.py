@@ -65,11 +65,31 @@ def test_drivers_drive_through_the_arbiter(tmp_path):
         (('--namespace',), "'--namespace': write --name value, or name:=value"),
         (('oak',), "'oak': write --name value, or name:=value"),
         (('config:=/no/such.yaml',), '/no/such.yaml'),
+        (('namespace:=1oak',), "namespace = '1oak': write letters, digits and _"),
+        (('--namespace', 'an oak'), "namespace = 'an oak'"),
+        (('--namespace', 'oak//ash'), "namespace = 'oak//ash'"),
+        (('time_factor:=-1',), 'time_factor = -1'),
+        (('time_factor:=nan',), 'time_factor = nan'),
+        (('time_factor:=fast',), "time_factor = 'fast': expected a number"),
+        (('source:=seriel',), "source = 'seriel'"),
+        (('clock:=',), "clock = ''"),
     ],
 )
 def test_mistakes(words, error):
     with pytest.raises(ConfigurationError, match=error.replace('?', r'\?')):
         arguments(ROBOTS['tree'], words)
+
+
+def test_a_file_that_no_node_can_read_is_told_once(tmp_path):
+    (tmp_path / 'oak.yaml').write_text('a: [1,')
+    with pytest.raises(ConfigurationError, match='no YAML'):
+        arguments(ROBOTS['tree'], [f'config:={tmp_path / "oak.yaml"}'])
+
+
+def test_what_no_node_that_is_started_takes_counts_nothing():
+    words = 'simulate:=false', 'time_factor:=-1'
+    assert arguments(ROBOTS['tree'], words)['time_factor'] == '-1'
+    assert arguments(ROBOTS['omni'], ['namespace:=/yard/oak/'])['namespace'] == 'yard/oak'
 
 
 def test_what_is_no_truth(alone):

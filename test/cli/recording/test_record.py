@@ -78,3 +78,12 @@ def test_a_signal_and_a_terminal_that_is_gone_leave_a_whole_bag(
     with Reader(tmp_path / 'bag') as reader:
         assert reader.message_count > 0
         assert len(list(reader.messages())) == reader.message_count
+
+
+def test_nothing_to_record_says_what_to_name(alone):
+    status, _, errors = alone('record', '-o', '/proc/none')
+    assert status == 1
+    assert errors == (
+        'error: nothing to record: name topics, or give -a for all, or --regex for those that '
+        'match\n'
+    )
