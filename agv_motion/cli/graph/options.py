@@ -6,7 +6,14 @@ from typing import Annotated
 
 import typer
 
-Node = Annotated[str, typer.Argument(help="Name of the node, such as '/oak/wheel_kinematics'.")]
+from agv_motion.cli.graph.completion import names_of_nodes
+
+Node = Annotated[
+    str,
+    typer.Argument(
+        help="Name of the node, such as '/oak/wheel_kinematics'.", autocompletion=names_of_nodes
+    ),
+]
 SpinTime = Annotated[float, typer.Option(help='Seconds to wait for discovery.', min=0.0)]
 SimTime = Annotated[bool, typer.Option('--use-sim-time', '-s', help='Use simulation time.')]
 HiddenNodes = Annotated[bool, typer.Option('--include-hidden-nodes', help='Hidden ones as well.')]

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import names_of_nodes
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.nodes import joined_to, lifecycle_nodes
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime
@@ -37,7 +38,9 @@ def nodes(
 
 @app.command()
 def get(
-    node_name: Annotated[str, typer.Argument(help='Of one node; without: of all.')] = '',
+    node_name: Annotated[
+        str, typer.Argument(help='Of one node; without: of all.', autocompletion=names_of_nodes)
+    ] = '',
     *,
     include_hidden_nodes: HiddenNodes = False,
     spin_time: SpinTime = DISCOVERY,

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import one_of
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.options import SpinTime
 from agv_motion.cli.graph.session import joined, spin
@@ -63,7 +64,12 @@ def _states(node: Any, names: list[str]) -> dict[str, str]:
 @run_app.command(context_settings=HELP | {'allow_extra_args': True, 'ignore_unknown_options': True})
 def run(
     context: typer.Context,
-    node: Annotated[str, typer.Argument(help='Name of the node, such as wheel_kinematics.')] = '',
+    node: Annotated[
+        str,
+        typer.Argument(
+            help='Name of the node, such as wheel_kinematics.', autocompletion=one_of(available)
+        ),
+    ] = '',
 ) -> None:
     """Run a node of this package, as `ros2 run agv_motion NODE` does.
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 from rich.table import Table
 
+from agv_motion.cli.graph.completion import one_of
 from agv_motion.cli.terminal import terminal
-from agv_motion.nodes.catalogue import parameters_of
+from agv_motion.nodes.catalogue import available, parameters_of
 from agv_motion.parameters import nested, rows
 
 if TYPE_CHECKING:
@@ -60,7 +61,12 @@ def _short(value: Any) -> str:
 
 
 def parameters(
-    node: Annotated[str, typer.Argument(help='Name of the node, such as wheel_kinematics.')],
+    node: Annotated[
+        str,
+        typer.Argument(
+            help='Name of the node, such as wheel_kinematics.', autocompletion=one_of(available)
+        ),
+    ],
     *,
     as_markdown: Annotated[
         bool, typer.Option('--markdown', help='As a table for a README.')

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 import yaml
 
+from agv_motion.cli.graph.completion import one_of
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.parameter_arguments import VALUES, sections
@@ -33,7 +34,10 @@ Words = Annotated[
 
 @app.command(context_settings=HELP | {'ignore_unknown_options': True})
 def up(
-    robot: Annotated[str, typer.Argument(help=f'One of {", ".join(ROBOTS)}.')],
+    robot: Annotated[
+        str,
+        typer.Argument(help=f'One of {", ".join(ROBOTS)}.', autocompletion=one_of(lambda: ROBOTS)),
+    ],
     words: Words = None,
     *,
     show_args: Annotated[

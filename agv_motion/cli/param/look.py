@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import names_of_nodes
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.nodes import joined_to, node_names
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime, Timeout
@@ -15,7 +16,9 @@ from agv_motion.errors import ConfigurationError
 
 
 def list_(
-    node_name: Annotated[str, typer.Argument(help='Of one node; without: of all.')] = '',
+    node_name: Annotated[
+        str, typer.Argument(help='Of one node; without: of all.', autocompletion=names_of_nodes)
+    ] = '',
     *,
     filter_: Annotated[
         str, typer.Option('--filter', help='Only those that match the regular expression.')

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import service_names
 from agv_motion.cli.graph.discovery import DISCOVERY, settle
 from agv_motion.cli.graph.session import full_name, interface_class, joined, services, spin
 from agv_motion.cli.topic.message_text import fill
@@ -17,7 +18,9 @@ from agv_motion.ros.suggestion import meant
 
 
 def call(
-    service_name: Annotated[str, typer.Argument(help="Such as '/sequence/start'.")],
+    service_name: Annotated[
+        str, typer.Argument(help="Such as '/sequence/start'.", autocompletion=service_names)
+    ],
     service_type: Annotated[str, typer.Argument(help="Such as 'std_srvs/srv/Trigger'.")],
     values: Annotated[str, typer.Argument(help="YAML, such as '{data: true}'.")] = '{}',
     *,

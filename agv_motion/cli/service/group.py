@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import service_names
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.options import HiddenServices, NoDaemon, SimTime, SpinTime
 from agv_motion.cli.graph.session import joined, services
@@ -13,7 +14,12 @@ from agv_motion.cli.lazy_group import lazy_group
 from agv_motion.errors import ConfigurationError
 from agv_motion.ros.suggestion import meant
 
-Service = Annotated[str, typer.Argument(help="Name of the service, such as '/sequence/start'.")]
+Service = Annotated[
+    str,
+    typer.Argument(
+        help="Name of the service, such as '/sequence/start'.", autocompletion=service_names
+    ),
+]
 Count = Annotated[bool, typer.Option('-c', '--count-services', help='Only their number.')]
 
 app = typer.Typer(

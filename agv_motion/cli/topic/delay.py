@@ -11,6 +11,7 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.options import SimTime, SpinTime
 from agv_motion.cli.graph.session import joined
+from agv_motion.cli.topic.options import Topic
 from agv_motion.cli.topic.rates import Duration, every_second, subscribe
 from agv_motion.errors import ConfigurationError
 
@@ -50,7 +51,7 @@ class Delays:
 
 
 def delay(
-    topic: Annotated[str, typer.Argument(help='Name of the topic.')],
+    topic: Topic,
     *,
     window: Annotated[
         int, typer.Option('-w', '--window', min=1, help='How many messages to average over.')

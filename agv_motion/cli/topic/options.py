@@ -6,9 +6,13 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import topic_names
 from agv_motion.errors import ConfigurationError
 
-Topic = Annotated[str, typer.Argument(help="Name of the topic, such as '/cmd_vel'.")]
+Topic = Annotated[
+    str,
+    typer.Argument(help="Name of the topic, such as '/cmd_vel'.", autocompletion=topic_names),
+]
 
 
 def preset_qos(preset: str, depth: int = 0, reliability: str = '', durability: str = '') -> Any:

@@ -9,10 +9,12 @@ from typing import Annotated, Any
 
 import typer
 
+from agv_motion.cli.graph.completion import topic_names
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.options import SimTime, SpinTime
 from agv_motion.cli.graph.session import joined, spin, topic_class
 from agv_motion.cli.topic.message_printer import predicate
+from agv_motion.cli.topic.options import Topic
 
 Duration = Annotated[float, typer.Option(help='Stop after so many seconds; 0: never.', min=0.0)]
 
@@ -46,7 +48,9 @@ class Intervals:
 
 
 def hz(
-    topic_name: Annotated[list[str], typer.Argument(help='One topic or several.')],
+    topic_name: Annotated[
+        list[str], typer.Argument(help='One topic or several.', autocompletion=topic_names)
+    ],
     *,
     window: Annotated[
         int, typer.Option('-w', '--window', min=1, help='How many messages to average over.')
@@ -127,7 +131,7 @@ def _tell(intervals: dict[str, Intervals]) -> None:
 
 
 def bw(
-    topic: Annotated[str, typer.Argument(help='Name of the topic.')],
+    topic: Topic,
     *,
     window: Annotated[
         int, typer.Option('-w', '--window', min=1, help='How many messages to average over.')

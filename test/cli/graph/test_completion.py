@@ -1,0 +1,58 @@
+"""What the shell offers, in a real bash: commands, names of ours, names that are on the graph."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip('rclpy')
+
+
+class Bash:
+    """Starts a bash of somebody who has never used the command."""
+
+    def __init__(self, home):
+        self.home = home
+
+    def start(self, **options):
+        folder = Path(sys.executable).parent
+        environment = os.environ | {
+            'HOME': str(self.home), 'PATH': f'{folder}:{os.environ["PATH"]}', 'PS1': '> ',
+            'INPUTRC': '/dev/null', 'TERM': 'vt100',
+        }  # fmt: skip
+        words = 'bash', '--norc', '--noprofile', '-i'
+        return subprocess.Popen(words, env=environment, **options)
+
+
+def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal, tmp_path):
+    screen = terminal.func(Bash(tmp_path), columns=120)
+    screen.press(b'agv --install-completion; . ~/.bashrc; echo in""stalled\n')
+    screen.wait(lambda text: '\ninstalled' in text)
+    for typed, completed in (
+        (b'agv self', 'agv selftest'),
+        (b'agv topic ec', 'agv topic echo'),
+        (b'agv up diff', 'agv up differential'),
+        (b'agv run granier', 'agv run granier_probe'),
+        (b'agv topic info /ros', 'agv topic info /rosout'),
+    ):
+        screen.press(b'\x15' + typed + b'\t')  # the line anew
+        screen.wait(lambda text, completed=completed: completed in text)
+    screen.press(b'\x15exit\n')
+    screen.end()
+
+
+@pytest.mark.parametrize('words', ['agv node info /oak', 'agv param get /oak', 'agv lifecycle get '])
+def test_nodes_of_the_graph_are_offered(alone, oak, words):
+    asked = words.split(' ')
+    environment = os.environ | {
+        '_AGV_COMPLETE': 'complete_bash', 'COMP_WORDS': words, 'COMP_CWORD': str(len(asked) - 1),
+    }  # fmt: skip
+    folder = Path(sys.executable).parent
+    told = subprocess.run(
+        [folder / 'agv'], env=environment, capture_output=True, text=True, check=False
+    )
+    assert told.stdout.split() == [oak], told.stderr
