@@ -95,10 +95,15 @@ def record(
         'storage__sync': sync,
     }
     named = [*(topic or ()), *(topics or ())]
-    if not (named or all_topics or regex):
+    _require_any(named or all_topics or regex)
+    _record(given | chosen_topics(named, regex, exclude_topics, exclude_regex), duration)
+
+
+def _require_any(wanted: object) -> None:
+    """Raise unless something is to be recorded."""
+    if not wanted:
         msg = 'nothing to record: name topics, or give -a for all, or --regex for those that match'
         raise ConfigurationError(msg)
-    _record(given | chosen_topics(named, regex, exclude_topics, exclude_regex), duration)
 
 
 def _record(given: dict[str, Any], duration: float) -> None:
