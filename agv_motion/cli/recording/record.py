@@ -94,16 +94,16 @@ def record(
         'storage__cache': max_cache_size / 1e6,
         'storage__sync': sync,
     }
-    named = [*(topic or ()), *(topics or ())]
-    _require_any(named or all_topics or regex)
+    named = _require_any([*(topic or ()), *(topics or ())], all_topics or regex)
     _record(given | chosen_topics(named, regex, exclude_topics, exclude_regex), duration)
 
 
-def _require_any(wanted: object) -> None:
-    """Raise unless something is to be recorded."""
-    if not wanted:
+def _require_any(named: list[str], other: object) -> list[str]:
+    """Return the topics that were named; raise where nothing is to be recorded."""
+    if not (named or other):
         msg = 'nothing to record: name topics, or give -a for all, or --regex for those that match'
         raise ConfigurationError(msg)
+    return named
 
 
 def _record(given: dict[str, Any], duration: float) -> None:

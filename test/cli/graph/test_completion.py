@@ -25,7 +25,7 @@ class Bash:
             'INPUTRC': '/dev/null', 'TERM': 'vt100',
         }  # fmt: skip
         words = 'bash', '--norc', '--noprofile', '-i'
-        return subprocess.Popen(words, env=environment, **options)
+        return subprocess.Popen(words, env=environment, **options)  # noqa: S603 - the words are ours
 
 
 def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal, tmp_path):
@@ -45,14 +45,16 @@ def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal,
     screen.end()
 
 
-@pytest.mark.parametrize('words', ['agv node info /oak', 'agv param get /oak', 'agv lifecycle get '])
+@pytest.mark.parametrize(
+    'words', ['agv node info /oak', 'agv param get /oak', 'agv lifecycle get ']
+)
 def test_nodes_of_the_graph_are_offered(alone, oak, words):
     asked = words.split(' ')
     environment = os.environ | {
         '_AGV_COMPLETE': 'complete_bash', 'COMP_WORDS': words, 'COMP_CWORD': str(len(asked) - 1),
     }  # fmt: skip
     folder = Path(sys.executable).parent
-    told = subprocess.run(
+    told = subprocess.run(  # noqa: S603 - the words are ours
         [folder / 'agv'], env=environment, capture_output=True, text=True, check=False
     )
     assert told.stdout.split() == [oak], told.stderr
