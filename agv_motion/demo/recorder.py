@@ -16,7 +16,6 @@ from agv_motion.errors import SourceError
 from agv_motion.ros.endpoints import offer, offered
 from agv_motion.ros.messages import type_name
 from agv_motion.ros.qos import LATCHED
-from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -53,8 +52,8 @@ class _Bag:
         self._handles: dict[str, int] = {}
 
     def moves(self, topic: RecordedTopic) -> bool:
-        """Return whether transforms are made of a topic, as nobody publishes them."""
-        return not PUBLISHED and self._transforms.wants(topic.full_name, type_name(topic.kind))
+        """Return whether transforms are made of a topic: the bag hears none that are published."""
+        return self._transforms.wants(topic.full_name, type_name(topic.kind))
 
     def write(self, topic: RecordedTopic, stamp: int, data: bytes, *, moves: bool) -> None:
         """Write a message [ns], and the transforms that come of one that ``moves`` something."""

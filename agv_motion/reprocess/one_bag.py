@@ -21,7 +21,6 @@ from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
 from agv_motion.ros.in_process_port import full_name
 from agv_motion.ros.messages import type_name
-from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -182,18 +181,15 @@ class Drawn:
     def __init__(
         self, transcript: Transcript, graph: InProcessGraph, bag: BagReader, namespace: str
     ) -> None:
-        """Let the transcript make transforms of one robot, unless its nodes publish them."""
+        """Let the transcript make transforms of one robot."""
         self.own: set[str] = set()
         """topics that the nodes hear"""
-        self.topics: set[str] = set()
+        own = namespace.rstrip('/')
+        self.topics = transcript.make_transforms(
+            {topic: type_name(ends[0].kind) for topic, ends in graph.publishers.items()},
+            {topic: c.type for topic, c in bag.topics.items() if topic.rpartition('/')[0] == own},
+        )
         self._transcript = transcript
-        if not PUBLISHED:
-            own = namespace.rstrip('/')
-            self.topics = transcript.make_transforms(
-                {topic: type_name(ends[0].kind) for topic, ends in graph.publishers.items()},
-                {topic: c.type for topic, c in bag.topics.items()
-                 if topic.rpartition('/')[0] == own},
-            )  # fmt: skip
 
     def heard(self, messages: list[Message], times: list[int]) -> list[tuple[Message, int]]:
         """Return those that the nodes hear, with their times [ns]; show the others."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from agv_motion.bag.recording.recorded_transforms import RecordedTransforms
+from agv_motion.model.transform_message import TF, TF_STATIC
 from agv_motion.ros.endpoints import offer
 from agv_motion.ros.in_process_topic import InProcessEnd, InProcessRowPublisher
 from agv_motion.ros.messages import type_name
@@ -63,7 +64,13 @@ class Transcript:
         return self._moving - made
 
     def record(self, publisher: InProcessEnd, stamp: int, data: Any) -> None:
-        """Take a message, or a row, of time ``stamp`` [ns]."""
+        """Take a message, or a row, of time ``stamp`` [ns].
+
+        Transforms of nodes are left out, which only some installations can publish: what is written
+        is the same everywhere.
+        """
+        if publisher.topic in {TF, TF_STATIC}:
+            return
         while self._heard and self._heard[0][1] <= stamp:
             self._waiting.append(self._heard.popleft())
         self._waiting.append((publisher, stamp, data))

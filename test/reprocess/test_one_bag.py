@@ -209,10 +209,6 @@ def test_poses_are_those_of_the_live_run_where_odometry_and_gyro_have_one_stamp(
 
 def test_transforms_follow_from_what_is_made_anew(recorded, tmp_path):
     """From all that is reprocessed; a parent and a child of each, and none twice."""
-    from agv_motion.ros.transforms import PUBLISHED
-
-    if PUBLISHED:
-        pytest.skip('tf2_msgs is installed: nodes publish them')
     plan = PLAN._replace(nodes=(*PLAN.nodes, 'localization', 'robot_model'), remap=())
     outcome = reprocess(recorded / 'a', tmp_path / 'out', plan)
     assert not outcome.failure
@@ -245,10 +241,6 @@ def pairs(bag, topic):
 
 def test_transforms_follow_from_joints_and_model_that_were_recorded(recorded, tmp_path):
     """A recording of a robot model, beside which only its odometry is made anew."""
-    from agv_motion.ros.transforms import PUBLISHED
-
-    if PUBLISHED:
-        pytest.skip('tf2_msgs is installed: nodes publish them')
     with BagReader(recorded / 'c') as bag:
         kinds = set(bag.topics)
     model = PLAN._replace(nodes=('robot_model',), remap=())

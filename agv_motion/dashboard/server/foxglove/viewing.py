@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
+from dataclasses import dataclass, field
+from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -48,6 +50,20 @@ class ServedBag(Protocol):
         """Return the bag, opened anew."""
 
 
+@dataclass
+class _Asked:
+    """What a client has asked for since the last look; of a kind only the last counts."""
+
+    chosen: frozenset[str] | None = None
+    """topics"""
+    seek: int | None = None
+    """[ns]"""
+    rate: float | None = None
+    playing: bool = False
+    """counts where a rate is told"""
+    answers: list[Callable[[], Any]] = field(default_factory=list)
+
+
 class Viewing:
     """One client that looks at the bag."""
 
@@ -67,7 +83,7 @@ class Viewing:
         self._player = BagViewing(room.open(), room.rate)
         self._channels = Channels()
         self._channels.update(room.contents.topics)
-        self._asked: list[Callable[[float], None]] = []
+        self._asked = _Asked()
         """what is done to the player between two looks, by nobody else"""
         self._acts: dict[type[Any], Callable[[Any], None]] = {
             asked.Subscribe: self._subscribe,
@@ -127,7 +143,7 @@ class Viewing:
         act = self._acts.get(type(request))
         if act is None:
             raise ProtocolError(RECORDED)
-        if len(self._asked) >= MOST_ASKED:
+        if len(self._asked.answers) >= MOST_ASKED:
             msg = f'{MOST_ASKED} requests wait until you have taken what you were sent'
             raise ProtocolError(msg)
         act(request)
@@ -137,12 +153,11 @@ class Viewing:
         told_at, was = 0.0, PlaybackStatus.PAUSED
         while self._client.wire.is_open:
             now = time.monotonic()
-            acts, self._asked = self._asked, []
             if self._client.wire.waiting:
                 self._player.hold(now)
-                self._asked = acts + self._asked
             else:
-                due = await asyncio.to_thread(self._looked, acts, now)
+                asked_for, self._asked = self._asked, _Asked()
+                due = await asyncio.to_thread(self._looked, asked_for, now)
                 fresh = self._channels.take(due)
                 moved = bool(due) or now - told_at >= TIME_PERIOD
                 place = frame(protocol.time_data(self._player.position(now))) if moved else None
@@ -154,15 +169,25 @@ class Viewing:
                     self._client.refuse(self._player.failure)
                 self._tell_state('')
             was = status
-            await asyncio.sleep(PERIOD)
+            # who leaps about all the time leaves others as much time as it takes
+            await asyncio.sleep(max(PERIOD, time.monotonic() - now))
 
-    def _looked(
-        self, acts: list[Callable[[float], None]], now: float
-    ) -> list[tuple[str, int, bytes]]:
+    def _looked(self, told: _Asked, now: float) -> list[tuple[str, int, bytes]]:
         """Do what was asked, and return what is due; in a thread of its own."""
+        player = self._player
         with self._lock:
-            for act in acts:
-                act(now)
+            if told.chosen is not None:
+                self._chosen = told.chosen
+                needed = self._transforms.needed(told.chosen)
+                player.choose((told.chosen | needed) - self._offered.keys(), now)
+            if told.seek is not None:
+                player.seek(told.seek, now)
+                self._transforms.forget()
+            if told.rate is not None:
+                player.set_rate(told.rate, now)
+                (player.play if told.playing else player.pause)(now)
+            for answer in told.answers:
+                answer()
             return list(self._transforms.passed(self._player.due(now), self._chosen))
 
     def _subscribe(self, request: asked.Subscribe) -> None:
@@ -182,35 +207,23 @@ class Viewing:
 
     def _choose(self) -> None:
         by_channel = self._client.subscriptions.by_channel.values()
-        chosen = frozenset(one.info.topic for _, one in by_channel)
-
-        def act(now: float) -> None:
-            self._chosen = chosen
-            played = (chosen | self._transforms.needed(chosen)) - self._offered.keys()
-            self._player.choose(played, now)
-
-        self._asked.append(act)
+        self._asked.chosen = frozenset(one.info.topic for _, one in by_channel)
 
     def _control(self, request: asked.Control) -> None:
         if not self._controls:
             msg = f'playback is controlled by the parameters {PLAYING}, {RATE} and {PLACE}'
             raise ProtocolError(msg)
-        rate = request.speed or self._player.rate  # without a speed it stays as it is
+        rate = request.speed or self._values()[RATE]  # without a speed it stays as it is
         require_rate(rate)
         self._change(request.playing, rate, request.seek, request.id)
 
     def _change(self, playing: bool, rate: float, seek: int | None, number: str) -> None:  # noqa: FBT001 - of the protocol
         loop = asyncio.get_running_loop()
-
-        def act(now: float) -> None:
-            if seek is not None:
-                self._player.seek(seek, now)
-                self._transforms.forget()
-            self._player.set_rate(rate, now)
-            (self._player.play if playing else self._player.pause)(now)
-            loop.call_soon_threadsafe(self._tell_state, number, seek is not None)
-
-        self._asked.append(act)
+        told = self._asked
+        told.seek = told.seek if seek is None else seek
+        told.rate, told.playing = rate, playing
+        tell = partial(self._tell_state, number, seek is not None)
+        told.answers.append(partial(loop.call_soon_threadsafe, tell))
 
     def _get(self, request: asked.GetParameters) -> None:
         values = self._values()
@@ -244,10 +257,14 @@ class Viewing:
             self._client.send(protocol.parameter_values(values, request.id))
 
     def _values(self) -> dict[str, Any]:
-        now = time.monotonic()
-        place = (self._player.position(now) - self._room.contents.span[0]) / SECOND
+        """Return what the parameters are when all that was asked for is done."""
+        now, asked_for = time.monotonic(), self._asked
+        place = self._player.position(now) if asked_for.seek is None else asked_for.seek
+        seconds = (place - self._room.contents.span[0]) / SECOND
+        if asked_for.rate is not None:
+            return {PLAYING: asked_for.playing, RATE: asked_for.rate, PLACE: seconds}
         playing = self._player.status(now) is PlaybackStatus.PLAYING
-        return {PLAYING: playing, RATE: float(self._player.rate), PLACE: place}
+        return {PLAYING: playing, RATE: float(self._player.rate), PLACE: seconds}
 
     def _tell_state(self, number: str, leapt: bool = False) -> None:  # noqa: FBT001, FBT002
         """Tell where playback stands, in the client's own way."""

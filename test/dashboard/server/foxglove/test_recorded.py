@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import struct
 from types import SimpleNamespace as Some
 
@@ -169,18 +170,13 @@ def test_numbers_that_are_none_are_refused(server, connect):
 
 def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch):
     """A client that only speaks: what it asks waits for the next look, which it puts off."""
-    import asyncio
-
-    from agv_motion.dashboard.foxglove.permissions import Permissions
     from agv_motion.dashboard.foxglove.requests import Control, ProtocolError
     from agv_motion.dashboard.server.foxglove import viewing
-    from agv_motion.dashboard.server.foxglove.client import FoxgloveClient
 
     monkeypatch.setattr(viewing, 'MOST_ASKED', 3)
 
     async def pile_up():
-        client = FoxgloveClient(Some(waiting=1, write=lambda _: None), Permissions())
-        made = viewing.Viewing(RecordedRoom(bag), client, controls=True)
+        made = viewed(bag)
         request = Control(False, 1.0, None, 'n')  # noqa: FBT003 - pause
         for _ in range(3):
             made.do(request)
@@ -189,3 +185,47 @@ def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch):
         made.end()
 
     asyncio.run(pile_up())
+
+
+def viewed(bag):
+    """Return a look at a bag of a client that is told nothing."""
+    from agv_motion.dashboard.foxglove.permissions import Permissions
+    from agv_motion.dashboard.server.foxglove.client import FoxgloveClient
+    from agv_motion.dashboard.server.foxglove.viewing import Viewing
+
+    client = FoxgloveClient(Some(waiting=1, write=lambda _: None), Permissions())
+    return Viewing(RecordedRoom(bag), client, controls=True)
+
+
+def test_of_many_leaps_between_two_looks_the_last_is_made(bag, monkeypatch):
+    """Each of them would read the bag; each is answered all the same."""
+    from agv_motion.dashboard.foxglove.requests import Control
+
+    async def leap():
+        made, sought, answered = viewed(bag), [], []
+        monkeypatch.setattr(made._player, 'seek', lambda stamp, now: sought.append(stamp))  # noqa: SLF001
+        monkeypatch.setattr(made, '_tell_state', lambda number, leapt: answered.append(number))
+        for number in range(50):
+            made.do(Control(number % 2 == 0, 4.0, (2 + number) * SECOND, str(number)))
+        made.do(Control(True, 0.0, None, 'last'))  # noqa: FBT003 - play, as fast as before
+        asked, made._asked = made._asked, made._asked.__class__()  # noqa: SLF001
+        made._looked(asked, 0.0)  # noqa: SLF001
+        await asyncio.sleep(0)
+        made.end()
+        return sought, answered, made._player.rate  # noqa: SLF001
+
+    sought, answered, rate = asyncio.run(leap())
+    assert (sought, rate) == ([51 * SECOND], 4.0)
+    assert answered == [*map(str, range(50)), 'last']
+
+
+def test_what_is_set_one_after_the_other_is_all_set(server, connect):
+    """Also where nobody has looked between two of them."""
+    tool = connect(server)
+    control(tool, PAUSE, 1.0, 2 * SECOND, 'first')
+    for name, value in (('rate', 3.0), ('playing', False), ('seconds', 5.0)):
+        told = {'name': f'/playback.{name}', 'value': value}
+        tool.ask('setParameters', parameters=[told], id=name)
+    told = tool.wait('parameterValues', lambda t: t.get('id') == 'seconds')
+    values = {row['name']: row['value'] for row in told['parameters']}
+    assert values == {'/playback.playing': False, '/playback.rate': 3.0, '/playback.seconds': 5.0}
