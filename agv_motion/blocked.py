@@ -121,8 +121,8 @@ class PoseAverage:
 
     def distance(self, first: Pose, second: Pose) -> float:
         """Return how far two poses are apart [m], the turn measured at the arm."""
-        way = hypot(second.x - first.x, second.y - first.y)
-        return way + self._arm * abs(wrap(second.theta - first.theta))
+        (ax, ay, a), (bx, by, b) = first, second
+        return hypot(bx - ax, by - ay) + self._arm * abs(wrap(b - a))
 
 
 class ToldPath:

@@ -66,12 +66,9 @@ def require_finite(name: str, values: tuple[float, ...]) -> None:
 
 def compose(first: Pose, second: Pose) -> Pose:
     """Return the pose reached by ``second`` as seen from ``first``."""
-    c, s = cos(first.theta), sin(first.theta)
-    return Pose(
-        first.x + c * second.x - s * second.y,
-        first.y + s * second.x + c * second.y,
-        wrap(first.theta + second.theta),
-    )
+    (x, y, theta), (dx, dy, turn) = first, second
+    c, s = cos(theta), sin(theta)
+    return Pose(x + c * dx - s * dy, y + s * dx + c * dy, wrap(theta + turn))
 
 
 def inverse(pose: Pose) -> Pose:
