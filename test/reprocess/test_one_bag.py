@@ -44,10 +44,16 @@ def content(folder):
     return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob('*.mcap'))}
 
 
-def test_what_was_decided_is_decided_again(recorded, tmp_path):
-    outcome = reprocess(recorded / 'a', tmp_path / 'out', PLAN)
-    assert not outcome.failure
-    with BagReader(recorded / 'a') as before, BagReader(tmp_path / 'out') as after:
+@pytest.fixture(scope='module')
+def made(recorded, tmp_path_factory):
+    """Return the folder of what the plan makes of a recording."""
+    folder = tmp_path_factory.mktemp('made') / 'out'
+    assert not reprocess(recorded / 'a', folder, PLAN).failure
+    return folder
+
+
+def test_what_was_decided_is_decided_again(recorded, made):
+    with BagReader(recorded / 'a') as before, BagReader(made) as after:
         after.require(['/cmd_vel', '/turrets/command', '/odom', '/granier/sap_flow'])
         made = sorted(after.topics.keys() - {'/tf'})  # which the simulation did not record
         for topic in diff(before, after, made, Tolerance()):
@@ -65,11 +71,10 @@ def one_by_one(monkeypatch, *, rows=True):
 
 
 @pytest.mark.parametrize('rows', [False, True])
-def test_rows_many_together_lead_to_the_same_bytes(recorded, tmp_path, monkeypatch, rows):
-    reprocess(recorded / 'a', tmp_path / 'together' / 'out', PLAN)
+def test_rows_many_together_lead_to_the_same_bytes(recorded, made, tmp_path, monkeypatch, rows):
     one_by_one(monkeypatch, rows=rows)
     reprocess(recorded / 'a', tmp_path / 'apart' / 'out', PLAN)
-    assert content(tmp_path / 'together') == content(tmp_path / 'apart')
+    assert content(made.parent) == content(tmp_path / 'apart')
 
 
 def test_states_that_cannot_be_taken_together_are_taken_one_by_one(recorded, tmp_path, monkeypatch):
@@ -96,14 +101,13 @@ def test_states_that_cannot_be_taken_together_are_taken_one_by_one(recorded, tmp
     assert any('must be finite' in text for text in together.complaints)
 
 
-def test_another_configuration_decides_otherwise(recorded, tmp_path):
-    reprocess(recorded / 'a', tmp_path / 'one', PLAN)
+def test_another_configuration_decides_otherwise(recorded, made, tmp_path):
     tuned = tmp_path / 'tuned.yaml'
     tuned.write_text('/**/wheel_kinematics:\n  ros__parameters: {wheel_radius: 0.2}\n')
     only = PLAN._replace(config=str(tuned), nodes=('wheel_kinematics',))
     outcome = reprocess(recorded / 'a', tmp_path / 'two', only)
     assert not outcome.failure
-    with BagReader(tmp_path / 'one') as one, BagReader(tmp_path / 'two') as two:
+    with BagReader(made) as one, BagReader(tmp_path / 'two') as two:
         assert '/cmd_vel' not in two.topics
         (commands,) = diff(one, two, ['/turrets/command'], Tolerance(1e-9))
     worst = commands.worst['velocity[4]']

@@ -164,7 +164,7 @@ def open_page(chromium, tab):
     def note(error):
         errors.append(str(error))
 
-    def make(url, size=TABLET, *, color_scheme='light', reduced_motion='no-preference'):
+    def make(url, size=TABLET, *, color_scheme='light', reduced_motion='reduce'):
         page = tab if not pages else chromium.new_context().new_page()
         pages.append(page)
         page.set_viewport_size(size)

@@ -39,7 +39,7 @@ def test_axe_finds_nothing_serious(park, serve, open_page, scheme, rules):
         return violations(page, *parts, rules=rules)
 
     url = serve(park).url
-    page = open_page(url, color_scheme=scheme, reduced_motion='reduce')
+    page = open_page(url, color_scheme=scheme)
     page.wait_for_selector('[data-act=drive]')
     for colour, word in (('green', 'walking'), ('yellow', 'waiting'), ('red', 'blocked')):
         park.tell('oak', colour=colour, word=word)
