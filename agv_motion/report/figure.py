@@ -58,7 +58,9 @@ def figure(
             yield axes
             settle(drawn)
             with replacing(path) as made:
-                drawn.savefig(made, dpi=DOTS_PER_INCH)
+                # a PNG is packed once, by `_shrink`
+                loose = {'pil_kwargs': {'compress_level': 1}} if made.suffix == '.png' else {}
+                drawn.savefig(made, dpi=DOTS_PER_INCH, **loose)
                 _shrink(made)
         except ValueError as error:
             msg = f"cannot draw '{path}': {error}"

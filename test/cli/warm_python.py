@@ -20,9 +20,12 @@ import sys
 import termios
 from contextlib import suppress
 from importlib import import_module
+from io import BytesIO
 
+import matplotlib as mpl
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from lifecycle_msgs.srv import GetState
+from matplotlib import pyplot as plt
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
@@ -34,7 +37,7 @@ import agv_motion
 
 MAIN = 'agv_motion.cli.main'
 """What runs in each fork, and is therefore not there before it"""
-OTHERS = 'matplotlib.backends.backend_agg', 'rclpy.executors', 'rclpy.lifecycle'
+OTHERS = 'rclpy.executors', 'rclpy.lifecycle'
 REHEARSED = ['--help'], ['bag', 'info', 'nothing'], ['bag', 'plot', '--help']
 MESSAGES = (
     GetState.Request, GetState.Response, JointState, Odometry, PoseWithCovarianceStamped, String,
@@ -49,6 +52,7 @@ def import_all():
             import_module(module.name)
     for name in OTHERS:
         import_module(name)
+    draw_something()
     for words in REHEARSED:
         CliRunner().invoke(import_module(MAIN).app, words)
     del sys.modules[MAIN]
@@ -57,6 +61,16 @@ def import_all():
     get_rmw_implementation_identifier()
     gc.collect()
     gc.freeze()  # what is there stays: no fork need look at it again
+
+
+def draw_something():
+    """Let matplotlib import what it draws with, and find its fonts."""
+    mpl.use('Agg')
+    drawn, axes = plt.subplots(layout='constrained')
+    axes.plot([0.0, 1.0], label='a')
+    axes.legend(title='Name')
+    drawn.savefig(BytesIO(), format='png')
+    plt.close(drawn)
 
 
 def asked(line):
