@@ -19,8 +19,10 @@ from agv_motion.motion.behavior.memory_file import restore as recall
 from agv_motion.motion.behavior.memory_file import save
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.motion.navigation.zone_file import load_zone
-from agv_motion.probe.probe import Probe, ProbeParameters
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe
+from agv_motion.probe.sources.csv_file import CsvSource
+from agv_motion.probe.sources.csv_parameters import CsvParameters
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.state_file import restore
 from agv_motion.ros.parameter_file import load_parameters

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.probe.sources.csv_file import CsvParameters, load, start_of
+from agv_motion.probe.sources.csv_parameters import CsvParameters
+from agv_motion.probe.sources.csv_recording import load, start_of
 from agv_motion.probe.tables.inspection import inspect
 from agv_motion.probe.tables.time_format import iso
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from agv_motion.probe.sources.csv_file import CsvRecording
+    from agv_motion.probe.sources.csv_recording import CsvRecording
 
 DAY = 86400.0
 

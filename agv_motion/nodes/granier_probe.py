@@ -15,7 +15,9 @@ from agv_motion.model.frames import FrameParameters
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
 from agv_motion.probe.condition import ProbeConditions
-from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
+from agv_motion.probe.natural_gradient import without_natural_gradient
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe, ProbeReading
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
@@ -45,6 +47,9 @@ class GranierProbeParameters(SourceParameters, FrameParameters):
     assign: Annotated[
         tuple[str, ...], Spec('which probe is s1 (speed), s2 (rotation), s3 (places)')
     ] = ('probe_1', 'probe_2', 'probe_3')
+    reference_probe: Annotated[
+        str, Spec('probe that is not heated and tells the natural gradient; empty: none is')
+    ] = ''
     max_age: Annotated[
         float,
         Spec(
@@ -65,6 +70,14 @@ class GranierProbeParameters(SourceParameters, FrameParameters):
         if len(self.assign) != 3 or not set(self.assign) <= set(names):
             msg = f'assign = {list(self.assign)}: give three names among {", ".join(names)}'
             raise ConfigurationError(msg)
+        if self.reference_probe and self.reference_probe not in set(names) - set(self.assign):
+            msg = (
+                f"reference_probe = '{self.reference_probe}': give one of {', '.join(names)} that "
+                f'is none of assign = {list(self.assign)}, since it is not heated'
+            )
+            raise ConfigurationError(msg)
+        if self.probe.needs_environment:
+            self.require(self.probe.environment)
 
 
 class GranierProbe(PlainNode[GranierProbeParameters]):
@@ -98,6 +111,11 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             port.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
             for i in range(len(self._probes))
         ]
+        self._air = (
+            port.publisher(Vector3Stamped, 'granier/environment', SENSOR)
+            if given.probe.needs_environment
+            else None
+        )
         self._sap_flow = port.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
         self._valid = port.publisher(Bool, 'granier/valid', LATCHED)
         port.serve(Trigger, '~/recalibrate', self._on_recalibrate)
@@ -164,15 +182,29 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         """Learn from the history of the source; at the first tick, when the clock is known."""
         self._learnt = True
         for sample in self._source.history(now):
-            for probe, value in zip(self._probes, sample.values, strict=True):
-                probe.update(sample.time, value)
+            for probe, value in zip(self._probes, self._corrected(sample), strict=True):
+                probe.update(sample.time, value, sample.environment)
+
+    def _corrected(self, sample: ProbeSample) -> tuple[float, ...]:
+        """Return the temperature differences without the natural gradient, if that is told [K]."""
+        if not self.parameters.reference_probe:
+            return sample.values
+        reference = int(self.parameters.reference_probe.removeprefix('probe_')) - 1
+        return without_natural_gradient(sample.values, reference)
 
     def _take(self, sample: ProbeSample, now: float) -> None:
         """Let the probes see one sample, and publish what was read."""
         self._read_at = now
         self.port.stamp(self._message)
+        if self._air is not None:
+            air = Vector3Stamped(header=self._message.header)
+            air.vector.x, air.vector.y = sample.environment
+            self._air.publish(air)  # before the readings, for who reads a recording
+        corrected = self._corrected(sample)
         for i, value in enumerate(sample.values):
-            self._readings[i] = self._probes[i].update(sample.time, value)
+            self._readings[i] = self._probes[i].update(
+                sample.time, corrected[i], sample.environment
+            )
             if value == value:  # noqa: PLR0124 - not NaN
                 message = Temperature(temperature=value)
                 message.header.stamp = self._message.header.stamp

@@ -6,7 +6,8 @@
 """
 
 from agv_motion.probe.granier import flow_index, flux_density
-from agv_motion.probe.probe import Probe, ProbeParameters, ProbeReading
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe, ProbeReading
 from agv_motion.probe.series import read_series
 
 __all__ = [

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.parameters import Spec, check
-from agv_motion.probe.granier import flow_index, flux_density
+from agv_motion.probe.conversion import Conversion
+from agv_motion.probe.environment import UNKNOWN, Environment
 from agv_motion.probe.normalise import RunningQuantiles, RunningRange
+from agv_motion.probe.parameters import Normalisation, Polarity, ProbeParameters
 from agv_motion.probe.quality import Quality, ReadingJudge
 from agv_motion.probe.zero_flow import ZeroFlow
+from agv_motion.probe.zero_flow_method import method_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,102 +20,6 @@ if TYPE_CHECKING:
 
 FLOWING = 0.02
 """[-] K above which a coarse logger no longer repeats the same value for hours."""
-
-
-class Polarity(Enum):
-    """What high sap flow becomes."""
-
-    MORE_FLOW_IS_1 = 'more_flow_is_1'
-    MORE_FLOW_IS_0 = 'more_flow_is_0'
-
-
-class Normalisation(Enum):
-    """What sap flow is a share of."""
-
-    QUANTILES = 'quantiles'
-    RANGE = 'range'
-    """of the raw value, as in the original installation"""
-
-
-@dataclass(frozen=True)
-class ProbeParameters:
-    """How a probe is read; the defaults suit a conifer with readings every 25 s to 15 min."""
-
-    polarity: Annotated[
-        str,
-        Spec('what high sap flow becomes', choices=tuple(each.value for each in Polarity)),
-    ] = Polarity.MORE_FLOW_IS_1.value
-    normalisation: Annotated[
-        str,
-        Spec(
-            'running quantiles of the flux density, or the running minimum and maximum of the raw '
-            'value as the original installation did',
-            choices=tuple(each.value for each in Normalisation),
-        ),
-    ] = Normalisation.QUANTILES.value
-    window_days: Annotated[
-        float, Spec('days over which the quantiles are taken', 'd', (1.0, 366.0))
-    ] = 7.0
-    low_quantile: Annotated[
-        float, Spec('quantile of flux density that becomes 0', '1', (0.0, 1.0))
-    ] = 0.1
-    high_quantile: Annotated[
-        float, Spec('quantile of flux density that becomes 1', '1', (0.0, 1.0))
-    ] = 0.95
-    smallest_range: Annotated[
-        float, Spec('flux density below which a range is noise', 'm/s', (0.0, 1.0))
-    ] = 1e-6
-    learning_hours: Annotated[
-        float, Spec('history needed before a sap flow is given', 'h', (0.0, 720.0))
-    ] = 24.0
-    opening_range: Annotated[
-        float, Spec('range of the raw value before the original range opens', 'K', (0.0, 100.0))
-    ] = 2.5
-    night_start: Annotated[
-        float, Spec('start of the hours before dawn, local solar time', 'h', (0.0, 24.0))
-    ] = 2.0
-    night_end: Annotated[float, Spec('their end, when zero flow is latched', 'h', (0.0, 24.0))] = (
-        7.0
-    )
-    zero_flow_days: Annotated[
-        int, Spec('nights whose highest reading is zero flow', 'd', (1, 60))
-    ] = 3
-    solar_offset: Annotated[
-        float, Spec('local solar time minus UTC, longitude / 15', 'h', (-14.0, 14.0))
-    ] = 0.0
-    off_below: Annotated[
-        float, Spec('temperature difference of a probe that is off', 'K', (0.0, 100.0))
-    ] = 5.0
-    highest: Annotated[float, Spec('temperature difference beyond belief', 'K', (0.0, 1000.0))] = (
-        60.0
-    )
-    highest_index: Annotated[float, Spec("Granier's K beyond belief", '1', (0.1, 100.0))] = 2.0
-    spike_threshold: Annotated[
-        float, Spec('change against the recent median that is a spike', '1', (0.01, 10.0))
-    ] = 0.15
-    stuck_flowing: Annotated[
-        float,
-        Spec('how long the same value is believed while sap flows', 'h', (0.01, 1e3)),
-    ] = 4.0
-    stuck_resting: Annotated[
-        float,
-        Spec('how long the same value is believed at zero flow', 'h', (0.01, 1e3)),
-    ] = 18.0
-
-    def __post_init__(self) -> None:
-        """Check every row, and the order of those that come in pairs."""
-        check(self)
-        for low, high in (
-            ('low_quantile', 'high_quantile'),
-            ('night_start', 'night_end'),
-            ('off_below', 'highest'),
-        ):
-            if getattr(self, low) >= getattr(self, high):
-                msg = (
-                    f'{low} = {getattr(self, low)} is not below {high} = {getattr(self, high)}: '
-                    'exchange or correct them'
-                )
-                raise ConfigurationError(msg)
 
 
 class ProbeReading(NamedTuple):
@@ -148,8 +52,10 @@ class Probe:
             given.spike_threshold,
             (given.stuck_flowing * 3600.0, given.stuck_resting * 3600.0),
         )
-        self._zero_flow = ZeroFlow(
-            given.night_start, given.night_end, given.zero_flow_days, given.solar_offset
+        method = method_of(given.zero_flow_method, given.zero_flow_days, given.environment)
+        self._zero_flow = ZeroFlow(given.night_start, given.night_end, method, given.solar_offset)
+        self._conversion = Conversion(
+            given.calibration.chosen(), given.needle_in_sapwood, given.damping
         )
         self._normaliser: Normaliser = (
             RunningRange(given.opening_range)
@@ -164,12 +70,15 @@ class Probe:
         self._flowing = False
         self._last_usable: tuple[float, float] | None = None
 
-    def update(self, time: float, temperature_difference: float) -> ProbeReading:
+    def update(
+        self, time: float, temperature_difference: float, environment: Environment = UNKNOWN
+    ) -> ProbeReading:
         """Take in one reading.
 
         Args:
             time: Of the reading, seconds since 1970, UTC.
             temperature_difference: dT [K]; NaN where the reading is missing.
+            environment: The air at that time, for the zero flow that is known by it.
 
         """
         quality = self._judge.judge(time, temperature_difference, flowing=self._flowing)
@@ -177,16 +86,16 @@ class Probe:
             return self._unknown(time, temperature_difference, quality)
         before = self._zero_flow.value
         if before is not None:
-            index = flow_index(temperature_difference, before)
+            index = self._conversion.index(time, temperature_difference, before)
             if index > self._parameters.highest_index:
                 return self._unknown(time, temperature_difference, Quality.OUT_OF_RANGE)
-        zero_flow = self._zero_flow.update(time, temperature_difference)
+        zero_flow = self._zero_flow.update(time, temperature_difference, environment)
         self._last_usable = time, temperature_difference
         if zero_flow is None:
             return self._unknown(time, temperature_difference, quality)
-        index = flow_index(temperature_difference, zero_flow)
+        index = self._conversion.index(time, temperature_difference, zero_flow)
         self._flowing = index > FLOWING
-        flux = flux_density(index)
+        flux = self._conversion.calibration.flux_density(index)
         share = self._share(time, temperature_difference, flux)
         if index < 0.0:
             quality = Quality.NEGATIVE_FLOW

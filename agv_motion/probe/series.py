@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import repeat
 from math import nan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from agv_motion.errors import SignalError
-from agv_motion.probe.probe import Probe, ProbeParameters
+from agv_motion.probe.environment import UNKNOWN
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
+    from agv_motion.probe.environment import Environment
     from agv_motion.probe.quality import Quality
 
 
@@ -37,7 +43,10 @@ class ProbeSeries:
 
 
 def read_series(
-    time: ArrayLike, temperature_difference: ArrayLike, parameters: ProbeParameters | None = None
+    time: ArrayLike,
+    temperature_difference: ArrayLike,
+    parameters: ProbeParameters | None = None,
+    environment: Sequence[Environment] | None = None,
 ) -> ProbeSeries:
     """Return what one probe says of a series; causal: each reading is judged by those before it.
 
@@ -45,6 +54,7 @@ def read_series(
         time: (n,) of the readings, not decreasing [s since 1970, UTC].
         temperature_difference: (n,) dT [K]; NaN where a reading is missing.
         parameters: How the probe is read.
+        environment: The air at each of the readings.
 
     Raises:
         SignalError: The columns are not two of one length, or a time is not finite or decreases.
@@ -59,8 +69,13 @@ def read_series(
         row = int(wrong[0])
         msg = f'time {times[row]} s in row {row}: give finite times in their order'
         raise SignalError(msg)
+    air = repeat(UNKNOWN, len(times)) if environment is None else environment
+    if environment is not None and len(environment) != len(times):
+        msg = f'{len(times)} readings, {len(environment)} rows of environment: give one for each'
+        raise SignalError(msg)
     probe = Probe(parameters or ProbeParameters())
-    readings = [probe.update(*row) for row in zip(times.tolist(), values.tolist(), strict=True)]
+    rows = zip(times.tolist(), values.tolist(), air, strict=True)
+    readings = [probe.update(*row) for row in rows]
 
     def column(name: str) -> NDArray[np.float64]:
         told = (getattr(reading, name) for reading in readings)

@@ -1,8 +1,8 @@
 """The zero-flow value dT_max of a probe, as a live robot can know it: causal and latched.
 
 Before dawn the tree hardly drinks and dT is highest. Each night gives one value, the highest
-reading of the hours before dawn; dT_max is the highest of the last few nights. It changes only
-when a night ends, never while the tree drinks.
+reading of the hours before dawn; what the last nights make of dT_max is the method's. It changes
+only when a night ends, never while the tree drinks.
 
 Source: P. J. Lu et al., "Granier's thermal dissipation probe method for measuring sap flow in
 trees: theory and practice", Acta Botanica Sinica 46, 2004.
@@ -12,9 +12,13 @@ from __future__ import annotations
 
 from math import isfinite
 from statistics import median
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from agv_motion.errors import ConfigurationError
+from agv_motion.probe.environment import UNKNOWN, Environment
+
+if TYPE_CHECKING:
+    from agv_motion.probe.zero_flow_method import ZeroFlowMethod
 
 DAY = 86400.0
 
@@ -26,37 +30,43 @@ class _Night:
         self.day = day
         self.highest = 0.0
         """[K] of the medians of three"""
+        self.counts = False
+        """whether that told zero flow"""
         self._last_three: list[float] = []
 
-    def add(self, temperature_difference: float) -> None:
+    def add(self, temperature_difference: float, method: ZeroFlowMethod) -> None:
         self._last_three = [*self._last_three[-2:], temperature_difference]
         if len(self._last_three) == 3:
-            self.highest = max(self.highest, median(self._last_three))
+            highest = median(self._last_three)
+            if highest > self.highest:
+                self.highest, self.counts = highest, method.counts()
 
 
 class ZeroFlow:
-    """Running pre-dawn maximum over a window of nights."""
+    """Zero flow of the nights of a window, by one of the methods."""
 
     def __init__(
-        self, night_start: float, night_end: float, window_days: int, solar_offset: float
+        self, night_start: float, night_end: float, method: ZeroFlowMethod, solar_offset: float
     ) -> None:
         """Start without any night.
 
         Args:
             night_start: First hour of the pre-dawn window, local solar time [h].
             night_end: Hour at which it ends and the value is latched [h].
-            window_days: Number of days whose nights count.
+            method: What nights make of zero flow, and for how many days.
             solar_offset: Local solar time minus UTC [h]; the longitude in degrees / 15.
 
         """
         self._start, self._end = night_start * 3600.0, night_end * 3600.0
-        self._window_days = window_days
+        self._method = method
         self._offset = solar_offset * 3600.0
         self._nights: dict[int, float] = {}
         self._open: _Night | None = None
         self.value: float | None = None
 
-    def update(self, time: float, temperature_difference: float) -> float | None:
+    def update(
+        self, time: float, temperature_difference: float, environment: Environment = UNKNOWN
+    ) -> float | None:
         """Take in one good reading and return dT_max; None while no recent night is known.
 
         A reading counts as the median of itself and the two before, so that no single one
@@ -65,16 +75,18 @@ class ZeroFlow:
         Args:
             time: Of the reading, seconds since 1970, UTC.
             temperature_difference: dT, in any unit [K].
+            environment: The air at that time.
 
         """
+        self._method.observe(time, temperature_difference, environment)
         day, second = divmod(time + self._offset, DAY)
         night = self._start <= second < self._end
         if self._open is not None and (int(day) != self._open.day or not night):
             self._latch(self._open)
         if night:
             self._open = self._open or _Night(int(day))
-            self._open.add(temperature_difference)
-        if self._nights and int(day) - max(self._nights) > self._window_days:
+            self._open.add(temperature_difference, self._method)
+        if self._nights and int(day) - max(self._nights) > self._method.days:
             self._nights, self.value = {}, None
         return self.value
 
@@ -86,11 +98,11 @@ class ZeroFlow:
 
     def _latch(self, night: _Night) -> None:
         """Let ``night`` count from now on, and those out of the window no longer."""
-        if night.highest > 0.0:
+        if night.counts:
             self._nights[night.day] = night.highest
-            oldest = night.day - self._window_days
+            oldest = night.day - self._method.days
             self._nights = {d: value for d, value in self._nights.items() if d > oldest}
-            self.value = max(self._nights.values())
+            self.value = self._level()
         self._open = None
 
     def state(self) -> dict[str, Any]:
@@ -112,4 +124,7 @@ class ZeroFlow:
             msg = f'saved zero-flow nights are unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
         self._nights = {day: value for day, value in nights.items() if 0.0 < value < 1e6}
-        self.value = max(self._nights.values(), default=None)
+        self.value = self._level() if self._nights else None
+
+    def _level(self) -> float:
+        return self._method.level([self._nights[day] for day in sorted(self._nights)])

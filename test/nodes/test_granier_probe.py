@@ -80,6 +80,31 @@ def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
     assert 'probe_2 is off' in node.plain.diagnose().message
 
 
+def test_zero_flow_by_the_air_and_an_unheated_probe(tester, tmp_path):
+    """Nights of the first two days are dry; the air is told to who listens."""
+    air = tester.listen(Vector3Stamped, 'granier/environment', SENSOR)
+    rows = ''.join(
+        f'{DAWN + 900 * k},{v},{v},{v},0.02,{max(0, 800 - abs(k % 96 - 50) * 30)},'
+        f'{0.05 if k > 191 else 0.5}\n'
+        for k in range(300)
+        for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
+    )
+    path = tmp_path / 'probes.csv'
+    path.write_text('time,a,b,c,cold,sun,vpd\n' + rows)
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=str(path), csv__speed=3600.0,
+        csv__columns=['a', 'b', 'c', 'cold'], csv__day_offsets=[0.0] * 4, warm_up_days=8.0,
+        csv__radiation_column='sun', csv__vpd_column='vpd', csv__start='2013-06-12T06:00:00',
+        probe__zero_flow_method='environment', reference_probe='probe_4',
+    )  # fmt: skip
+    reading = lambda: node.plain._readings[0]  # noqa: SLF001, E731 - zero flow is told by diagnostics, rounded
+    tester.graph.spin_until(lambda: reading() and reading().flow_index is not None)
+    assert reading().zero_flow == pytest.approx(25.0 * (0.8 + 1e-4 - 0.02), abs=0.01)
+    first = tester.wait(air).vector
+    assert 0.0 <= first.x <= 800.0
+    assert first.y == 0.05
+
+
 def test_a_gap_ends_the_sap_flow(tester, tmp_path):
     valid = tester.listen(Bool, 'granier/valid', LATCHED)
     file = clear_week(tmp_path, f'{DAWN + 864000},0.8,0.8,0.8\n')
@@ -156,6 +181,13 @@ def test_shade_reaches_the_simulated_tree(tester):
         ({'probe__low_quantile': 0.99}, ConfigurationError, 'not below'),
         ({'rate': -1.0}, InvalidParameterValueException, 'rate'),
         ({'csv__day_offsets': [1.0]}, ConfigurationError, '3 columns and 1 day_offsets'),
+        ({'csv__vpd_column': 'probe_1'}, ConfigurationError, 'give each a column of its own'),
+        ({'reference_probe': 'probe_1'}, ConfigurationError, 'since it is not heated'),
+        ({'probe__calibration__of': 'oak'}, ConfigurationError, 'picea_abies'),
+        ({'probe__zero_flow_method': 'environment', 'source': 'csv'}, ConfigurationError,
+         'give csv.radiation_column'),
+        ({'probe__zero_flow_method': 'environment', 'probe__environment__vpd_below': 0.0,
+          'probe__environment__radiation_below': 0.0}, ConfigurationError, 'asks nothing'),
     ],
 )
 def test_parameters_that_make_no_sense_are_refused(tester, parameters, error, word):

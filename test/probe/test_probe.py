@@ -11,9 +11,11 @@ import pytest
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe import state_file
-from agv_motion.probe.probe import Probe, ProbeParameters
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe
 from agv_motion.probe.quality import Quality
-from agv_motion.probe.sources.csv_file import CsvParameters, load
+from agv_motion.probe.sources.csv_parameters import CsvParameters
+from agv_motion.probe.sources.csv_recording import load
 from agv_motion.probe.sources.source import kelvin, kelvin_per
 
 DAY = 86400.0

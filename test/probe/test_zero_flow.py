@@ -6,6 +6,7 @@ import pytest
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe.zero_flow import ZeroFlow
+from agv_motion.probe.zero_flow_method import MovingWindow
 
 HOUR = 3600.0
 DAY = 24 * HOUR
@@ -23,13 +24,13 @@ def night(level):
 
 
 def test_unknown_until_the_first_night_ends():
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     assert fed(zero_flow, 0, night(20.0)) is None
     assert fed(zero_flow, 0, [(7.0, 19.5)]) == 20.0
 
 
 def test_latched_all_day_whatever_comes():
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     fed(zero_flow, 0, night(20.0))
     assert fed(zero_flow, 0, [(8.0, 15.0), (12.0, 25.0), (13.0, 25.0), (14.0, 25.0)]) == 20.0
     assert fed(zero_flow, 1, night(20.5)) == 20.0
@@ -37,20 +38,20 @@ def test_latched_all_day_whatever_comes():
 
 
 def test_a_single_spike_at_night_decides_nothing():
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     spiked = [(2.0, 20.0), (3.0, 20.0), (4.0, 29.0), (5.0, 20.0), (6.0, 20.0), (8.0, 19.0)]
     assert fed(zero_flow, 0, spiked) == 20.0
 
 
 def test_the_highest_of_the_last_nights_counts():
     """Three nights: 21, 20, 20 give 21; the fourth drops the first."""
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     seen = [fed(zero_flow, d, [*night(n), (8.0, 18.0)]) for d, n in enumerate([21, 20, 20, 20])]
     assert seen == [21.0, 21.0, 21.0, 20.0]
 
 
 def test_after_days_without_a_night_nothing_is_known():
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     assert fed(zero_flow, 0, [*night(20.0), (8.0, 18.0)]) == 20.0
     assert fed(zero_flow, 3, [(12.0, 18.0)]) == 20.0
     assert fed(zero_flow, 4, [(12.0, 18.0)]) is None
@@ -58,19 +59,19 @@ def test_after_days_without_a_night_nothing_is_known():
 
 def test_the_night_is_that_of_the_place():
     """At solar time UTC + 6 h the hours before dawn are 20:00 to 01:00 UTC."""
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 6.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 6.0)
     assert fed(zero_flow, 0, [(20.0, 20.0), (21.0, 20.0), (22.0, 20.0), (26.0, 18.0)]) == 20.0
 
 
 def test_recalibration_forgets_and_adopts():
-    zero_flow = ZeroFlow(2.0, 7.0, 3, 0.0)
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     fed(zero_flow, 0, [*night(20.0), (8.0, 18.0)])
     zero_flow.recalibrate(0 * DAY + 9 * HOUR, 17.0)
     assert zero_flow.value == 17.0
 
 
 def test_a_restart_remembers_the_nights():
-    first, second = ZeroFlow(2.0, 7.0, 3, 0.0), ZeroFlow(2.0, 7.0, 3, 0.0)
+    first, second = (ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0) for _ in range(2))
     fed(first, 0, [*night(20.0), (8.0, 18.0)])
     second.restore(first.state())
     assert second.value == 20.0

@@ -3,7 +3,8 @@
 Each keeps `ProbeSource` and gives a `ProbeSample` at a time; :mod:`.sources` names them all.
 """
 
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource
+from agv_motion.probe.sources.csv_file import CsvSource
+from agv_motion.probe.sources.csv_parameters import CsvParameters
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.source import ProbeSample, ProbeSource
 

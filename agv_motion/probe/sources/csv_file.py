@@ -3,69 +3,22 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
-from math import inf, nan
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from agv_motion.errors import AgvMotionError, ConfigurationError, SourceError
-from agv_motion.parameters import Spec
-from agv_motion.probe.sources.source import (
-    KELVIN_PER_MILLIVOLT,
-    MOST,
-    UNITS,
-    ProbeSample,
-    kelvin_per,
-)
-from agv_motion.probe.tables.table import LoggerTable, LoggerTables
-from agv_motion.probe.tables.table_parameters import TableParameters
-from agv_motion.probe.tables.time_format import iso, parse_time
+from agv_motion.errors import AgvMotionError
+from agv_motion.probe.environment import UNKNOWN
+from agv_motion.probe.sources.csv_recording import DAY, in_kelvin, load, start_of
+from agv_motion.probe.sources.source import ProbeSample
+from agv_motion.probe.tables.table import LoggerTables
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
-
-DAY = 86400.0
-ROUNDED = 1e-3
-"""[s] by which a start may lie outside the file, since a time in words is rounded"""
-
-
-@dataclass(frozen=True)
-class CsvParameters(TableParameters):
-    """Which file, which columns, and how fast."""
-
-    day_offsets: Annotated[
-        tuple[float, ...],
-        Spec(
-            'days by which each probe is read later in the file',
-            'd',
-            (-1e5, 1e5),
-        ),
-    ] = (0.0, 0.0, 0.0)
-    unit: Annotated[str, Spec('of the columns', choices=UNITS)] = 'mV'
-    kelvin_per_millivolt: Annotated[float, Spec('of the thermocouple', 'K/mV', (0.1, 1e4))] = (
-        KELVIN_PER_MILLIVOLT
-    )
-    start: Annotated[str, Spec('ISO 8601 time at which to start; empty: the first row')] = ''
-    speed: Annotated[float, Spec('seconds of the file per second', '1', (1e-3, 1e6))] = 1.0
-    follow: Annotated[
-        bool, Spec('tell each row when a logger has written it, in place of playing the file')
-    ] = False
-
-    def __post_init__(self) -> None:
-        """Check every row, and that each probe has column and offset."""
-        super().__post_init__()
-        if len(self.day_offsets) != len(self.columns):
-            msg = (
-                f'{len(self.columns)} columns and {len(self.day_offsets)} day_offsets: '
-                'give one of each for every probe'
-            )
-            raise ConfigurationError(msg)
-        if self.follow and (any(self.day_offsets) or self.start or self.speed != 1.0):
-            msg = 'follow = true takes rows as they come: leave out start, speed and day_offsets'
-            raise ConfigurationError(msg)
+    from agv_motion.probe.sources.csv_parameters import CsvParameters
+    from agv_motion.probe.sources.csv_recording import CsvRecording
 
 
 class CsvSource:
@@ -123,8 +76,7 @@ class CsvSource:
         """Hold nothing: the file was read at once."""
 
     def _sample(self, row: int) -> ProbeSample:
-        recording = self._recording
-        return ProbeSample(recording.times[row], tuple(recording.values[row].tolist()))
+        return _sample(self._recording, row)
 
 
 class GrowingSource:
@@ -139,8 +91,8 @@ class GrowingSource:
 
         """
         self._given, self._warm_up = parameters, warm_up_days * DAY
-        self._tables = LoggerTables(parameters)
-        self._past = _in_kelvin(self._tables.read(growing=True), parameters)
+        self._tables = LoggerTables(parameters.table())
+        self._past = in_kelvin(self._tables.read(growing=True), parameters)
         self._last = self._past.times[-1] if self._past.times else -inf
         self._problem = self._past.problem
         self.period = self._past.step
@@ -153,7 +105,7 @@ class GrowingSource:
     def read(self, now: float) -> list[ProbeSample]:  # noqa: ARG002 - a row is due once it is written
         """Return the rows that were added since the last call."""
         try:
-            new = _in_kelvin(self._tables.read(growing=True), self._given)
+            new = in_kelvin(self._tables.read(growing=True), self._given)
         except (AgvMotionError, OSError) as error:
             self._problem = str(error)  # the disk of a logger comes and goes
             return []
@@ -176,87 +128,11 @@ class GrowingSource:
         """Hold nothing: each look opens and closes the files."""
 
 
-class CsvRecording(NamedTuple):
-    """What files tell, in the order of time."""
-
-    times: list[float]
-    """[s] since 1970"""
-    values: NDArray[np.float64]
-    """(n, probes) [K]"""
-    step: float
-    """[s] usual time between rows; infinite where there is one"""
-    problem: str
-    """what was wrong with the files; empty if nothing"""
-    table: LoggerTable
-    """as it was read"""
-
-
-def start_of(start: str, recording: CsvRecording, file: str) -> float:
-    """Return where to start [s since 1970]: at a time in words, or at the first row.
-
-    Raises:
-        SourceError: It is no time, or not in the file.
-
-    """
-    times = recording.times
-    if not start:
-        return times[0]
-    time = parse_time(start)
-    for row, outside, when in (
-        (0, time < times[0] - ROUNDED, 'begins'),
-        (-1, time > times[-1] + ROUNDED, 'ends'),
-    ):
-        if outside:
-            side = 'after' if when == 'begins' else 'before'
-            msg = (
-                f'{file} {when} at {iso(times[row])} ({recording.table.place(row)}), {side} the '
-                f"start '{start}': choose one from {iso(times[0])} to {iso(times[-1])}"
-            )
-            raise SourceError(msg)
-    return min(max(time, times[0]), times[-1])
-
-
-def load(parameters: CsvParameters) -> CsvRecording:
-    """Return what files tell.
-
-    A probe read with an offset takes the row nearest to its shifted time, and NaN where that is
-    further away than half the usual step.
-    """
-    return _in_kelvin(LoggerTables(parameters).read(), parameters)
-
-
-def _in_kelvin(table: LoggerTable, given: CsvParameters) -> CsvRecording:
-    times, columns = table.times, table.values.copy()
-    step = float(np.median(np.diff(times))) if len(times) > 1 else inf
-    for i, offset in enumerate(given.day_offsets):
-        if offset:
-            reach = step / 2.0 if len(times) > 1 else 0.5
-            columns[:, i] = _shifted(times, columns[:, i], offset * DAY, reach)
-    factor = kelvin_per(given.unit, given.kelvin_per_millivolt)
-    wild = np.abs(columns) > MOST / factor
-    problem = table.problem
-    if wild.any():
-        told = f'{wild.sum()} values of more than {MOST:g} K are no temperature'
-        problem = '; '.join(filter(None, (problem, told)))
-    values = np.where(wild, nan, columns) * factor
-    return CsvRecording(times.tolist(), values, step, problem, table)
-
-
-def _shifted(
-    times: NDArray[np.float64], column: NDArray[np.float64], offset: float, reach: float
-) -> NDArray[np.float64]:
-    """Return what a column tells ``offset`` [s] later, or at most ``reach`` [s] from that."""
-    wanted = times + offset
-    after = np.clip(np.searchsorted(times, wanted), 1, max(len(times) - 1, 1))
-    nearest = np.minimum(after, len(times) - 1)
-    before = np.maximum(after - 1, 0)
-    nearest = np.where(
-        np.abs(times[before] - wanted) <= np.abs(times[nearest] - wanted), before, nearest
-    )
-    found = np.abs(times[nearest] - wanted) <= reach
-    return np.where(found, column[nearest], nan)
-
-
 def _samples(recording: CsvRecording, first: int) -> Iterator[ProbeSample]:
     for row in range(first, len(recording.times)):
-        yield ProbeSample(recording.times[row], tuple(recording.values[row].tolist()))
+        yield _sample(recording, row)
+
+
+def _sample(recording: CsvRecording, row: int) -> ProbeSample:
+    air = recording.air[row] if recording.air else UNKNOWN
+    return ProbeSample(recording.times[row], tuple(recording.values[row].tolist()), air)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from agv_motion.probe.environment import UNKNOWN, Environment
 from agv_motion.probe.sources.source import ProbeSample
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ class RecordedSource:
         self._live = live
         self._probes = probes
         self._waiting: dict[float, list[float]] = {}
+        self._air: dict[float, Environment] = {}
 
     def take(self, probe: int, time: float, value: float) -> None:
         """Note a reading.
@@ -43,6 +45,10 @@ class RecordedSource:
         """
         self._waiting.setdefault(time, [nan] * self._probes)[probe] = value
 
+    def take_environment(self, time: float, environment: Environment) -> None:
+        """Note the air at ``time`` [s], which is told before the readings of that time."""
+        self._air[time] = environment
+
     def history(self, now: float) -> Iterable[ProbeSample]:
         """Return what the live source knew before ``now`` [s]."""
         return self._live.history(now)
@@ -54,7 +60,10 @@ class RecordedSource:
             for time, values in self._waiting.items()
             if now - time > PATIENCE or not any(value != value for value in values)  # noqa: PLR0124
         ]
-        return [ProbeSample(time, tuple(self._waiting.pop(time))) for time in sorted(whole)]
+        return [
+            ProbeSample(time, tuple(self._waiting.pop(time)), self._air.pop(time, UNKNOWN))
+            for time in sorted(whole)
+        ]
 
     def complaint(self) -> str:
         """Return nothing: what went wrong is in the recording."""

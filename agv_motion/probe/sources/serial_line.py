@@ -14,20 +14,14 @@ from typing import TYPE_CHECKING, Annotated
 import serial
 
 from agv_motion.errors import SignalError
-from agv_motion.parameters import Spec, check
-from agv_motion.probe.sources.checksum import Checksum, checked
-from agv_motion.probe.sources.line_formats import Arrival, line_reader
+from agv_motion.parameters import Spec
+from agv_motion.probe.sources.line_reading import LineParameters, read_line_of, sample_of
 from agv_motion.probe.sources.logger_line import EPOCHS, LoggerLine, cleaned
-from agv_motion.probe.sources.source import (
-    KELVIN_PER_MILLIVOLT,
-    UNITS,
-    ProbeSample,
-    kelvin,
-    kelvin_per,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from agv_motion.probe.sources.source import ProbeSample
 
 LONGEST_LINE = 1024
 """[bytes] Anything longer without a line end is rubbish and dropped."""
@@ -49,48 +43,11 @@ LONGEST_PAUSE = 30.0
 
 
 @dataclass(frozen=True)
-class SerialParameters:
+class SerialParameters(LineParameters):
     """The line and what stands in it."""
 
     port: Annotated[str, Spec('device of the logger')] = '/dev/ttyUSB0'
     baud: Annotated[int, Spec('speed of the line', 'baud', (300, 4_000_000))] = 38400
-    fields: Annotated[
-        tuple[int, ...], Spec('which value of a line each probe is, counted from 1', '1', (1, 64))
-    ] = (1, 2, 3)
-    unit: Annotated[str, Spec('of the values', choices=UNITS)] = 'mV'
-    kelvin_per_millivolt: Annotated[float, Spec('of the thermocouple', 'K/mV', (0.1, 1e4))] = (
-        KELVIN_PER_MILLIVOLT
-    )
-    utc_offset: Annotated[float, Spec('time of the logger minus UTC', 'h', (-14, 14))] = 0.0
-    period: Annotated[float, Spec('usual time between lines', 's', (0.01, 3600.0))] = 30.0
-    format: Annotated[
-        str,
-        Spec(
-            'of the lines: auto (date and clock, or seconds since 1970, then values), arrival '
-            '(values alone, with labels or without), campbell_comma, campbell_printable, '
-            'datataker, or a regular expression with groups time and values, or v1, v2, ...'
-        ),
-    ] = 'auto'
-    time_format: Annotated[
-        str, Spec('of the group time of a regular expression, as of csv.time_format')
-    ] = 'iso'
-    checksum: Annotated[
-        str,
-        Spec(
-            'behind each line as hexadecimal digits, after * or a comma',
-            choices=tuple(each.value for each in Checksum),
-        ),
-    ] = 'none'
-
-    def __post_init__(self) -> None:
-        """Check every row.
-
-        Raises:
-            ConfigurationError: A value is not allowed, or the format is none.
-
-        """
-        check(self)
-        line_reader(self.format, self.time_format)
 
 
 class SerialSource:
@@ -128,10 +85,10 @@ class SerialSource:
             if text:
                 self._hearing.last = text
                 try:
-                    read = _read(text, self._given, now)
-                    samples.append(_sample(text, read, self._given))
+                    read = read_line_of(text, self._given, now)
+                    samples.append(sample_of(text, read, self._given))
                 except SignalError as error:
-                    self._note(str(error))
+                    self._note(str(error) if is_text(text) else self._no_text(text))
                 else:
                     self._tell_oddities(text, read, now)
         if self._line is not None and (silence := self._hearing.silence(now)):
@@ -153,6 +110,10 @@ class SerialSource:
                 f'{"ahead of" if off > 0.0 else "behind"} the clock here: set the logger, day '
                 'before month; night and day are learnt by its time'
             )
+
+    def _no_text(self, text: str) -> str:
+        baud = self._given.baud
+        return f"unreadable line '{text:.80}': it is no text: {baud} baud may not be its speed"
 
     def complaint(self) -> str:
         """Return what was unreadable or missing, the first few things of it."""
@@ -188,6 +149,11 @@ class SerialSource:
             return 0
         self._buffer += data
         return len(data)
+
+
+def is_text(line: str) -> bool:
+    """Tell whether a line may be text that was sent at the speed at which it was read."""
+    return sum(not ' ' <= letter <= '~' for letter in line) <= GARBAGE * len(line)
 
 
 class _Attempts:
@@ -232,37 +198,3 @@ class _Hearing:
             f'nothing has come from {self._given.port} in {silent:.0f} s at {self._given.baud} '
             'baud: look whether the logger is on, and at the cable'
         )
-
-
-def parse_line(text: str, parameters: SerialParameters, now: float = 0.0) -> ProbeSample:
-    """Return the sample of one line that arrives ``now`` [s]; a field that is no number is NaN.
-
-    Raises:
-        SignalError: The line has no one reading, or a field is missing; the line is quoted.
-
-    """
-    return _sample(text, _read(text, parameters, now), parameters)
-
-
-def _read(text: str, given: SerialParameters, now: float) -> LoggerLine:
-    try:
-        line = checked(text, Checksum(given.checksum))
-        return line_reader(given.format, given.time_format)(line, Arrival(now, given.utc_offset))
-    except SignalError as error:
-        garbage = sum(not ' ' <= letter <= '~' for letter in text) > GARBAGE * len(text)
-        why = f'it is no text: {given.baud} baud may not be its speed' if garbage else error
-        msg = f"unreadable line '{text:.80}': {why}"
-        raise SignalError(msg) from error
-
-
-def _sample(text: str, line: LoggerLine, parameters: SerialParameters) -> ProbeSample:
-    if len(line.values) < max(parameters.fields):
-        msg = (
-            f"line '{text:.80}' has {len(line.values)} values, probe field "
-            f'{max(parameters.fields)} is missing: check the logger, or the parameter serial.fields'
-        )
-        raise SignalError(msg)
-    factor = kelvin_per(parameters.unit, parameters.kelvin_per_millivolt)
-    return ProbeSample(
-        line.time, tuple(kelvin(line.values[f - 1], factor) for f in parameters.fields)
-    )

@@ -12,6 +12,7 @@ from math import ceil, cos, exp, floor, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, Annotated
 
 from agv_motion.parameters import Spec, check
+from agv_motion.probe.environment import Environment
 from agv_motion.probe.sources.source import ProbeSample
 from agv_motion.sun import half_day, solar_time
 
@@ -103,19 +104,34 @@ class SimulatedSource:
             flow = self._day(time - 2400.0 * probe) * self._weather(time, side) * light
             noise = given.noise * gauss(side, floor(time * 100.0))
             values.append(zero_flow / (1.0 + given.fair_day_index * flow) + noise)
-        return ProbeSample(time, tuple(values))
+        return ProbeSample(time, tuple(values), self._air(time, light))
+
+    def _air(self, time: float, light: float) -> Environment:
+        """Return radiation with the sun, and a vapour pressure deficit that lags two hours."""
+        sun = self._sun(time) * self._weather(time, self._given.seed * 64) * light
+        warmth = self._sun(time - 7200.0)
+        return Environment(900.0 * sun, 0.02 + 1.2 * warmth)
+
+    def _sun(self, time: float) -> float:
+        """Return the course of the sun on a fair day in [0, 1]; 0 at night."""
+        rise, fall, hour = self._hours(time)
+        return sin(pi * (hour - rise) / (fall - rise)) if rise < hour < fall else 0.0
 
     def _day(self, time: float) -> float:
         """Return the course of a fair day in [0, 1], shifted by the lag of the stem."""
-        given = self._given
-        declination, hour_angle = solar_time(time, 15.0 * given.solar_offset)
-        half = half_day(declination, given.latitude) * HOURS
-        rise, fall = 12.0 - half + 2.0, 12.0 + half + 3.0
-        hour = 12.0 + hour_angle * HOURS
+        sunrise, sunset, hour = self._hours(time)
+        rise, fall = sunrise + 2.0, sunset + 3.0
         hour += 24.0 if hour < fall - 24.0 else 0.0
         if not rise < hour < fall:
             return 0.0
         return float(sin(pi * (hour - rise) / (fall - rise)) ** 1.5)
+
+    def _hours(self, time: float) -> tuple[float, float, float]:
+        """Return sunrise, sunset and now in local solar time [h]."""
+        given = self._given
+        declination, hour_angle = solar_time(time, 15.0 * given.solar_offset)
+        half = half_day(declination, given.latitude) * HOURS
+        return 12.0 - half, 12.0 + half, 12.0 + hour_angle * HOURS
 
     def _weather(self, time: float, side: int) -> float:
         """Return a share in [0.15, 1]: fair and dull days, and clouds within them."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from agv_motion.probe.environment import UNKNOWN, Environment
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -16,6 +18,8 @@ class ProbeSample(NamedTuple):
     """[s] since 1970, UTC, when the probes were read"""
     values: tuple[float, ...]
     """[K] temperature difference of each probe, NaN where there is none"""
+    environment: Environment = UNKNOWN
+    """the air round the tree, where the logger tells it"""
 
 
 class ProbeSource(Protocol):

@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
+from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, GrowingSource
+from agv_motion.probe.sources.csv_file import CsvSource, GrowingSource
+from agv_motion.probe.sources.csv_parameters import CsvParameters
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.probe.environment import EnvironmentParameters
     from agv_motion.probe.sources.source import ProbeSource
 
 
@@ -23,15 +26,22 @@ class SourceKind(NamedTuple):
     """from its group of parameters, and the days of history to learn from"""
     probes: Callable[[Any], int]
     """number of probes that the group speaks of"""
+    tells: Callable[[Any], tuple[bool, bool]]
+    """whether it tells solar radiation, and the vapour pressure deficit of the air"""
 
 
 SOURCES = {
-    'simulated': SourceKind(SimulatedSource, lambda given: given.probes),
+    'simulated': SourceKind(SimulatedSource, lambda given: given.probes, lambda _: (True, True)),
     'csv': SourceKind(
         lambda given, days: (GrowingSource if given.follow else CsvSource)(given, days),
         lambda given: len(given.columns),
+        lambda given: (bool(given.radiation_column), bool(given.vpd_column)),
     ),
-    'serial': SourceKind(lambda given, _: SerialSource(given), lambda given: len(given.fields)),
+    'serial': SourceKind(
+        lambda given, _: SerialSource(given),
+        lambda given: len(given.fields),
+        lambda given: (bool(given.radiation_field), bool(given.vpd_field)),
+    ),
 }
 """A source is added here, as a group of its name in `SourceParameters`, and in its own file."""
 
@@ -57,3 +67,21 @@ class SourceParameters:
     def open_source(self) -> ProbeSource:
         """Open the source that was chosen."""
         return SOURCES[self.source].open(getattr(self, self.source), self.warm_up_days)
+
+    def require(self, environment: EnvironmentParameters) -> None:
+        """Refuse a source that does not tell what zero flow is to be known by.
+
+        Raises:
+            ConfigurationError: It does not.
+
+        """
+        asked = environment.radiation_below, environment.vpd_below
+        told = SOURCES[self.source].tells(getattr(self, self.source))
+        for limit, tells, name in zip(asked, told, ('radiation', 'vpd'), strict=True):
+            if limit and not tells:
+                msg = (
+                    f'zero_flow_method = environment asks for {name} below {limit:g}, and the '
+                    f'source {self.source} tells none: give {self.source}.{name}_column or '
+                    f'{self.source}.{name}_field, or set environment.{name}_below to 0'
+                )
+                raise ConfigurationError(msg)

@@ -9,7 +9,7 @@ pytest.importorskip('rclpy')
 import yaml
 
 from agv_motion.nodes.granier_probe import GranierProbeParameters
-from agv_motion.probe.sources.csv_file import load
+from agv_motion.probe.sources.csv_recording import load
 from agv_motion.ros.parameters import filled
 
 ROWS = 'Datum;Zeit;dT_1 [mV];Wind\n' + ''.join(

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from math import isnan
+from math import isnan, nan
 
 import pytest
 
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.probe.sources.csv_file import CsvParameters, CsvSource, GrowingSource, load
+from agv_motion.probe.sources.csv_file import CsvSource, GrowingSource
+from agv_motion.probe.sources.csv_parameters import CsvParameters
+from agv_motion.probe.sources.csv_recording import load
 from agv_motion.probe.sources.source import kelvin_per
 
 DAY = 86400.0
@@ -274,3 +276,33 @@ def test_a_disk_that_goes_away_is_told_and_comes_back(tmp_path):
 def test_a_file_that_is_followed_is_not_played(given):
     with pytest.raises(ConfigurationError, match=r'follow = true.*leave out start, speed'):
         CsvParameters(follow=True, **given)
+
+
+@pytest.mark.parametrize(
+    ('columns', 'air'),
+    [
+        ({'radiation_column': 'sun', 'vpd_column': 'vpd'}, (500.0, 0.8)),
+        ({'radiation_column': 'sun'}, (500.0, nan)),
+        ({'vpd_column': 'vpd'}, (nan, 0.8)),
+        ({'vpd_column': '5', 'radiation_column': '2'}, (500.0, 0.8)),
+        ({}, (nan, nan)),
+    ],
+)
+@pytest.mark.parametrize('follow', [False, True])
+def test_columns_of_the_air_come_with_the_probes_and_in_their_own_units(
+    tmp_path, columns, air, follow
+):
+    path = tmp_path / 'probes.csv'
+    rows = f'{DAWN:.0f},500,0.8,0.7,0.8\n{DAWN + 900:.0f},600,0.8,0.7,\n'
+    path.write_text(f'time,sun,a,b,vpd\n{rows}')
+    given = CsvParameters(
+        file=str(path), columns=('b', 'a'), day_offsets=(0.0, 0.0), follow=follow, **columns
+    )
+    if follow:
+        first, second = GrowingSource(given, 1.0).history(0.0)
+    else:
+        played = CsvSource(given, 0.0)
+        first, second = [*played.read(0.0), *played.read(900.0)]
+    assert first.values == pytest.approx((17.5, 20.0))
+    assert tuple(first.environment) == pytest.approx(air, nan_ok=True)
+    assert isnan(second.environment.vapour_pressure_deficit)

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.probe.sources.checksum import Checksum, checked
 from agv_motion.probe.sources.line_formats import LINE_FORMATS
-from agv_motion.probe.sources.serial_line import SerialParameters, parse_line
+from agv_motion.probe.sources.line_reading import parse_line
+from agv_motion.probe.sources.serial_line import SerialParameters
 
 NOON = datetime(2013, 6, 10, 12, 30, tzinfo=timezone.utc).timestamp()
 NOW = NOON + 7.0

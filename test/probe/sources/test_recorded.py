@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from math import isnan
 
+from agv_motion.probe.environment import Environment
 from agv_motion.probe.sources.recorded import RecordedSource
 from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
+from agv_motion.probe.sources.source import ProbeSample
 
 LIVE = SimulatedSource(SimulatedSourceParameters(), 1.0)
 
@@ -15,7 +17,7 @@ def test_readings_of_one_time_are_one_sample():
     for probe in (2, 0, 1):
         source.take(probe, 100.0, 20.0 + probe)
     (sample,) = source.read(100.0)
-    assert sample == (100.0, (20.0, 21.0, 22.0))
+    assert sample == ProbeSample(100.0, (20.0, 21.0, 22.0))
     assert source.read(101.0) == []
 
 
@@ -26,6 +28,16 @@ def test_a_probe_that_says_nothing_is_missing_after_a_while():
     (sample,) = source.read(101.0)
     assert isnan(sample.values[0])
     assert sample.values[1] == 21.0
+
+
+def test_the_air_of_a_time_belongs_to_the_readings_of_that_time():
+    source = RecordedSource(LIVE, 1)
+    source.take_environment(100.0, Environment(500.0, 0.8))
+    for time in (100.0, 101.0):
+        source.take(0, time, 20.0)
+    first, second = source.read(102.0)
+    assert first.environment == (500.0, 0.8)
+    assert isnan(second.environment.radiation)
 
 
 def test_samples_come_in_the_order_of_time():

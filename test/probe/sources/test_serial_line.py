@@ -13,7 +13,8 @@ import pytest
 
 from agv_motion.errors import SignalError
 from agv_motion.probe.sources import serial_line
-from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource, parse_line
+from agv_motion.probe.sources.line_reading import parse_line
+from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 
 LINE = '24-06-15 13:05:30 0.750 0.760 0.770\r\n'
 
@@ -244,3 +245,13 @@ def test_bytes_that_are_no_text_hint_at_the_speed_of_the_line(terminal):
     os.write(logger, b'\xf3\x8f\xe1\xd0a\n' + LINE.encode())
     until(source, 1)
     assert 'it is no text: 38400 baud may not be its speed' in source.complaint()
+
+
+def test_the_air_stands_in_fields_of_its_own():
+    given = SerialParameters(fields=(3, 1), radiation_field=2, vpd_field=4, unit='K')
+    sample = parse_line('24-06-15 13:05:30 18.5 512.0 19.5 0.8', given)
+    assert sample.values == (19.5, 18.5)
+    assert sample.environment == (512.0, 0.8)
+    with pytest.raises(SignalError, match='probe field 4 is missing'):
+        parse_line('24-06-15 13:05:30 18.5 512.0 19.5', given)
+    assert all(each != each for each in parse_line(LINE, SerialParameters()).environment)  # noqa: PLR0124 - NaN

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from agv_motion.probe.probe import Probe, ProbeParameters
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.probe import Probe
 from agv_motion.probe.sources.simulated import (
     SimulatedSource,
     SimulatedSourceParameters,
@@ -105,3 +106,14 @@ def test_the_sap_rises_two_hours_after_the_sun_that_throws_the_shadows(day):
         return next(k for k in range(1, 1440) if found[k] and not found[k - 1])
 
     assert rise(flows) - rise(up) == pytest.approx(120.0, abs=1.0)
+
+
+def test_the_air_is_dark_and_moist_before_dawn_and_bright_at_noon():
+    source = SimulatedSource(SimulatedSourceParameters(), 1.0)
+    day = 1_434_326_400.0  # 15 June 2015
+    night, noon = (source.sample(day + hour * 3600.0, 1.0).environment for hour in (2.5, 12.0))
+    assert night.radiation == 0.0
+    assert night.vapour_pressure_deficit < 0.1
+    assert noon.radiation > 100.0
+    assert noon.vapour_pressure_deficit > 0.8
+    assert source.sample(day + 43200.0, 0.5).environment.radiation == noon.radiation / 2.0
