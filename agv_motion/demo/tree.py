@@ -48,6 +48,7 @@ TOPICS = [
     *(RecordedTopic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
     RecordedTopic('granier/sap_flow', Vector3Stamped),
     RecordedTopic('granier/valid', Bool, latched=True),
+    RecordedTopic('granier/state', String, latched=True),
     *ARBITER_TOPICS,
     *DRAWN_TOPICS,
     RecordedTopic('goal', PoseStamped, latched=True),

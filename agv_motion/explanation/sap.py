@@ -25,6 +25,7 @@ REMEDIES = {
     Quality.OUT_OF_RANGE.value: 'look at its thermocouple, and at the unit of the source',
     Quality.SPIKE.value: 'wait; if it lasts look for a loose contact',
     Quality.STUCK.value: 'look at the logger: it repeats one value',
+    Quality.NOISE.value: 'look at its cable and needles: what comes is noise',
     NO_READING: 'look at the source of its readings',
     LEARNING: 'wait: it learns zero flow in a night and its range in a day',
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import Vector3Stamped
 from sensor_msgs.msg import Illuminance, Temperature
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
@@ -18,6 +18,7 @@ from agv_motion.probe.condition import ProbeConditions
 from agv_motion.probe.natural_gradient import without_natural_gradient
 from agv_motion.probe.parameters import ProbeParameters
 from agv_motion.probe.probe import Probe, ProbeReading
+from agv_motion.probe.signals import signals_of
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
@@ -83,8 +84,9 @@ class GranierProbeParameters(SourceParameters, FrameParameters):
 class GranierProbe(PlainNode[GranierProbeParameters]):
     """Source -> `granier/probe_i/temperature_difference`, `granier/sap_flow`, `granier/valid`.
 
-    `granier/sap_flow` is told only while all three probes are fresh and believable; when one is
-    not, `granier/valid` turns false and says that the tree must rest.
+    `granier/sap_flow` is told only while all three probes are fresh and believable, or what stands
+    in for a lost one is still good; when it is not, `granier/valid` turns false and says that the
+    tree must rest. `granier/state` tells what stands in.
     """
 
     name = 'granier_probe'
@@ -103,7 +105,8 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         self._conditions = ProbeConditions(given.assign, len(self._probes))
         self._read_at = port.seconds()
         self._max_age = given.max_age or max(3.0 * self._source.period, 5.0 / given.rate)
-        self._doubt = _doubt(self._chosen[0], None)
+        self._signals = signals_of(self._chosen, self._readings, given.probe.loss.enough)
+        self._losses = ''
         self._why_invalid: str | None = None
         self._message = Vector3Stamped()
         self._message.header.frame_id = given.base_frame
@@ -118,6 +121,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         )
         self._sap_flow = port.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
         self._valid = port.publisher(Bool, 'granier/valid', LATCHED)
+        self._state = port.publisher(String, 'granier/state', LATCHED)
         port.serve(Trigger, '~/recalibrate', self._on_recalibrate)
         if isinstance(self._source, SimulatedSource):
             port.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
@@ -152,6 +156,8 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         values['source silent limit [s]'] = f'{self._max_age:.1f}'
         if self._why_invalid:
             return Diagnosis(WARN, f'resting: {self._why_invalid}', values)
+        if self._losses:
+            return Diagnosis(WARN, self._losses, values)
         return Diagnosis(OK, 'all probes believable', values)
 
     def tick(self) -> None:
@@ -164,7 +170,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         complaint = self._source.complaint()
         if complaint:
             self.port.refuse(complaint)
-        why = self._doubt
+        why = self._signals.doubt
         silence = self._silence(seconds)
         if silence > self._max_age and not why:
             why = f'no reading for {silence:.0f} s (limit {self._max_age:.0f} s)'
@@ -211,13 +217,15 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
                 message.header.frame_id = self.parameters.own(f'probe_{i + 1}')
                 self._raw[i].publish(message)
         self._conditions.update(now, self._readings)
-        self._doubt = ''
-        for i, axis in zip(self._chosen, ('x', 'y', 'z'), strict=True):
-            reading = self._readings[i]
-            if reading is not None and reading.sap_flow is not None:
-                setattr(self._message.vector, axis, reading.sap_flow)
-            else:
-                self._doubt = self._doubt or _doubt(i, reading)
+        enough = self.parameters.probe.loss.enough
+        self._signals = signals_of(self._chosen, self._readings, enough)
+        vector = self._message.vector
+        if self._signals.values:
+            vector.x, vector.y, vector.z = self._signals.values
+        if self._signals.losses != self._losses:
+            self._losses = self._signals.losses
+            self._state.publish(String(data=self._losses))
+            self.port.info(self._losses or 'no probe is lost any more')
 
     def _tell_validity(self, why: str) -> None:
         self._why_invalid = why
@@ -241,15 +249,6 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             state_file.save(self.parameters.state_file, self._probes)
         except OSError as error:
             self.port.refuse(f'cannot keep what was learnt: {error}')
-
-
-def _doubt(index: int, reading: ProbeReading | None) -> str:
-    """Return why there is no sap flow from a probe."""
-    if reading is None:
-        return f'probe_{index + 1} has given no reading yet'
-    if reading.quality.usable:
-        return f'probe_{index + 1} is learning its zero flow and range'
-    return f'probe_{index + 1} is {reading.quality.value}'
 
 
 def _shown(value: float | None, form: str) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
+from std_msgs.msg import String
 
 from agv_motion.activity import Activity, Cause, Doing
 from agv_motion.nodes.state_report import StateReport
@@ -34,20 +35,28 @@ class MotionReport:
             frame: Of the map.
 
         """
+        self._losses = ''
         self._port, self._frame = port, frame
         self._goal: Goal | None = None
         self._path: Corners = ()
         self._paths = port.publisher(Path, 'path', LATCHED, sole=True)
         self._goals = port.publisher(PoseStamped, 'goal', LATCHED)
         self._states = StateReport(port, 'state')
+        port.listen(String, 'granier/state', self._take_losses, LATCHED)
 
     @property
     def state(self) -> str:
         """What the tree does, in words, as it was told last."""
         return self._states.state
 
+    def _take_losses(self, message: String) -> None:
+        """Know which probes are lost and what stands in for them: that is told beside the rest."""
+        self._losses = message.data
+
     def publish_state(self, doing: Doing) -> None:
         """Tell what the tree does, if that is new."""
+        if self._losses:
+            doing = doing._replace(state=f'{doing.state}; {self._losses}')
         self._states.update(doing)
 
     def values(self, hour: Hour, time_zone: str) -> dict[str, str]:

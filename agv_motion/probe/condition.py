@@ -53,6 +53,7 @@ class ProbeConditions:
             values[f'{name} since [s]'] = f'{since:.1f}'
             values[f'{name} signal'] = self._signals.get(name, '')
             if reading is not None:
+                values[f'{name} known by'] = reading.estimate.step.value
                 values[f'{name} dT [K]'] = f'{reading.temperature_difference:.3f}'
                 if reading.flux_density is not None:
                     values[f'{name} flux density [m/s]'] = f'{reading.flux_density:.4e}'

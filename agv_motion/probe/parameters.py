@@ -11,6 +11,7 @@ from agv_motion.parameters import Spec, check
 from agv_motion.probe.calibration import CalibrationParameters
 from agv_motion.probe.damping import DampingParameters
 from agv_motion.probe.environment import EnvironmentParameters
+from agv_motion.probe.loss import LossParameters
 from agv_motion.probe.zero_flow_method import ZeroFlowMethodName
 
 
@@ -100,12 +101,17 @@ class ProbeParameters:
         float,
         Spec('how long the same value is believed at zero flow', 'h', (0.01, 1e3)),
     ] = 18.0
+    noise_above: Annotated[
+        float,
+        Spec('distance from the line through its neighbours that is noise', '1', (1e-3, 1.0)),
+    ] = 0.015
     needle_in_sapwood: Annotated[
         float, Spec('share of the needles that is in sapwood; the rest in heartwood', '1', (0.1, 1))
     ] = 1.0
     environment: EnvironmentParameters = field(default_factory=EnvironmentParameters)
     calibration: CalibrationParameters = field(default_factory=CalibrationParameters)
     damping: DampingParameters = field(default_factory=DampingParameters)
+    loss: LossParameters = field(default_factory=LossParameters)
 
     def __post_init__(self) -> None:
         """Check every row, and the order of those that come in pairs."""

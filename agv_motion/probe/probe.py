@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe.conversion import Conversion
 from agv_motion.probe.environment import UNKNOWN, Environment
+from agv_motion.probe.loss import NOTHING, Estimate, LossLadder
 from agv_motion.probe.normalise import RunningQuantiles, RunningRange
 from agv_motion.probe.parameters import Normalisation, Polarity, ProbeParameters
 from agv_motion.probe.quality import Quality, ReadingJudge
@@ -38,6 +39,8 @@ class ProbeReading(NamedTuple):
     """[m/s] sap flux density; None where it cannot be known"""
     sap_flow: float | None
     """[-] in [0, 1]; None where it cannot be known: then the tree must rest"""
+    estimate: Estimate = NOTHING
+    """the sap flow, or what stands in for it while the probe is lost"""
 
 
 class Probe:
@@ -51,6 +54,7 @@ class Probe:
             given.highest,
             given.spike_threshold,
             (given.stuck_flowing * 3600.0, given.stuck_resting * 3600.0),
+            given.noise_above,
         )
         method = method_of(given.zero_flow_method, given.zero_flow_days, given.environment)
         self._zero_flow = ZeroFlow(given.night_start, given.night_end, method, given.solar_offset)
@@ -67,6 +71,7 @@ class Probe:
                 given.learning_hours,
             )
         )
+        self._ladder = LossLadder(given.loss)
         self._flowing = False
         self._last_usable: tuple[float, float] | None = None
 
@@ -81,10 +86,20 @@ class Probe:
             environment: The air at that time, for the zero flow that is known by it.
 
         """
+        reading = self._read(time, temperature_difference, environment)
+        if reading.quality is Quality.NOISE:
+            self._ladder.distrust(self._judge.level.noise_since)
+        return reading._replace(estimate=self._ladder.update(time, reading.sap_flow))
+
+    def _read(
+        self, time: float, temperature_difference: float, environment: Environment
+    ) -> ProbeReading:
         quality = self._judge.judge(time, temperature_difference, flowing=self._flowing)
+        if self._judge.level.has_stepped:
+            self._zero_flow.step(temperature_difference)
         if not quality.usable:
             return self._unknown(time, temperature_difference, quality)
-        before = self._zero_flow.value
+        before = self._zero_flow.last_known
         if before is not None:
             index = self._conversion.index(time, temperature_difference, before)
             if index > self._parameters.highest_index:
@@ -135,7 +150,11 @@ class Probe:
 
     def state(self) -> dict[str, Any]:
         """Return what must survive a restart, ready for JSON."""
-        return {'zero_flow': self._zero_flow.state(), 'normaliser': self._normaliser.state()}
+        return {
+            'zero_flow': self._zero_flow.state(),
+            'normaliser': self._normaliser.state(),
+            'course': self._ladder.course.state(),
+        }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Take up a :meth:`state`.
@@ -149,3 +168,4 @@ class Probe:
             raise ConfigurationError(msg)
         self._zero_flow.restore(state['zero_flow'])
         self._normaliser.restore(state['normaliser'])
+        self._ladder.course.restore(state.get('course', []))  # older files have none

@@ -7,6 +7,8 @@ from enum import Enum
 from math import isfinite
 from statistics import median
 
+from agv_motion.probe.noise import NoiseWatch
+
 RECENT = 5
 """Number of good readings whose median a new one is compared with (a causal Hampel filter)."""
 
@@ -25,10 +27,12 @@ class Quality(Enum):
     """dT above dT_max: the zero-flow value is out of date; counts as no flow"""
     MISSING = 'missing'
     OFF = 'off'
-    """dT near zero or negative: no heating, or disconnected"""
+    """dT near zero or negative: no heating, or disconnected; or back, but not yet standing still"""
     OUT_OF_RANGE = 'out of range'
     SPIKE = 'spike'
     STUCK = 'stuck'
+    NOISE = 'noise'
+    """its variance is that of noise: off, or a wire that hangs free"""
 
     @property
     def usable(self) -> bool:
@@ -39,18 +43,49 @@ class Quality(Enum):
 class ReadingLevel:
     """The level of recent readings; those that persist elsewhere become the level."""
 
-    def __init__(self, spike_threshold: float) -> None:
-        """Know no level; a change by more than ``spike_threshold``, a share of it, leaves it."""
+    def __init__(self, spike_threshold: float, noise_above: float) -> None:
+        """Know no level.
+
+        Args:
+            spike_threshold: Change against the level, as a share of it, that leaves it.
+            noise_above: Distance from the line through its neighbours, as a share, from which on a
+                reading is noise.
+
+        """
         self._threshold = spike_threshold
         self._recent: deque[float] = deque(maxlen=RECENT)
         self._suspects: deque[float] = deque(maxlen=STEP)
+        self._noise = NoiseWatch(noise_above)
+        self._was: Quality | None = None
+        """OFF or NOISE, until readings stand still again"""
+        self.has_stepped = False
+        """whether the last reading made another level the one that is believed"""
 
     def forget(self) -> None:
         """Take the next readings for the level."""
         self._recent.clear()
+        self._noise.clear()
 
-    def judge(self, value: float) -> Quality:
-        """Return whether ``value`` is a spike, or good."""
+    def go_off(self) -> None:
+        """Forget the level; what comes next must stand still before it is believed."""
+        self.forget()
+        self._was = Quality.OFF
+
+    @property
+    def noise_since(self) -> float:
+        """When the readings began that are noise, if the last is [s]."""
+        return self._noise.since
+
+    def judge(self, time: float, value: float) -> Quality:
+        """Return whether ``value`` [K] at ``time`` [s] is a spike, noise, still off, or good."""
+        if self._noise.add(time, value):
+            self._was = Quality.NOISE
+        elif self._noise.is_quiet():
+            self._was = None
+        quality = self._compared(value)
+        return self._was or quality if quality is Quality.GOOD else quality
+
+    def _compared(self, value: float) -> Quality:
         if len(self._recent) < RECENT or self._alike(value, median(self._recent)):
             self._suspects.clear()
             self._recent.append(value)
@@ -60,6 +95,7 @@ class ReadingLevel:
             self._recent.clear()
             self._recent.extend(self._suspects)
             self._suspects.clear()
+            self.has_stepped = True
             return Quality.GOOD
         return Quality.SPIKE
 
@@ -76,6 +112,7 @@ class ReadingJudge:
         highest: float,
         spike_threshold: float,
         stuck_after: tuple[float, float],
+        noise_above: float = 0.015,
     ) -> None:
         """Start without a past.
 
@@ -85,11 +122,13 @@ class ReadingJudge:
             spike_threshold: Change against the recent median that makes a spike, as a share [-].
             stuck_after: How long the very same value may last while sap flows, and at rest, when
                 a coarse logger legitimately repeats itself [s].
+            noise_above: Distance from the line through its neighbours, as a share, from which on a
+                reading is noise.
 
         """
         self._off_below, self._highest = off_below, highest
         self._stuck_after = stuck_after
-        self._level = ReadingLevel(spike_threshold)
+        self.level = ReadingLevel(spike_threshold, noise_above)
         self._last_time = -FORGET
         self._same_value, self._same_since = 0.0, 0.0
 
@@ -102,19 +141,20 @@ class ReadingJudge:
             flowing: Whether sap was flowing at the last reading.
 
         """
+        self.level.has_stepped = False
         if not isfinite(value):
             return Quality.MISSING
         if value < self._off_below:
-            self._level.forget()
+            self.level.go_off()
             return Quality.OFF
         if value > self._highest:
             return Quality.OUT_OF_RANGE
         if not 0.0 <= time - self._last_time < FORGET:
-            self._level.forget()
+            self.level.forget()
             self._same_since = time
         self._last_time = time
         if value != self._same_value:
             self._same_value, self._same_since = value, time
         if time - self._same_since >= self._stuck_after[0 if flowing else 1]:
             return Quality.STUCK
-        return self._level.judge(value)
+        return self.level.judge(time, value)

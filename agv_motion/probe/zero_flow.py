@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from agv_motion.probe.zero_flow_method import ZeroFlowMethod
 
 DAY = 86400.0
+LOWEST, HIGHEST = 0.8, 1.1
+"""Shares of dT_max between which dT may step and still be of the same probe: K up to 0.25."""
 
 
 class _Night:
@@ -61,6 +63,8 @@ class ZeroFlow:
         self._method = method
         self._offset = solar_offset * 3600.0
         self._nights: dict[int, float] = {}
+        self._aside: dict[int, float] = {}
+        """nights before dT stepped away"""
         self._open: _Night | None = None
         self.value: float | None = None
 
@@ -78,6 +82,9 @@ class ZeroFlow:
             environment: The air at that time.
 
         """
+        if self._aside and self._is_of_this_probe(temperature_difference):
+            self._nights, self._aside, self._open = self._aside, {}, None
+            self.value = self._level(self._nights)
         self._method.observe(time, temperature_difference, environment)
         day, second = divmod(time + self._offset, DAY)
         night = self._start <= second < self._end
@@ -93,16 +100,35 @@ class ZeroFlow:
     def recalibrate(self, time: float, temperature_difference: float) -> None:
         """Forget all nights and take ``temperature_difference`` as zero flow from now on."""
         self._nights = {int((time + self._offset) // DAY): temperature_difference}
+        self._aside = {}
         self._open = None
         self.value = temperature_difference
+
+    @property
+    def last_known(self) -> float | None:
+        """dT_max, or what it was before the level stepped away [K]."""
+        return self._level(self._aside) if self._aside else self.value
+
+    def step(self, temperature_difference: float) -> None:
+        """Set the nights aside if a reading to which dT has stepped cannot be of this probe [K].
+
+        It is another needle, or noise that stood still. They count again with the first reading
+        that can be of it, if no night has told a new zero flow before.
+        """
+        if self._nights and not self._is_of_this_probe(temperature_difference):
+            self._aside, self._nights, self._open, self.value = self._nights, {}, None, None
+
+    def _is_of_this_probe(self, temperature_difference: float) -> bool:
+        known = self.last_known
+        return known is None or LOWEST * known <= temperature_difference <= HIGHEST * known
 
     def _latch(self, night: _Night) -> None:
         """Let ``night`` count from now on, and those out of the window no longer."""
         if night.counts:
-            self._nights[night.day] = night.highest
+            self._nights[night.day], self._aside = night.highest, {}
             oldest = night.day - self._method.days
             self._nights = {d: value for d, value in self._nights.items() if d > oldest}
-            self.value = self._level()
+            self.value = self._level(self._nights)
         self._open = None
 
     def state(self) -> dict[str, Any]:
@@ -124,7 +150,7 @@ class ZeroFlow:
             msg = f'saved zero-flow nights are unreadable ({error!r:.120}): delete the state file'
             raise ConfigurationError(msg) from error
         self._nights = {day: value for day, value in nights.items() if 0.0 < value < 1e6}
-        self.value = self._level() if self._nights else None
+        self.value = self._level(self._nights) if self._nights else None
 
-    def _level(self) -> float:
-        return self._method.level([self._nights[day] for day in sorted(self._nights)])
+    def _level(self, nights: dict[int, float]) -> float:
+        return self._method.level([nights[day] for day in sorted(nights)])

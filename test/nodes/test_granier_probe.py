@@ -11,7 +11,7 @@ rclpy = pytest.importorskip('rclpy')
 from geometry_msgs.msg import Vector3Stamped
 from rclpy.exceptions import InvalidParameterValueException
 from sensor_msgs.msg import Illuminance, Temperature
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
@@ -78,6 +78,24 @@ def test_a_probe_that_goes_off_ends_the_sap_flow(tester, tmp_path):
     assert tester.wait(valid, lambda m: m.data)
     tester.wait(valid, lambda m: not m.data)
     assert 'probe_2 is off' in node.plain.diagnose().message
+
+
+def test_a_lost_probe_goes_down_its_ladder_and_that_is_told(tester, tmp_path):
+    """Held for a reading of the file, then nothing is known: a quarter of an hour each."""
+    states = tester.listen(String, 'granier/state', LATCHED)
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    rows = ''.join(f'{DAWN + 259200 + 900 * k},0.8,0.001,0.8\n' for k in range(40))
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=clear_week(tmp_path, rows),
+        csv__speed=3600.0, csv__start='2013-06-12T23:00:00', probe__loss__hold=1200.0,
+        probe__loss__trend=1200.0,
+    )  # fmt: skip
+    for step in ('held', 'by the trend of its last hour'):
+        assert tester.wait(states, lambda m, s=step: m.data == f'probe_2 is off: {s}')
+    assert tester.wait(valid, lambda m: not m.data)
+    assert node.plain.diagnose().message == 'resting: probe_2 is off'
+    assert node.plain.diagnose().values['probe_2 known by'] == 'lost'
+    assert tester.wait(states, lambda m: not m.data)
 
 
 def test_zero_flow_by_the_air_and_an_unheated_probe(tester, tmp_path):

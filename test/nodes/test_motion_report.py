@@ -27,6 +27,10 @@ class Port:
     def publisher(self, _kind, topic, _qos, **_):
         return SimpleNamespace(publish=lambda message: self.told.append((topic, message)))
 
+    def listen(self, _kind, topic, callback, _qos):
+        assert topic == 'granier/state'
+        self.hears_losses = callback
+
     def stamp(self, message):
         message.header.stamp.sec = 7
 
@@ -55,6 +59,16 @@ def test_a_state_is_told_when_it_changes(port, report):
         ('state', 'resting'), ('state', 'moving'),
     ]  # fmt: skip
     assert report.state == 'moving'
+
+
+def test_a_lost_probe_is_told_beside_what_the_tree_does(port, report):
+    doing = Doing('walking', Activity.WALKING, Cause.SAP)
+    for losses in ('probe_2 is off: held', ''):
+        port.hears_losses(SimpleNamespace(data=losses))
+        report.publish_state(doing)
+    assert [message.data for topic, message in port.told if topic == 'state'] == [
+        'walking; probe_2 is off: held', 'walking',
+    ]  # fmt: skip
 
 
 def test_a_goal_is_told_once_with_its_reason_and_the_refusals(port, report):

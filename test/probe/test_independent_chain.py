@@ -52,7 +52,7 @@ class Chain:
         self.stood = self._stood()
         self.zero_flow = np.full(len(time), np.nan)
         self.nights, self.dt_max, self.flowing = {}, np.nan, False
-        self.level, self.suspects = [], []
+        self.level, self.suspects, self.line, self.back = [], [], [], ''
         first = np.flatnonzero(np.diff(self.day, prepend=-1.0))
         for rows in np.split(np.arange(len(time)), first[1:]):
             self._of_one_day(rows)
@@ -102,28 +102,40 @@ class Chain:
         table = zip(rows.tolist(), *(column.tolist() for column in columns), strict=True)
         for row, value, flag, stood, second in table:
             if flag == 'off':
-                self.level = []
+                self.level, self.line, self.back = [], [], 'off'
             if flag != 'good':
                 continue
             if row in self.gaps:
-                self.level = []
+                self.level, self.line = [], []
             if stood >= (4 if self.flowing else 18) * HOUR:
                 self.flags[row] = 'stuck'
                 continue
             if not self._fits(value):
                 self.flags[row] = 'spike'
-                continue
-            if (self.dt_max - value) / value > TOO_MUCH:
-                self.flags[row] = 'out of range'
+            if not self._stands_still(row, value):
                 continue
             if not NIGHT[0] <= second < NIGHT[1]:
                 self._latch()
             self._forget(int(self.day[row]))
             used.append(row)
             self.zero_flow[row] = self.dt_max
-            if self.dt_max == self.dt_max:  # not NaN
+            if np.isfinite(self.dt_max):
                 self.flowing = (self.dt_max - value) / value > 0.02
         return np.array(used, int)
+
+    def _stands_still(self, row, value):
+        """Flag noise, what was off until all stand still, and too much flow."""
+        self.line = [*self.line[-6:], value]
+        off = np.abs(np.diff(self.line, 2)) / 2.0 > 0.015 * np.array(self.line[1:-1])
+        if off.sum() >= 4:
+            self.back = 'noise'
+        elif len(off) == 5 and not off.any():
+            self.back = ''
+        if self.flags[row] == 'good' and self.back:
+            self.flags[row] = self.back
+        elif self.flags[row] == 'good' and (self.dt_max - value) / value > TOO_MUCH:
+            self.flags[row] = 'out of range'
+        return self.flags[row] == 'good'
 
     def _fits(self, value):
         middle = sorted(self.level[-5:])[2] if len(self.level) >= 5 else value
