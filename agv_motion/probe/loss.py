@@ -53,7 +53,7 @@ class LossParameters:
         check(self)
 
 
-class Estimate(NamedTuple):
+class SapFlowEstimate(NamedTuple):
     """What is known of a sap flow, and by what."""
 
     value: float | None
@@ -61,7 +61,7 @@ class Estimate(NamedTuple):
     step: LossStep
 
 
-NOTHING = Estimate(None, LossStep.LOST)
+NOTHING = SapFlowEstimate(None, LossStep.LOST)
 
 
 class DayCourse:
@@ -123,7 +123,7 @@ class LossLadder:
         self._past: deque[tuple[float, float]] = deque()
         self.course = DayCourse(parameters.climatology_days)
 
-    def update(self, time: float, measured: float | None) -> Estimate:
+    def update(self, time: float, measured: float | None) -> SapFlowEstimate:
         """Return what is known of the sap flow at ``time`` [s]; ``measured`` None if it is lost."""
         if measured is not None:
             return self._measured(time, measured)
@@ -133,13 +133,13 @@ class LossLadder:
         last, value = self._past[-1]
         lost, given = time - last, self._given
         if lost <= given.hold:
-            return Estimate(value, LossStep.HELD)
+            return SapFlowEstimate(value, LossStep.HELD)
         lost -= given.hold
         if lost <= given.trend:
-            return Estimate(min(max(value + self._slope() * lost, 0.0), 1.0), LossStep.TREND)
+            return SapFlowEstimate(min(max(value + self._slope() * lost, 0.0), 1.0), LossStep.TREND)
         usual = self.course.at(time)
         if lost - given.trend <= given.climatology and usual is not None:
-            return Estimate(usual, LossStep.CLIMATOLOGY)
+            return SapFlowEstimate(usual, LossStep.CLIMATOLOGY)
         return NOTHING
 
     def distrust(self, since: float) -> None:
@@ -147,14 +147,14 @@ class LossLadder:
         while self._past and self._past[-1][0] >= since:
             self._past.pop()
 
-    def _measured(self, time: float, value: float) -> Estimate:
+    def _measured(self, time: float, value: float) -> SapFlowEstimate:
         if self._past and time < self._past[-1][0]:
             self._past.clear()
         self._past.append((time, value))
         while time - self._past[0][0] > KEPT:
             self._past.popleft()
         self.course.add(time, value)
-        return Estimate(value, LossStep.MEASURED)
+        return SapFlowEstimate(value, LossStep.MEASURED)
 
     def _slope(self) -> float:
         """Return the slope of the line through the last hour [1/s]; 0 of a single reading."""

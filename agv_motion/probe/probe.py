@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe.conversion import Conversion
 from agv_motion.probe.environment import UNKNOWN, Environment
-from agv_motion.probe.loss import NOTHING, Estimate, LossLadder
+from agv_motion.probe.loss import NOTHING, LossLadder, SapFlowEstimate
 from agv_motion.probe.normalise import RunningQuantiles, RunningRange
 from agv_motion.probe.parameters import Normalisation, Polarity, ProbeParameters
 from agv_motion.probe.quality import Quality, ReadingJudge
@@ -39,8 +39,16 @@ class ProbeReading(NamedTuple):
     """[m/s] sap flux density; None where it cannot be known"""
     sap_flow: float | None
     """[-] in [0, 1]; None where it cannot be known: then the tree must rest"""
-    estimate: Estimate = NOTHING
+    estimate: SapFlowEstimate = NOTHING
     """the sap flow, or what stands in for it while the probe is lost"""
+
+
+class _Usable(NamedTuple):
+    """The last reading that could be used; all 0 before the first."""
+
+    time: float = 0.0
+    temperature_difference: float = 0.0
+    flowing: bool = False
 
 
 class Probe:
@@ -72,8 +80,7 @@ class Probe:
             )
         )
         self._ladder = LossLadder(given.loss)
-        self._flowing = False
-        self._last_usable: tuple[float, float] | None = None
+        self._last = _Usable()
 
     def update(
         self, time: float, temperature_difference: float, environment: Environment = UNKNOWN
@@ -94,7 +101,7 @@ class Probe:
     def _read(
         self, time: float, temperature_difference: float, environment: Environment
     ) -> ProbeReading:
-        quality = self._judge.judge(time, temperature_difference, flowing=self._flowing)
+        quality = self._judge.judge(time, temperature_difference, flowing=self._last.flowing)
         if self._judge.level.has_stepped:
             self._zero_flow.step(temperature_difference)
         if not quality.usable:
@@ -105,11 +112,11 @@ class Probe:
             if index > self._parameters.highest_index:
                 return self._unknown(time, temperature_difference, Quality.OUT_OF_RANGE)
         zero_flow = self._zero_flow.update(time, temperature_difference, environment)
-        self._last_usable = time, temperature_difference
+        self._last = _Usable(time, temperature_difference, self._last.flowing)
         if zero_flow is None:
             return self._unknown(time, temperature_difference, quality)
         index = self._conversion.index(time, temperature_difference, zero_flow)
-        self._flowing = index > FLOWING
+        self._last = self._last._replace(flowing=index > FLOWING)
         flux = self._conversion.calibration.flux_density(index)
         share = self._share(time, temperature_difference, flux)
         if index < 0.0:
@@ -142,11 +149,11 @@ class Probe:
             ConfigurationError: There has been none.
 
         """
-        if self._last_usable is None:
+        if not self._last.temperature_difference:
             msg = 'no usable reading yet: wait for one, then recalibrate before dawn'
             raise ConfigurationError(msg)
-        self._zero_flow.recalibrate(*self._last_usable)
-        return self._last_usable[1]
+        self._zero_flow.recalibrate(self._last.time, self._last.temperature_difference)
+        return self._last.temperature_difference
 
     def state(self) -> dict[str, Any]:
         """Return what must survive a restart, ready for JSON."""

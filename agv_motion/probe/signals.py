@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.probe.loss import NOTHING, Estimate, LossStep
+from agv_motion.probe.loss import NOTHING, LossStep, SapFlowEstimate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,11 +61,11 @@ def signals_of(
     return Signals(tuple(v for v in values if v is not None), '', '; '.join(losses.values()))
 
 
-def _estimate(reading: ProbeReading | None) -> Estimate:
+def _estimate(reading: ProbeReading | None) -> SapFlowEstimate:
     return NOTHING if reading is None else reading.estimate
 
 
-def _weighted(estimate: Estimate, neutral: float) -> float | None:
+def _weighted(estimate: SapFlowEstimate, neutral: float) -> float | None:
     if estimate.step is LossStep.CLIMATOLOGY and estimate.value is not None:
         return neutral + HALF * (estimate.value - neutral)
     return estimate.value

@@ -86,7 +86,8 @@ class WaterMeter:
         self._before: tuple[float, float, float] | None = None
         """time [s], flow [m3/s], and by how much zero flow may move it [m3/s]"""
         self._day = 0
-        self._drunk = self._moved = self._known = 0.0
+        self._sums = 0.0, 0.0, 0.0
+        """of this day: drunk [m3], by how much zero flow may move it [m3], known [s]"""
 
     def update(self, time: float, readings: Sequence[ProbeReading | None]) -> WaterUse | None:
         """Take in the readings of all probes at ``time`` [s]; None where no flow is known."""
@@ -99,20 +100,20 @@ class WaterMeter:
         moved = area * sqrt(sum(moved * moved for _, moved in rows)) / len(rows)
         if self._before is not None and 0.0 < time - self._before[0] <= LONGEST_GAP:
             dt = time - self._before[0]
-            self._drunk += 0.5 * dt * (flow + self._before[1])
-            self._moved += 0.5 * dt * (moved + self._before[2])
-            self._known += dt
+            steps = 0.5 * dt * (flow + self._before[1]), 0.5 * dt * (moved + self._before[2]), dt
+            drunk, drunk_moved, known = self._sums
+            self._sums = drunk + steps[0], drunk_moved + steps[1], known + steps[2]
         self._before = time, flow, moved
         return WaterUse(
             self._litres(flow * HOUR, moved * HOUR),
-            self._litres(self._drunk, self._moved),
-            self._known,
+            self._litres(*self._sums[:2]),
+            self._sums[2],
         )
 
     def _begin_day(self, time: float) -> None:
         day = int((time + self._offset) // DAY)
         if day != self._day:
-            self._day, self._drunk, self._moved, self._known = day, 0.0, 0.0, 0.0
+            self._day, self._sums = day, (0.0, 0.0, 0.0)
 
     def _flux(self, reading: ProbeReading) -> tuple[float, float]:
         """Return flux density [m/s] and by how much zero flow may move it."""

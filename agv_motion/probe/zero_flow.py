@@ -59,7 +59,7 @@ class ZeroFlow:
             solar_offset: Local solar time minus UTC [h]; the longitude in degrees / 15.
 
         """
-        self._start, self._end = night_start * 3600.0, night_end * 3600.0
+        self._hours = night_start * 3600.0, night_end * 3600.0
         self._method = method
         self._offset = solar_offset * 3600.0
         self._nights: dict[int, float] = {}
@@ -87,7 +87,7 @@ class ZeroFlow:
             self.value = self._level(self._nights)
         self._method.observe(time, temperature_difference, environment)
         day, second = divmod(time + self._offset, DAY)
-        night = self._start <= second < self._end
+        night = self._hours[0] <= second < self._hours[1]
         if self._open is not None and (int(day) != self._open.day or not night):
             self._latch(self._open)
         if night:

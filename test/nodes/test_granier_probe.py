@@ -202,10 +202,20 @@ def test_shade_reaches_the_simulated_tree(tester):
         ({'csv__vpd_column': 'probe_1'}, ConfigurationError, 'give each a column of its own'),
         ({'reference_probe': 'probe_1'}, ConfigurationError, 'since it is not heated'),
         ({'probe__calibration__of': 'oak'}, ConfigurationError, 'picea_abies'),
-        ({'probe__zero_flow_method': 'environment', 'source': 'csv'}, ConfigurationError,
-         'give csv.radiation_column'),
-        ({'probe__zero_flow_method': 'environment', 'probe__environment__vpd_below': 0.0,
-          'probe__environment__radiation_below': 0.0}, ConfigurationError, 'asks nothing'),
+        (
+            {'probe__zero_flow_method': 'environment', 'source': 'csv'},
+            ConfigurationError,
+            'give csv.radiation_column',
+        ),
+        (
+            {
+                'probe__zero_flow_method': 'environment',
+                'probe__environment__vpd_below': 0.0,
+                'probe__environment__radiation_below': 0.0,
+            },
+            ConfigurationError,
+            'asks nothing',
+        ),
     ],
 )
 def test_parameters_that_make_no_sense_are_refused(tester, parameters, error, word):

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.probe.loss import DayCourse, Estimate, LossLadder, LossParameters, LossStep
+from agv_motion.probe.loss import DayCourse, LossLadder, LossParameters, LossStep, SapFlowEstimate
 
 HOUR, DAY = 3600.0, 86400.0
 LADDER = LossParameters(hold=900.0, trend=1800.0, climatology=3600.0)
@@ -45,8 +45,8 @@ def test_each_step_by_hand(after, value, step):
 
 def test_all_zero_rests_at_once_and_what_comes_back_counts_at_once():
     ladder, noon = rising(LossParameters())
-    assert ladder.update(noon + 1.0, None) == Estimate(None, LossStep.LOST)
-    assert ladder.update(noon + 2.0, 0.3) == Estimate(0.3, LossStep.MEASURED)
+    assert ladder.update(noon + 1.0, None) == SapFlowEstimate(None, LossStep.LOST)
+    assert ladder.update(noon + 2.0, 0.3) == SapFlowEstimate(0.3, LossStep.MEASURED)
 
 
 @pytest.mark.parametrize('name', ['hold', 'trend', 'climatology'])
@@ -82,7 +82,7 @@ def test_noise_that_was_believed_is_taken_back():
     ladder.update(noon + 10.0, 0.9)
     ladder.update(noon + 20.0, 0.1)
     ladder.distrust(noon + 10.0)
-    assert ladder.update(noon + 30.0, None) == Estimate(0.5, LossStep.HELD)
+    assert ladder.update(noon + 30.0, None) == SapFlowEstimate(0.5, LossStep.HELD)
     ladder.distrust(0.0)
     assert ladder.update(noon + 40.0, None).step is LossStep.LOST
 

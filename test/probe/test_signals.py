@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from agv_motion.probe.loss import Estimate, LossStep
+from agv_motion.probe.loss import LossStep, SapFlowEstimate
 from agv_motion.probe.probe import ProbeReading
 from agv_motion.probe.quality import Quality
 from agv_motion.probe.signals import signals_of
@@ -14,12 +14,12 @@ CHOSEN = (0, 1, 2)
 
 def measured(flow):
     return ProbeReading(
-        0.0, 18.0, Quality.GOOD, 20.0, 0.1, 1e-5, flow, Estimate(flow, LossStep.MEASURED)
+        0.0, 18.0, Quality.GOOD, 20.0, 0.1, 1e-5, flow, SapFlowEstimate(flow, LossStep.MEASURED)
     )
 
 
 def lost(flow, step, quality=Quality.OFF):
-    return ProbeReading(0.0, 0.1, quality, 20.0, None, None, None, Estimate(flow, step))
+    return ProbeReading(0.0, 0.1, quality, 20.0, None, None, None, SapFlowEstimate(flow, step))
 
 
 def test_what_is_measured_is_told():

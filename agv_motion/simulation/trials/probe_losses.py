@@ -32,7 +32,7 @@ NOTICED = 20
 LADDER = LossParameters(hold=900.0, trend=3600.0, climatology=10800.0)
 
 
-class Fault(Enum):
+class ProbeFault(Enum):
     """What happens to a probe."""
 
     CUT = 'its wire is cut: no value'
@@ -46,7 +46,7 @@ class Failure(NamedTuple):
     """One probe that fails for a while."""
 
     probe: int
-    fault: Fault
+    fault: ProbeFault
     begin: float
     """[s] since 1970"""
     end: float
@@ -56,11 +56,11 @@ class Failure(NamedTuple):
     def reads(self, rng: random.Random) -> float:
         """Return what the probe shows now [K]."""
         return {
-            Fault.CUT: nan,
-            Fault.COLD: abs(rng.gauss(0.0, 1.0)),
-            Fault.HALF_DEAD: rng.uniform(-4.9, 4.9),
-            Fault.FREE: rng.gauss(self.level, 0.08 * self.level),
-            Fault.WILD: rng.uniform(70.0, 900.0),
+            ProbeFault.CUT: nan,
+            ProbeFault.COLD: abs(rng.gauss(0.0, 1.0)),
+            ProbeFault.HALF_DEAD: rng.uniform(-4.9, 4.9),
+            ProbeFault.FREE: rng.gauss(self.level, 0.08 * self.level),
+            ProbeFault.WILD: rng.uniform(70.0, 900.0),
         }[self.fault]
 
 
@@ -104,7 +104,7 @@ def failures_of(given: LossTrialParameters) -> list[Failure]:
         longest = min(share - 3.0 * HOUR, DAY)
         length = exp(rng.uniform(log(600.0), log(longest)))
         begin = BEGIN + LEARNING + i * share + rng.uniform(0.0, share - 2.0 * HOUR - length)
-        fault = list(Fault)[i % len(Fault)]
+        fault = list(ProbeFault)[i % len(ProbeFault)]
         found.append(
             Failure(rng.choice(PROBES), fault, begin, begin + length, rng.uniform(6.0, 20.0))
         )
@@ -138,7 +138,7 @@ def trial(given: LossTrialParameters) -> LossTally:
         since = time - failure.begin
         failed, resting = failure.begin <= time < failure.end, not told.values
         may_rest = since > ladder - FORGOTTEN * given.step and time < failure.end + back
-        known = since >= noticed or failure.fault is not Fault.FREE
+        known = since >= noticed or failure.fault is not ProbeFault.FREE
         step = reading.estimate.step
         counts[0] += failed and known and step is LossStep.MEASURED
         counts[1] += resting and not may_rest

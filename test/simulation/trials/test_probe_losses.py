@@ -10,8 +10,8 @@ import pytest
 from agv_motion.probe.loss import LossParameters
 from agv_motion.simulation.trials.probe_losses import (
     LADDER,
-    Fault,
     LossTrialParameters,
+    ProbeFault,
     failures_of,
     trial,
 )
@@ -22,7 +22,7 @@ SHORT = LossTrialParameters(days=12.0, failures=10, step=600.0, seed=3)
 def test_failures_come_one_after_another_and_are_of_all_kinds():
     found = failures_of(LossTrialParameters())
     assert len(found) == 100
-    assert {failure.fault for failure in found} == set(Fault)
+    assert {failure.fault for failure in found} == set(ProbeFault)
     assert all(a.end + 7200.0 <= b.begin for a, b in pairwise(found))
     assert all(600.0 <= each.end - each.begin <= 86400.0 for each in found)
 
