@@ -110,6 +110,8 @@ class Dispatch:
             AgvMotionError: It has not; the message says why.
 
         """
+        node, known = driver.node, self.view.clock_of
+        self._link.wait(lambda: known(node) is not None, self._patience.answer)
         self._publish(Order(driver, self.view, self._patience, time.monotonic()), topic, message)
 
     def send_tree(self, x: float, y: float, heading: float | None, frame: str) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from agv_motion.client.drivers import TREE
 from agv_motion.client.progress import RemainingPath, StandWatch
 from agv_motion.client.task import Fault, Outcome, Task
-from agv_motion.ros.messages import points_of
+from agv_motion.ros.messages import points_of, seconds_of
 
 if TYPE_CHECKING:
     from agv_motion.client.drivers import Driver
@@ -52,6 +52,8 @@ class Order:
         self.task = Task(driver.ends, now)
         self._view, self._patience = view, patience
         self._begun = now
+        self._not_before = view.clock_of(driver.node) or 0.0
+        """by the clock of the node [s]: what it told before is of another order"""
         self._stand = StandWatch(now)
         self._path = RemainingPath(())
 
@@ -101,6 +103,9 @@ class Order:
         return self._path.last
 
     def _on_path(self, heard: Heard) -> None:
+        told = seconds_of(heard.message.header.stamp)
+        if self.accepts_by_path and told < self._not_before:
+            return  # it is latched, and came late
         self._path = RemainingPath(points_of(heard.message), heard.message.header.frame_id)
         self._measure()
         if self.accepts_by_path:

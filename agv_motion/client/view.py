@@ -15,7 +15,7 @@ from std_msgs.msg import String
 from agv_motion.client.drivers import DRIVERS, Driver
 from agv_motion.errors import AgvMotionError
 from agv_motion.planar import Twist
-from agv_motion.ros.messages import pose_of
+from agv_motion.ros.messages import pose_of, seconds_of
 from agv_motion.ros.qos import LATCHED, SENSOR
 
 if TYPE_CHECKING:
@@ -43,6 +43,8 @@ class RobotView:
         """
         self._heard: dict[str, Heard] = {}
         self._nodes: dict[str, Heard] = {}
+        self._clocks: dict[str, float] = {}
+        """what time it was in each node when it told how it is [s]"""
         self.poses_told = 0
         """Messages of its localization so far"""
         self._news, self._prefix = news, f'{link.node.get_namespace().rstrip("/")}/'
@@ -104,6 +106,10 @@ class RobotView:
         values = self._report(node)
         return int(values.get('refused inputs', '0')), values.get('last', '')
 
+    def clock_of(self, node: str) -> float | None:
+        """Return what time it was in a node when it last told how it is [s]; None: it has not."""
+        return self._clocks.get(node)
+
     def silence(self, node: str, now: float) -> float:
         """Return for how long a node has not told how it is [s]; infinite if it never has."""
         heard = self._nodes.get(node)
@@ -150,6 +156,7 @@ class RobotView:
             name = status.name.removeprefix(self._prefix)
             if name != status.name and '/' not in name:
                 self._nodes[name] = heard._replace(message=status)
+                self._clocks[name] = seconds_of(heard.message.header.stamp)
 
 
 def _values(status: Any) -> dict[str, str]:

@@ -40,10 +40,13 @@ class View(Some):
     def state(self, driver):
         return 'driving'
 
+    def clock_of(self, node):
+        return self.clock
+
 
 @pytest.fixture
 def view():
-    return View(stop='', heard=0.0, wheels=0.0, odometry=Pose(0.0, 0.0, 0.0))
+    return View(stop='', clock=None, heard=0.0, wheels=0.0, odometry=Pose(0.0, 0.0, 0.0))
 
 
 @pytest.fixture
@@ -154,3 +157,17 @@ def test_the_same_goal_told_again_is_no_other(tree):
     tree.receive('goal', goal(5.0, 0.0))
     tree.receive(TREE.state, Heard(String(data='walking'), 0.0))
     assert not tree.task.ended
+
+
+def test_a_path_told_before_the_order_is_that_of_another_though_it_comes_late(view):
+    """It is latched: who joined a moment ago may hear it after the order is sent."""
+    view.clock = 100.0  # when the node told how it is, which was before the order
+    order, path = Order(GHOST, view, PATIENCE, 0.0), Path()
+    fill_path(path, [Pose(0.0, 0.0, 0.0), Pose(4.0, 0.0, 0.0)])
+    path.header.stamp.sec = 99
+    order.receive('ghost/path', Heard(path, 0.1))
+    assert not order.task.accepted
+    path.header.stamp.sec = 100
+    order.receive('ghost/path', Heard(path, 0.2))
+    assert order.task.accepted
+    assert order.task.result.outcome is Outcome.RUNNING
