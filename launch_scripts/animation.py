@@ -19,8 +19,10 @@ from PIL import Image
 
 from agv_motion.bag.reader import BagReader
 from agv_motion.kinematics.platform import PLATFORM_RADIUS
+from agv_motion.model.footprint import disc
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.report import label_layout, style
+from agv_motion.report.robot_drawing import draw_robot
 from agv_motion.report.walk import WalkRun, read_walk
 from agv_motion.report.walk_figure import finding
 from agv_motion.ros.config import find_config
@@ -104,7 +106,7 @@ def _draw_map(axes: Any, run: WalkRun, zone: Zone, row: int, now: float) -> None
         vmin=run.flow[:, 3].min(), vmax=run.flow[:, 3].max(),
     )  # fmt: skip
     axes.plot(*run.path[:row:10, 1:3].T, color=style.PATH, lw=1.0)
-    style.robot(axes, run.path[row - 1, 1:], PLATFORM_RADIUS, strong=True)
+    draw_robot(axes, run.path[row - 1, 1:], disc(PLATFORM_RADIUS), strong=True)
     known = int(np.searchsorted(run.goals[:, 0], now, 'right'))
     told = f'{now / 60.0:.0f} min'
     if known:

@@ -19,6 +19,7 @@ from agv_motion.demo.drive_view import DriveView
 from agv_motion.demo.omni_driver import OmniDriver
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, DemoSoFar, Scenario
+from agv_motion.model.footprint import footprint
 from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.omni_kinematics import OmniKinematics
 from agv_motion.nodes.omni_simulator import OmniSimulator
@@ -89,11 +90,13 @@ class OmniScenario(Scenario[LocalizationRun]):
         wheels = configured_node(OmniKinematics, CONFIG, patient)
         localization = configured_node(Localization, CONFIG, common)
         arbiter = arbiter_node(CONFIG, {'timeouts__agent': 2.0})
+        model = model_node(CONFIG)
+        self._model = model.parameters.model()
         nodes = (
             arbiter,
             wheels,
             localization,
-            model_node(CONFIG),
+            model,
             scene_node(CONFIG),
             self._simulator,
         )
@@ -121,5 +124,5 @@ class OmniScenario(Scenario[LocalizationRun]):
 
     def draw(self, run: LocalizationRun, path: Path) -> bool:
         """Draw the drive."""
-        draw(run, path)
+        draw(run, path, footprint(self._model, {}))
         return True

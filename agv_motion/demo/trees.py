@@ -28,6 +28,7 @@ from agv_motion.nodes.localization import Localization
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.simulator import Simulator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.report.recorded_footprint import read_footprints
 from agv_motion.report.walks import RecordedWalk, nearest, read_walks, summary
 from agv_motion.report.walks_figure import draw
 from agv_motion.ros.config import find_config
@@ -146,7 +147,13 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
 
     def read(self, bag: BagReader) -> list[RecordedWalk]:
         """Read the walks back."""
-        return read_walks(bag, self._names)
+        walks = read_walks(bag, self._names)
+        begin = bag.start * 1e-9
+        ends = [(begin + walk.time[[0, -1]]).tolist() if len(walk.time) else [] for walk in walks]
+        return [
+            walk._replace(footprints=read_footprints(bag, f'/{walk.name}/ground_truth', stamps))
+            for walk, stamps in zip(walks, ends, strict=True)
+        ]
 
     def tell(self, run: list[RecordedWalk], _: DemoSoFar) -> Iterator[RenderableType]:
         """Yield the figures of the walks."""

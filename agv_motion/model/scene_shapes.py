@@ -1,4 +1,4 @@
-"""What is drawn of a robot in the map: lines, arrows and words, each in a namespace of its own.
+"""What is drawn of a robot in the map: lines, arrows, words, its shadow; each has a namespace.
 
 All places are metres in the map; what is not finite is not drawn.
 """
@@ -6,8 +6,11 @@ All places are metres in the map; what is not finite is not drawn.
 from __future__ import annotations
 
 from enum import Enum
-from math import atan2, cos, hypot, isfinite, pi, sin, sqrt
+from itertools import pairwise
+from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
+
+import shapely
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -26,6 +29,8 @@ SIGMAS = 2.0
 """Ellipses are drawn at two standard deviations."""
 CORNERS = 32
 """of a circle"""
+LOWEST_SUN = radians(3.0)
+"""[rad] A lower sun casts no shadow that ends on a square."""
 SPEED = 20.0
 """[s] Length of an arrow over the speed that it tells"""
 
@@ -41,6 +46,8 @@ class ShapeKind(Enum):
     """From the first to the second"""
     TEXT = 'text'
     """Words at the first"""
+    TRIANGLES = 'triangles'
+    """Each three, filled"""
 
 
 class SceneShape(NamedTuple):
@@ -167,6 +174,36 @@ def sun_arrow(
     if words:
         found.append(SceneShape('sun', ShapeKind.TEXT, ((pose.x, pose.y, 4.6),), color, 0.3, words))
     return found
+
+
+def shadow(
+    pose: Pose, corners: Sequence[Vector], elevation: float, azimuth: float, color: Color
+) -> list[SceneShape]:
+    """Return the shadow of a robot on the floor, filled: the hull of those of its corners.
+
+    Args:
+        pose: Of the robot.
+        corners: What stands on it, in its own frame [m].
+        elevation: Of the sun above the horizon [rad]; none below `LOWEST_SUN`.
+        azimuth: Of the sun, counter-clockwise from the x axis of the map [rad].
+        color: Of the shadow.
+
+    """
+    if elevation < LOWEST_SUN or not corners:
+        return []
+    long = 1.0 / tan(elevation)
+    away = -long * cos(azimuth), -long * sin(azimuth)
+    cast = []
+    for x, y, z in corners:
+        px, py = on_floor(pose, x, y)
+        cast.append((px + z * away[0], py + z * away[1]))
+    hull = shapely.MultiPoint(cast).convex_hull
+    if not isinstance(hull, shapely.Polygon):
+        return []
+    outer = shapely.geometry.polygon.orient(hull).exterior  # counter-clockwise: seen from above
+    ring = [(float(x), float(y), 0.005) for x, y in outer.coords]
+    fan = [point for second, third in pairwise(ring[1:-1]) for point in (ring[0], second, third)]
+    return [SceneShape('shadow', ShapeKind.TRIANGLES, tuple(fan), color, 1.0)]
 
 
 def on_floor(pose: Pose, x: float, y: float) -> Point:

@@ -1,4 +1,4 @@
-"""What is to be seen of a link: boxes, cylinders, and surfaces of triangles."""
+"""What is to be seen of a link: boxes, cylinders, balls."""
 
 from __future__ import annotations
 
@@ -27,10 +27,27 @@ class Cylinder(NamedTuple):
     """[m]"""
 
 
+class Sphere(NamedTuple):
+    """A ball about its centre."""
+
+    radius: float
+    """[m]"""
+
+
+class UnknownShape(NamedTuple):
+    """A shape of which no more is known than that it is there, such as a mesh in another file."""
+
+    kind: str
+    """its word in URDF"""
+
+
+Shape = Box | Cylinder | Sphere | UnknownShape
+
+
 class Visual(NamedTuple):
     """A shape at its place in the frame of a link."""
 
-    shape: Box | Cylinder
+    shape: Shape
     color: Color
     place: Vector = (0.0, 0.0, 0.0)
     """[m]"""

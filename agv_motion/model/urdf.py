@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from typing import TYPE_CHECKING
 
 from agv_motion.model.robot_model import JointKind
-from agv_motion.model.shapes import Box
+from agv_motion.model.shapes import Box, Cylinder, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,8 +44,12 @@ def _add_visual(link: ET.Element, visual: Visual, colors: dict[Color, str]) -> N
     geometry, shape = ET.SubElement(element, 'geometry'), visual.shape
     if isinstance(shape, Box):
         ET.SubElement(geometry, 'box', size=_words(shape.size))
-    else:
+    elif isinstance(shape, Cylinder):
         ET.SubElement(geometry, 'cylinder', radius=repr(shape.radius), length=repr(shape.length))
+    elif isinstance(shape, Sphere):
+        ET.SubElement(geometry, 'sphere', radius=repr(shape.radius))
+    else:
+        ET.SubElement(geometry, shape.kind)
     ET.SubElement(element, 'material', name=colors[visual.color])
 
 

@@ -1,6 +1,6 @@
-"""Links and joints from a URDF, whoever wrote it: all that its transforms need.
+"""Links and joints from a URDF, whoever wrote it: what its transforms need, and what is seen of it.
 
-Shapes, masses and limits are passed over. A document that declares entities is refused: unfolded,
+Masses and limits are passed over. A document that declares entities is refused: unfolded,
 a few lines of them fill any memory.
 """
 
@@ -20,6 +20,7 @@ from agv_motion.model.robot_model import (
     RobotModel,
     unit,
 )
+from agv_motion.model.urdf_shapes import read_materials, read_visuals
 
 if TYPE_CHECKING:
     from agv_motion.model.transform import Vector
@@ -49,7 +50,11 @@ def read_urdf(text: str) -> RobotModel:
     if robot.tag != 'robot' or len(joints) > MOST:
         msg = f'<{robot.tag:.40}> with {len(joints)} joints: expected <robot> with at most {MOST}'
         raise ConfigurationError(msg)
-    links = [RobotLink(_attribute(link, 'name')) for link in robot.findall('link')]
+    colors = read_materials(robot)
+    links = [
+        RobotLink(_attribute(link, 'name'), read_visuals(link, colors))
+        for link in robot.findall('link')
+    ]
     return RobotModel(robot.get('name', ''), links, [_joint(joint) for joint in joints])
 
 

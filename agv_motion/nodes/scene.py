@@ -6,18 +6,20 @@ from dataclasses import dataclass, field
 from math import hypot, isfinite
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
-from geometry_msgs.msg import Point, PoseStamped, PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import Illuminance, JointState
-from std_msgs.msg import ColorRGBA, String
+from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 
+from agv_motion.model.footprint import corners_above
 from agv_motion.model.scene_shapes import (
     SceneShape,
     ShapeKind,
     outline,
     ring,
     rotation_centre,
+    shadow,
     sun_arrow,
     uncertainty,
     way,
@@ -25,6 +27,7 @@ from agv_motion.model.scene_shapes import (
 )
 from agv_motion.motion.navigation.zone_text import zone_of_text
 from agv_motion.nodes.platform_parameters import STEERING, RobotPlatformParameters
+from agv_motion.nodes.scene_marker import marker_of
 from agv_motion.parameters import Spec, check
 from agv_motion.planar import REST, Pose, Twist, require_finite
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
@@ -39,15 +42,12 @@ if TYPE_CHECKING:
 
     from agv_motion.ros.port import Port
 
+DIM = 0.25, 0.30, 0.40, 0.35
 INK, EDGE, HOLE, SOFT, LEAF, SKY, GOAL, WAY, DUST = (
     (0.15, 0.15, 0.15, 1.0), (0.20, 0.35, 0.60, 1.0), (0.75, 0.20, 0.15, 1.0),
     (0.85, 0.60, 0.10, 1.0), (0.16, 0.45, 0.25, 1.0), (0.98, 0.80, 0.15, 1.0),
     (0.60, 0.20, 0.60, 1.0), (0.25, 0.55, 0.85, 1.0), (0.55, 0.55, 0.55, 0.8),
 )  # fmt: skip
-KINDS = {
-    ShapeKind.LINE: Marker.LINE_STRIP, ShapeKind.PAIRS: Marker.LINE_LIST,
-    ShapeKind.ARROW: Marker.ARROW, ShapeKind.TEXT: Marker.TEXT_VIEW_FACING,
-}  # fmt: skip
 TRAIL_STEP, MOST_IN_TRAIL = 0.1, 2000
 """[m] between two places of the trail, and how many there are at most"""
 MOST_POINTS = 2000
@@ -71,6 +71,7 @@ class ShowParameters:
     path: Annotated[bool, Spec('the path to the goal', dynamic=True)] = True
     trail: Annotated[bool, Spec('where it was', dynamic=True)] = True
     sun: Annotated[bool, Spec('the sun, and whether it reaches the robot', dynamic=True)] = True
+    shadow: Annotated[bool, Spec('its shadow on the floor, in the sun', dynamic=True)] = True
     uncertainty: Annotated[bool, Spec('the ellipse of two deviations', dynamic=True)] = True
 
 
@@ -110,6 +111,7 @@ class Scene(PlainNode[SceneParameters]):
         """Open the topics."""
         super().__init__(port, parameters)
         self._model, self._radii = parameters.model(), parameters.radii()
+        self._corners = corners_above(self._model)
         self._heard: dict[str, _Heard] = {}
         self._zone: list[SceneShape] = []
         self._trail: list[tuple[float, float]] = []
@@ -236,6 +238,8 @@ class Scene(PlainNode[SceneParameters]):
             words = f'{"in the sun" if light >= SHADE else "in the shade"}, {light:.0f} lx'
             direction = sun(self.port.seconds(), given.latitude, given.longitude)
             yield from sun_arrow(pose, direction.elevation, direction.azimuth, words, SKY)
+            if light >= SHADE:
+                yield from shadow(pose, self._corners, *direction, DIM)
 
     def _wheels(self) -> tuple[list[tuple[float, float, float]], list[float]]:
         """Return where each wheel stands [m, m, rad] in the robot, and its speed [m/s]."""
@@ -258,7 +262,10 @@ class Scene(PlainNode[SceneParameters]):
         """Send the shapes, and delete those that were there before."""
         markers, numbers = [], dict.fromkeys((s.namespace for s in shapes), 0)
         for shape in shapes:
-            markers.append(self._marker(shape, numbers[shape.namespace]))
+            marker = marker_of(shape, numbers[shape.namespace])
+            self.port.stamp(marker)
+            marker.header.frame_id = self.parameters.map_frame
+            markers.append(marker)
             numbers[shape.namespace] += 1
         shown = {(marker.ns, marker.id) for marker in markers}
         for namespace, number in sorted(self._shown - shown):
@@ -268,22 +275,6 @@ class Scene(PlainNode[SceneParameters]):
             markers.append(gone)
         self._shown = shown
         self._scene.publish(MarkerArray(markers=markers))
-
-    def _marker(self, shape: SceneShape, number: int) -> Marker:
-        marker = Marker(ns=shape.namespace, id=number, type=KINDS[shape.kind], text=shape.text)
-        self.port.stamp(marker)
-        marker.header.frame_id = self.parameters.map_frame
-        marker.color = ColorRGBA(**dict(zip('rgba', shape.color, strict=True)))
-        marker.pose.orientation.w = 1.0
-        marker.scale.x = marker.scale.y = marker.scale.z = shape.width
-        if shape.kind is ShapeKind.TEXT:
-            place = marker.pose.position
-            place.x, place.y, place.z = shape.points[0]
-            return marker
-        if shape.kind is ShapeKind.ARROW:
-            marker.scale.y, marker.scale.z = 2.0 * shape.width, 0.0
-        marker.points = [Point(x=x, y=y, z=z) for x, y, z in shape.points]
-        return marker
 
 
 def main() -> None:

@@ -9,13 +9,14 @@ import numpy as np
 from agv_motion.bag.columns.columns import read_topic
 from agv_motion.bag.columns.field_name import topic_and_field
 from agv_motion.errors import ConfigurationError
-from agv_motion.report import style
+from agv_motion.report import style, wording
 from agv_motion.report.figure import figure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from agv_motion.bag.columns.columns import Columns
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 MOST_LINES = 24
 """of one panel"""
 
+MOST_NAMED = 8
+"""Lines of a panel that are named at their ends; more have a legend beside it."""
+
+_LONGEST_TITLE = 100
 _LONGEST_NOTE = 40
 """characters of a note that are drawn"""
 DASHES = ('-', '--', '-.', ':')
@@ -88,21 +93,33 @@ def draw(
         for i, panel in enumerate(panels):
             for k, line in enumerate(panel):
                 colour, dash = style.LINES[k % len(style.LINES)], DASHES[k // len(style.LINES)]
-                axes[str(i)].plot(
-                    *style.thinned(line.time, line.values), label=line.label, color=colour,
-                    ls=dash, lw=1.0,
-                )  # fmt: skip
-            axes[str(i)].legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), ncols=2)
+                _draw_line(axes[str(i)], line, colour, dash, named=len(panel) <= MOST_NAMED)
+            _name(axes[str(i)], panel)
             axes[str(i)].grid()
         for time, words in notes:
-            for panel_axes in axes.values():
-                panel_axes.axvline(time, color=style.OTHERS[1], lw=0.8, ls=':')
-            place = (time, 1.0)
-            axes['0'].annotate(
-                words[:_LONGEST_NOTE], place, xycoords=('data', 'axes fraction'), rotation=90,
-                va='top', ha='right', fontsize='small',
-            )  # fmt: skip
+            said = wording.clipped(words, _LONGEST_NOTE)
+            style.event(axes['0'], time, said, also=[axes[str(i)] for i in range(1, len(panels))])
         axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
+
+
+def _draw_line(axes: Axes, line: FieldLine, colour: str, dash: str, *, named: bool) -> None:
+    """Draw a field, and name it at its end where there is room for that."""
+    field = line.label.partition(' ')[2]
+    axes.plot(
+        *style.thinned(line.time, line.values), label=field, color=colour, ls=dash, lw=1.0,
+        marker='.' if len(line.time) == 1 else '',
+    )  # fmt: skip
+    told = np.flatnonzero(np.isfinite(np.asarray(line.values, dtype=float)))
+    if named and len(told):
+        style.line_label(axes, float(line.values[told[-1]]), field, colour)
+
+
+def _name(axes: Axes, panel: Sequence[FieldLine]) -> None:
+    """Name the topics of a panel over it, and its fields beside it where they are many."""
+    topics = dict.fromkeys(line.label.partition(' ')[0] for line in panel)
+    axes.set_title(wording.clipped(', '.join(topics), _LONGEST_TITLE))
+    if len(panel) > MOST_NAMED:
+        axes.legend(loc='center left', bbox_to_anchor=(1.0, 0.5), ncols=2)
 
 
 def _lines(columns: Columns) -> Iterator[tuple[str, Any]]:

@@ -6,15 +6,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from agv_motion.report import style
+from agv_motion.report import robot_drawing, style, wording
 from agv_motion.report.figure import figure
 from agv_motion.report.localization import ELLIPSE, OUTLIER, LocalizationRun
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from agv_motion.model.footprint import Footprint
     from agv_motion.report.stamped_columns import PoseColumns
 
     Array = NDArray[np.float64]
@@ -24,9 +26,6 @@ JUMP = 0.5
 
 BEFORE, AFTER = 15.0, 30.0
 """[s] before it was carried away and after it was found again that the map shows in full."""
-
-RIM = 0.2
-"""[m] of the robot from its centre"""
 
 
 class Carried(NamedTuple):
@@ -52,9 +51,9 @@ def finding(run: LocalizationRun) -> str:
     """Return what the drive was, in one line, from its numbers."""
     if not len(run.pose.stamp):
         return 'The robot never knew where it was'
-    typical = 100.0 * np.median(np.hypot(*run.error(run.pose)[:2]))
+    typical = float(np.median(np.hypot(*run.error(run.pose)[:2])))
     away = carried(run)
-    said = f'The robot knows its place to {typical:.0f} cm'
+    said = f'The robot knows its place to {wording.length(typical)}'
     if away is None:
         return said
     if np.isnan(away.found):
@@ -62,8 +61,16 @@ def finding(run: LocalizationRun) -> str:
     return f'{said}; carried away, it finds itself again after {away.found - away.time:.0f} s'
 
 
-def draw(run: LocalizationRun, path: Path, *, theme: str = 'light') -> None:
+def draw(
+    run: LocalizationRun, path: Path, shape: Footprint | None = None, *, theme: str = 'light'
+) -> None:
     """Draw path and ellipses, and errors over time, into one picture.
+
+    Args:
+        run: What was recorded.
+        path: Of the picture.
+        shape: What the robot covers of the floor; None: not known.
+        theme: ``light`` or ``dark``.
 
     Raises:
         ConfigurationError: matplotlib is not installed.
@@ -74,7 +81,7 @@ def draw(run: LocalizationRun, path: Path, *, theme: str = 'light') -> None:
         path, mosaic, theme=theme, figsize=(style.WIDTH, 5.2), width_ratios=[1.15, 1]
     ) as axes:
         style.title(axes['map'], finding(run))
-        _draw_map(axes['map'], run)
+        _draw_map(axes['map'], run, shape)
         _draw_errors(axes['position'], axes['heading'], run)
 
 
@@ -98,7 +105,7 @@ def without(columns: PoseColumns, part: PoseColumns) -> PoseColumns:
     return columns._replace(pose=np.where(there, np.nan, columns.pose))
 
 
-def _draw_map(axes: Any, run: LocalizationRun) -> None:
+def _draw_map(axes: Any, run: LocalizationRun, shape: Footprint | None) -> None:
     window, away = _window(run), carried(run)
     truth, pose = _within(run.truth, window), _within(run.pose, window)
     axes.plot(*_broken(run.truth), lw=1.0, color=style.OTHERS[1], alpha=0.35)
@@ -114,18 +121,27 @@ def _draw_map(axes: Any, run: LocalizationRun) -> None:
     style.direction(axes, np.array(_broken(truth)).T, style.PATH, 6)
     shown = np.concatenate([run.truth.pose[:2], pose.pose[:2]], axis=1)
     style.frame(axes, shown.T, 1.0)
-    _name_places(axes, run, window)
+    extent = float((np.nanmax(shown, axis=1) - np.nanmin(shown, axis=1)).max()) + 0.1
+    shapes = robot_drawing.visible([shape] if shape else None, extent)
+    _name_places(axes, run, window, shapes, extent)
+    lost = '' if away is None else 'believed while lost (dashed), '
     axes.set_title(
-        f'{max(window[0], 0.0):.0f} to {window[1]:.0f} s: way (green), pose believed with 95 % '
-        'ellipses (blue),\nbelieved while lost (dashed), fixes (dots); all else faint',
+        f'{max(window[0], 0.0):.0f} to {window[1]:.0f} s: way (green), pose believed, 95 % '
+        f'ellipses (blue),\n{lost}fixes (dots), {robot_drawing.caption(shapes)}',
         fontsize=style.SMALL, fontweight='normal',
     )  # fmt: skip
 
 
-def _name_places(axes: Any, run: LocalizationRun, window: tuple[float, float]) -> None:
-    """Draw the robot at true size at start, end, and where it was carried from and to; name it."""
+def _name_places(
+    axes: Any, run: LocalizationRun, window: tuple[float, float],
+    shapes: Sequence[Footprint] | None, extent: float,
+) -> None:  # fmt: skip
+    """Draw the robot at start, end, and where it was carried from and to; name the places."""
     away = carried(run)
+    ends = run.truth.pose[:2, [0, -1]].T
     at = {'start': 0.0, 'end': float(run.truth.stamp[-1])}
+    if np.hypot(*(ends[1] - ends[0])) < robot_drawing.NEAR * extent:
+        at = {'start and end': at['end']}
     if away is not None:
         at |= {'carried away': away.time - 0.2, 'set down': away.time + 0.2}
         at |= {} if np.isnan(away.found) else {'found again': away.found}
@@ -135,8 +151,9 @@ def _name_places(axes: Any, run: LocalizationRun, window: tuple[float, float]) -
     taken = [*way, *(run.truth.pose[:2, row] for row in rows.values())]
     for name, row in rows.items():
         place = run.truth.pose[:, row]
-        style.robot(axes, place, RIM, strong=True)
-        style.name_near(axes, place[:2], 0.4, name, style.ink(), taken)
+        robot_drawing.draw_robot(axes, place, shapes[0] if shapes else None, strong=True)
+        distance = robot_drawing.beside(shapes, extent)
+        style.name_near(axes, place[:2], distance, name, style.ink(), taken)
 
 
 def _draw_ellipses(axes: Any, pose: PoseColumns) -> None:

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.report import style
+from agv_motion.report import robot_drawing, style
 from agv_motion.report.figure import figure
+from agv_motion.report.recorded_footprint import moments
 from agv_motion.route.prediction import NOTHING
 from agv_motion.route.speeds import RouteLimiter
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.model.footprint import Footprint
     from agv_motion.route.prediction import Prediction
     from agv_motion.route.route import Route
 
@@ -30,12 +32,19 @@ HOLDERS = {
 }
 """What each that holds the speed down is in words, and its colour."""
 
-RIM = 0.05
-"""of the extent of the map: so large the robot is drawn; a route does not tell its true size."""
 
-
-def draw(route: Route, run: Prediction, path: Path, *, theme: str = 'light') -> None:
+def draw(
+    route: Route, run: Prediction, path: Path, shape: Footprint | None = None, *,
+    theme: str = 'light',
+) -> None:  # fmt: skip
     """Draw ``run`` on ``route`` into a picture.
+
+    Args:
+        route: What is to be followed.
+        run: How it is.
+        path: Of the picture.
+        shape: What the robot covers of the floor; None: not known.
+        theme: ``light`` or ``dark``.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -47,7 +56,7 @@ def draw(route: Route, run: Prediction, path: Path, *, theme: str = 'light') -> 
         path, mosaic, theme=theme, figsize=(style.WIDTH, 5.4), width_ratios=[1, 1.1]
     ) as axes:
         style.title(axes['map'], finding(run))
-        _draw_map(axes['map'], route, run)
+        _draw_map(axes['map'], route, run, shape)
         _draw_time(axes, run)
 
 
@@ -62,13 +71,14 @@ def finding(run: Prediction) -> str:
     )
 
 
-def _draw_map(axes: Any, route: Route, run: Prediction) -> None:
+def _draw_map(axes: Any, route: Route, run: Prediction, shape: Footprint | None) -> None:
     """Draw the route, the way on it in the colour of what holds the speed down, and both ends."""
     from matplotlib.lines import Line2D
 
     points = np.array(route.waypoints)
     axes.plot(*points.T, 'o-', color=style.OTHERS[1], alpha=0.35, lw=5, ms=7)
     place = np.array([pose[:2] for pose in run.poses])
+    style.direction(axes, place, style.ink(), 5)
     keys = []
     for holder, here in _held(run):
         word, colour = HOLDERS[holder]
@@ -76,12 +86,15 @@ def _draw_map(axes: Any, route: Route, run: Prediction) -> None:
         keys.append(Line2D([], [], color=colour, lw=3, label=word))
     both = np.concatenate([points, place])
     extent = float(np.ptp(both, axis=0).max()) + 0.1
-    style.frame(axes, both, 0.14 * extent)
-    taken = list(both)
-    for row, name in ((0, 'start'), (-1, 'end')):
-        style.robot(axes, run.poses[row], RIM * extent, style.ink(), strong=True)
-        style.name_near(axes, place[row], 1.6 * RIM * extent, name, style.ink(), taken)
-    axes.legend(handles=keys, loc='upper center', bbox_to_anchor=(0.5, -0.14), ncols=2)
+    rows = moments(len(place))
+    shapes = robot_drawing.visible([shape] * len(rows) if shape else None, extent)
+    style.frame(axes, both, robot_drawing.room(shapes, extent))
+    robot_drawing.draw_way(axes, [run.poses[row] for row in rows], shapes, style.ink())
+    robot_drawing.name_ends(axes, place[[0, -1]], shapes, extent, list(both))
+    axes.set_title(
+        f'route (grey), {robot_drawing.caption(shapes)}', fontsize=style.SMALL, fontweight='normal'
+    )
+    axes.figure.legend(handles=keys, loc='outside lower left', ncols=3)
 
 
 def _held(run: Prediction) -> Iterator[tuple[str, NDArray[np.bool_]]]:
@@ -98,14 +111,17 @@ def _draw_time(axes: dict[str, Any], run: Prediction) -> None:
     time = run.dt * np.arange(len(run.steps))
     driven = np.array([np.hypot(*step.twist[:2]) for step in run.steps])
     for holder, here in _held(run):
+        filled = here.copy()
+        filled[1:] |= here[:-1]  # up to where the next begins
         axes['speed'].fill_between(
-            time, driven, where=here, color=HOLDERS[holder][1], alpha=0.5, lw=0, step='mid'
+            time, driven, where=filled, color=HOLDERS[holder][1], alpha=0.5, lw=0
         )
     axes['speed'].plot(time, driven, color=style.ink(), lw=1.2)
     axes['speed'].set(ylabel='[m/s]', ylim=(0.0, None), title='Speed, and what holds it down')
     axes['speed'].tick_params(labelbottom=False)
     turn = np.array([step.twist.wz for step in run.steps])
     axes['turn'].plot(time, turn, color=style.ink(), lw=1.2)
+    style.scale(axes['turn'], turn, least=0.1)
     axes['turn'].set(ylabel='[rad/s]', title='Turn rate, to the left positive')
     end = float(time[-1]) if len(time) else 1.0
     for each in ('speed', 'turn'):

@@ -10,6 +10,7 @@ import numpy as np
 
 from agv_motion.bag.message_objects import decoded
 from agv_motion.errors import ConfigurationError
+from agv_motion.report.recorded_footprint import moments, read_footprints
 from agv_motion.report.stamped_columns import topics_of
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
+    from agv_motion.model.footprint import Footprint
 
     Column = NDArray[np.float64]
 
@@ -54,6 +56,8 @@ class RunBag(NamedTuple):
     """(n, 2) places of each path that was shown [m], by topic"""
     way_frames: frozenset[str] = frozenset()
     """Of all those paths"""
+    footprints: list[Footprint] | None = None
+    """of the robot at its `moments`; None where the bag does not tell its size"""
 
     def distance(self) -> float:
         """Return how far the robot went [m]."""
@@ -86,7 +90,8 @@ def read_run(bag: BagReader, planned: str = '', driven: str = '') -> RunBag:
         has = ', '.join(sorted(bag.topics))
         msg = f'{bag.path} does not tell where the robot was; it has {has}'
         raise ConfigurationError(msg)
-    return RunBag(ghost, robot, ways, frozenset(frames))
+    stamps = robot.time[moments(len(robot.time))].tolist()
+    return RunBag(ghost, robot, ways, frozenset(frames), read_footprints(bag, robot.topic, stamps))
 
 
 def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -> Poses | None:

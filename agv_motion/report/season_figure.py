@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
+BESIDE = 3
+"""Floors in a row of the picture"""
+
 WHOLE = 0.99
 """Share of a floor from which it counts as all of it"""
 
@@ -30,7 +33,7 @@ def finding(floors: Mapping[str, FloorCoverage]) -> str:
     """Return what the seasons showed, in one line, from their numbers."""
     slowest = max(_day_of_all(row) for floor in floors.values() for row in floor.memory)
     least = min(row[-1] for floor in floors.values() for row in floor.straight)
-    days = f'within {wording.in_words(slowest)} days' if np.isfinite(slowest) else 'not in time'
+    days = f'within {wording.counted(slowest, "day")}' if np.isfinite(slowest) else 'not in time'
     return wording.sentence(
         f'by memory a tree comes to all of its floor {days}; straight or not at all, '
         f'once to {100.0 * least:.0f} % of it'
@@ -46,7 +49,10 @@ def draw(floors: Mapping[str, FloorCoverage], path: Path, *, theme: str = 'light
 
     """
     names = list(floors)
-    with figure(path, [names], theme=theme, figsize=(style.WIDTH, 3.6), sharey=True) as axes:
+    rows = [names[i : i + BESIDE] for i in range(0, len(names), BESIDE)]
+    mosaic = [[*row, *['.'] * (len(rows[0]) - len(row))] for row in rows]
+    size = style.WIDTH, 0.6 + 3.0 * len(rows)
+    with figure(path, mosaic, theme=theme, figsize=size, sharey=True) as axes:
         style.title(
             axes[names[0]],
             finding(floors),
@@ -54,7 +60,8 @@ def draw(floors: Mapping[str, FloorCoverage], path: Path, *, theme: str = 'light
         )
         for name in names:
             _draw_floor(axes[name], name, floors[name])
-        axes[names[0]].set(ylabel='floor stood on [%]')
+        for row in rows:
+            axes[row[0]].set(ylabel='floor stood on [%]')
 
 
 def _draw_floor(axes: Any, name: str, floor: FloorCoverage) -> None:
@@ -64,7 +71,8 @@ def _draw_floor(axes: Any, name: str, floor: FloorCoverage) -> None:
         for row in rows:
             axes.plot(100.0 * np.asarray(row), color=color, lw=width, solid_joinstyle='round')
     days = len(floor.memory[0]) - 1
-    axes.set(title=name, xlabel='day', xlim=(0, days), ylim=(0, 104), xticks=range(0, days + 1, 5))
+    axes.set(title=name, xlabel='day', xlim=(0, days), ylim=(0, 104))
+    axes.xaxis.get_major_locator().set_params(integer=True, nbins=5)
     axes.grid(axis='y')
     axes.text(0.97, 0.14, 'by memory', color=above, ha='right', transform=axes.transAxes)
     axes.text(

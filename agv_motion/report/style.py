@@ -38,6 +38,9 @@ TITLE, TEXT, SMALL = 13.0, 9.0, 8.0
 WIDTH = 10.0
 """[in]"""
 
+MOST_TOGETHER = 4
+"""Numbers that stand in one disc"""
+
 MOST_POINTS = 5000
 """of a line: what is longer is thinned by its envelope."""
 
@@ -50,6 +53,7 @@ def settings(theme: str = 'light') -> Any:
     ink, faint, paper = INKS[theme]
     return {
         'font.size': TEXT, 'axes.labelsize': TEXT, 'axes.titlesize': TEXT,
+        'axes.formatter.useoffset': False,
         'axes.titleweight': 'bold', 'axes.titlelocation': 'left', 'figure.titlesize': TITLE,
         'figure.titleweight': 'bold', 'xtick.labelsize': SMALL, 'ytick.labelsize': SMALL,
         'legend.fontsize': SMALL, 'legend.frameon': False, 'axes.spines.top': False,
@@ -127,21 +131,6 @@ def scale(axes: Axes, *values: ArrayLike, least: float = 0.0) -> None:
         axes.set_ylim(low - room, high + room)
 
 
-def robot(
-    axes: Axes, pose: ArrayLike, rim: float, color: Any = ROBOT, *, strong: bool = False
-) -> None:
-    """Draw a robot at its true size, with a stroke from its centre to where it looks."""
-    from matplotlib.colors import to_rgba
-    from matplotlib.patches import Circle
-
-    x, y, heading = np.asarray(pose, dtype=float).tolist()
-    width = 1.8 if strong else 1.0
-    axes.add_patch(
-        Circle((x, y), rim, fc=to_rgba(color, 0.22 if strong else 0.08), ec=color, lw=width)
-    )
-    axes.plot([x, x + rim * np.cos(heading)], [y, y + rim * np.sin(heading)], color=color, lw=width)
-
-
 def direction(axes: Axes, way: NDArray[np.float64], color: Any, times: int = 4) -> None:
     """Put arrow heads on a way, (n, 2), evenly along its length."""
     moved = np.hypot(*np.diff(way, axis=0).T)
@@ -167,18 +156,31 @@ def number(axes: Axes, x: float, y: float, text: str, color: Any = GOAL) -> None
     )  # fmt: skip
 
 
-def grouped(places: Iterable[Sequence[float]], distance: float) -> list[tuple[float, float, str]]:
-    """Return places, x and y, with their numbers from 1 on; the nearer ones share one."""
-    found: list[tuple[float, float, str]] = []
+def grouped(
+    places: Iterable[Sequence[float]], distance: float, first: int = 0
+) -> list[tuple[float, float, str]]:
+    """Return places, x and y, with their numbers from 1 on; the nearer ones share one.
+
+    Of more than `MOST_TOGETHER` at one place the first and the last two are told; those before
+    ``first``, counted from 0, are left out.
+    """
+    found: list[tuple[float, float, list[int]]] = []
     for i, (x, y) in enumerate(places):
-        near = next(
-            (k for k, at in enumerate(found) if np.hypot(at[0] - x, at[1] - y) < distance), None
-        )
+        if i < first:
+            continue
+        near = next((at for at in found if np.hypot(at[0] - x, at[1] - y) < distance), None)
         if near is None:
-            found.append((x, y, f'{i + 1}'))
+            found.append((x, y, [i + 1]))
         else:
-            found[near] = (*found[near][:2], f'{found[near][2]}\u2009·\u2009{i + 1}')
-    return found
+            near[2].append(i + 1)
+    return [(x, y, _together(numbers)) for x, y, numbers in found]
+
+
+def _together(numbers: list[int]) -> str:
+    words = [f'{number}' for number in numbers]
+    if len(words) > MOST_TOGETHER:
+        words = [words[0], '…', *words[-2:]]
+    return '\u2009·\u2009'.join(words)
 
 
 def name_near(  # noqa: PLR0913, PLR0917 - a word on a map
@@ -206,7 +208,9 @@ def name_near(  # noqa: PLR0913, PLR0917 - a word on a map
         ha='center', zorder=7, gid=NAME,
         bbox={'facecolor': paper(), 'edgecolor': 'none', 'alpha': 0.7, 'pad': 0.6},
     )  # fmt: skip
-    ROOMS[text] = [(*around[i].tolist(), _side(float(ways[i, 0]))) for i in order]
+    places = np.concatenate([around[order], around[order] + 0.8 * distance * ways[order]])
+    sides = [_side(float(ways[i, 0])) for i in order]
+    ROOMS[text] = [(*at.tolist(), side) for at, side in zip(places, sides * 2, strict=True)]
     taken.append(np.array(first))
 
 
@@ -240,6 +244,31 @@ def frame(axes: Axes, places: ArrayLike, room: float) -> None:
     axes.set(aspect='equal', xlabel='x [m]', ylabel='y [m]')
 
 
+def broken(time: ArrayLike, values: ArrayLike, least: float = 0.0) -> tuple[Any, Any]:
+    """Return a line that is not joined over silences: NaN in each.
+
+    Args:
+        time: (n,) [s].
+        values: (n,) or (n, m), over time.
+        least: [s] A silence is longer than that, and than ten times the usual step.
+
+    """
+    x, y = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    steps = np.diff(x)
+    longest = max(least, 10.0 * float(np.median(steps))) if len(steps) else least
+    gaps = np.flatnonzero(steps > longest) + 1
+    return np.insert(x, gaps, np.nan), np.insert(y, gaps, np.nan, axis=0)
+
+
+def time_unit(seconds: float) -> tuple[float, str]:
+    """Return the unit [s] in which a length of time is told on an axis, and the words there."""
+    if seconds <= 600.0:
+        return 1.0, 'time [s]'
+    if seconds <= 3.0 * 3600.0:
+        return 60.0, 'time [min]'
+    return (3600.0, 'time [h]') if seconds <= 3.0 * 86400.0 else (86400.0, 'time [days]')
+
+
 def time_axis(axes: Axes, seconds: float, days: float = 0.0) -> Callable[[ArrayLike], Any]:
     """Write the time on an axis in the unit that fits, and return how to turn seconds into it.
 
@@ -249,15 +278,8 @@ def time_axis(axes: Axes, seconds: float, days: float = 0.0) -> Callable[[ArrayL
         days: How many days of a recording were played meanwhile; 0: none.
 
     """
-    if days:
-        unit, name = seconds / days, 'day of the recording'
-    elif seconds <= 600.0:
-        unit, name = 1.0, 'time [s]'
-    elif seconds <= 3.0 * 3600.0:
-        unit, name = 60.0, 'time [min]'
-    else:
-        unit, name = 3600.0, 'time [h]'
-    axes.set(xlabel=name, xlim=(0.0, max(seconds, 1e-3) / unit))
+    unit, name = (seconds / days, 'day of the recording') if days else time_unit(seconds)
+    axes.set(xlabel=name, xlim=(0.0, (seconds or 1.0) / unit))
     return lambda values: np.asarray(values, dtype=float) / unit
 
 

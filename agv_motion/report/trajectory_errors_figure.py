@@ -80,6 +80,10 @@ def _draw_map(axes: Any, judged: Sequence[tuple[str, TrajectoryComparison]]) -> 
         place = one.driven.position[:, :2]
         axes.plot(*place.T, color=colour, lw=1.2, label=name)
         everywhere.append(place)
+    first = judged[0][1].reference.position[:, :2]
+    style.direction(axes, first, style.ink(), 5)
     together = np.concatenate(everywhere)
-    style.frame(axes, together, 0.05 * float(np.ptp(together, axis=0).max()) + 0.1)
-    axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.16), ncols=2)
+    extent = float(np.ptp(together, axis=0).max())
+    style.frame(axes, together, 0.08 * extent + 0.1)
+    style.name_near(axes, first[0], 0.04 * extent, 'start', style.ink(), list(together[::20]))
+    axes.figure.legend(loc='outside lower left', ncols=2)

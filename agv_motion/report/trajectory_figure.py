@@ -6,13 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.report import style
+from agv_motion.report import robot_drawing, style
 from agv_motion.report.figure import figure
+from agv_motion.report.recorded_footprint import moments
 from agv_motion.trajectory.feasibility import examine
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from agv_motion.model.footprint import Footprint
     from agv_motion.trajectory.ghost_parameters import GhostParameters
     from agv_motion.trajectory.trajectory import Trajectory
 
@@ -20,9 +22,6 @@ SAMPLES = 1000
 
 NEAR = 0.02
 """[m] So far around a place where it is slow the way is marked, to be seen."""
-
-RIM = 0.04
-"""of the extent of the map: so large the robot is drawn; a plan does not tell its true size."""
 
 COLOURS = {
     'lateral acceleration': style.GOAL,
@@ -32,8 +31,16 @@ COLOURS = {
 }
 
 
-def draw(trajectory: Trajectory, limits: GhostParameters, path: Path) -> None:
+def draw(
+    trajectory: Trajectory, limits: GhostParameters, path: Path, shape: Footprint | None = None
+) -> None:
     """Draw ``trajectory`` of a robot with ``limits`` into a picture.
+
+    Args:
+        trajectory: What is planned.
+        limits: Of the robot.
+        path: Of the picture.
+        shape: What the robot covers of the floor; None: not known.
 
     Raises:
         ConfigurationError: matplotlib is not installed, or does not know the kind of picture.
@@ -55,7 +62,7 @@ def draw(trajectory: Trajectory, limits: GhostParameters, path: Path) -> None:
         held = {slow.reason: np.zeros(SAMPLES, dtype=bool) for slow in examine(trajectory).slow}
         for slow in examine(trajectory).slow:
             held[slow.reason] |= (driven >= slow.start - NEAR) & (driven <= slow.end + NEAR)
-        _draw_map(axes['map'], poses, held)
+        _draw_map(axes['map'], poses, held, shape)
         _draw_speeds(axes['speed'], time, speeds, limits, held)
         axes['turn'].plot(time, speeds[:, 1], color=style.ink(), lw=1.2)
         axes['turn'].set(ylabel='[rad/s]', title='Turn rate, to the left positive')
@@ -66,7 +73,7 @@ def draw(trajectory: Trajectory, limits: GhostParameters, path: Path) -> None:
         axes['speed'].tick_params(labelbottom=False)
 
 
-def _draw_map(axes: Any, poses: Any, held: dict[str, Any]) -> None:
+def _draw_map(axes: Any, poses: Any, held: dict[str, Any], shape: Footprint | None) -> None:
     """Draw the way with its direction, where which limit slows it, and the robot at both ends."""
     axes.plot(*poses[:, :2].T, color=style.PATH, lw=2)
     style.direction(axes, poses[:, :2], style.PATH, 5)
@@ -74,13 +81,14 @@ def _draw_map(axes: Any, poses: Any, held: dict[str, Any]) -> None:
         way = np.where(here[:, None], poses[:, :2], np.nan)
         axes.plot(*way.T, lw=6, alpha=0.5, color=COLOURS[reason], label=f'slowed by {reason}')
     extent = float(np.ptp(poses[:, :2], axis=0).max()) + 0.1
-    style.frame(axes, poses[:, :2], 0.14 * extent)
-    taken = list(poses[::20, :2])
-    for row, name in ((0, 'start'), (-1, 'end')):
-        style.robot(axes, poses[row], RIM * extent, strong=True)
-        style.name_near(axes, poses[row, :2], 1.7 * RIM * extent, name, style.ROBOT, taken)
+    rows = moments(len(poses))
+    shapes = robot_drawing.visible([shape] * len(rows) if shape else None, extent)
+    style.frame(axes, poses[:, :2], robot_drawing.room(shapes, extent))
+    robot_drawing.draw_way(axes, poses[rows], shapes)
+    robot_drawing.name_ends(axes, poses[[0, -1], :2], shapes, extent, list(poses[::20, :2]))
+    axes.set_title(robot_drawing.caption(shapes), fontsize=style.SMALL, fontweight='normal')
     if held:
-        axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.14), ncols=2)
+        axes.figure.legend(loc='outside lower left', ncols=2)
 
 
 def _draw_speeds(

@@ -9,12 +9,14 @@ from rich.table import Table
 
 from agv_motion.bag.message_objects import decoded
 from agv_motion.kinematics.platform import PLATFORM_RADIUS
+from agv_motion.report.recorded_footprint import moments, read_footprints
 from agv_motion.ros.messages import pose_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
+    from agv_motion.model.footprint import Footprint
     from agv_motion.motion.navigation.zone import Zone
 
 
@@ -60,6 +62,8 @@ class WalkRun(NamedTuple):
     """sap flow remembered at the end, 0 to 100; None without a memory"""
     visited: Remembered | None
     """time since the last visit"""
+    footprints: list[Footprint] | None = None
+    """of the tree at the `moments` of its path; None where the bag does not tell its size"""
 
     def distance(self) -> float:
         """Return the length of the way [m]."""
@@ -100,9 +104,11 @@ def read_walk(bag: BagReader, wheel_radius: float) -> WalkRun:
         np.array(rows[name] or np.empty((0, width)), dtype=float) for name, width in READ.items()
     )
     path, flow, speeds, residual, goals = columns
+    stamps = (path[moments(len(path)), 0] + bag.start * 1e-9).tolist()
     return WalkRun(
         path, flow, speeds, residual, goals, _reasons(goals, states),
         maps.get('memory/sap_flow'), maps.get('memory/last_visit'),
+        read_footprints(bag, '/ground_truth', stamps),
     )  # fmt: skip
 
 

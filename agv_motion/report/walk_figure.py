@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from agv_motion.kinematics.platform import PLATFORM_RADIUS
-from agv_motion.report import style, wording
+from agv_motion.model.footprint import disc
+from agv_motion.report import robot_drawing, style, wording
 from agv_motion.report.figure import figure
+from agv_motion.report.recorded_footprint import moments
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,11 +18,17 @@ if TYPE_CHECKING:
     from agv_motion.motion.navigation.zone import Zone
     from agv_motion.report.walk import WalkRun
 
-PLATFORMS = 5
-"""Times at which the platform is drawn: start, three between, end."""
-
 GOALS_LISTED = 12
 """Goals that the figure has room for, the latest."""
+
+LONGEST_REASON = 32
+"""Characters of a reason that the figure has room for"""
+
+ROOM = 0.4
+"""of the time: a shorter one beside a bar has no room for a reason."""
+
+STILL = 0.05
+"""[m] A tree that went no further has stood."""
 
 FELT = 0.01
 """[-] By so much the sap flow must have changed to be called sun or shade."""
@@ -72,10 +80,12 @@ def finding(run: WalkRun, zone: Zone, rim: float, days: float = 0.0) -> str:
     """Return what the walk was, in one line, from its numbers."""
     if not len(run.path):
         return 'Nothing was recorded of the walk'
+    still = run.distance() < STILL
+    walked = 'stands' if still else f'{wording.in_words(run.distance())} metres'
     said = [
-        f'{wording.in_words(run.distance())} metres in {wording.span_in_words(run.path[-1, 0])}'
+        f'{walked} {"for" if still else "in"} {wording.span_in_words(run.path[-1, 0])}'
         + (f' that played {wording.in_words(days)} days' if days else ''),
-        *([] if days else towards(run)),
+        *([] if days or still else towards(run)),
     ]
     near = run.nearest_edge(zone, rim)
     inside = f'never nearer than {near:.1f} m to the edge'
@@ -114,9 +124,9 @@ def _draw_map(axes: Any, run: WalkRun, zone: Zone, rim: float) -> None:
         place = run.path[:, 1:3]
         axes.plot(*place.T, color=style.PATH, lw=1.6)
         style.direction(axes, place, style.PATH)
-        for row in np.linspace(0, len(run.path) - 1, PLATFORMS).astype(int):
-            ends = row in {0, len(run.path) - 1}
-            style.robot(axes, run.path[row, 1:], rim, strong=ends)
+        rows = moments(len(run.path))
+        shapes = run.footprints or [disc(rim)] * len(rows)
+        robot_drawing.draw_way(axes, run.path[rows, 1:], shapes)
         _name_ends(axes, run, rim)
     for x, y, names in style.grouped(run.goals[:, 1:], DISC):
         style.number(axes, x, y, names)
@@ -146,10 +156,12 @@ def _draw_memory(axes: Any, run: WalkRun) -> None:
 
 def _name_ends(axes: Any, run: WalkRun, rim: float) -> None:
     """Name start and end beside their platforms, where most room is."""
-    rows = np.linspace(0, len(run.path) - 1, 10 * PLATFORMS).astype(int)
+    rows = np.linspace(0, len(run.path) - 1, 50).astype(int)
     taken = [*run.path[rows, 1:3], *run.goals[:, 1:3]]
-    for row, name in ((0, 'start'), (-1, 'end')):
-        style.name_near(axes, run.path[row, 1:3], 1.2 * rim, name, style.ROBOT, taken)
+    ends = run.path[[0, -1], 1:3]
+    together = np.hypot(*(ends[1] - ends[0])) < robot_drawing.OVERLAP * rim
+    for row, name in ((-1, 'start and end'),) if together else ((0, 'start'), (-1, 'end')):
+        style.name_near(axes, ends[row], 1.2 * rim, name, style.ROBOT, taken)
 
 
 DISC = 0.9
@@ -165,23 +177,31 @@ def _draw_goals(axes: Any, run: WalkRun, days: float) -> None:
     ends = [*(goal[0] for goal, _ in rows[1:]), seconds][: len(rows)]
     for row, ((goal, reason), end) in enumerate(zip(rows, ends, strict=True)):
         begin = float(scaled(goal[0]))
-        late = end > 0.55 * seconds
         axes.barh(row, scaled(end) - begin, left=begin, height=0.3, color=style.PATH)
         style.number(axes, begin, row, f'{first + row + 1}')
+        before, after = goal[0] / seconds, 1.0 - end / seconds
+        late = before > after
+        if max(before, after) > ROOM:  # beside the bar, where most room is
+            place, aside = (begin if late else scaled(end), row), (-10 if late else 6, 0)
+        else:
+            late, place, aside = False, (begin, row), (10, 8)
         axes.annotate(
-            _short(reason), (begin if late else scaled(end), row),
-            xytext=(-10 if late else 6, 0), textcoords='offset points', va='center',
+            _short(reason), place, xytext=aside, textcoords='offset points', va='center',
             ha='right' if late else 'left', fontsize=style.SMALL,
-        )  # fmt: skip
-    axes.set(title='Goals and their reasons', yticks=[], xlabel='',
-             ylim=(max(len(rows), 4) - 0.4, -0.6))  # fmt: skip
+        ).set_in_layout(False)  # fmt: skip
+    told = 'Goals and their reasons' if rows else 'No goal was set'
+    if first:
+        told = f'The last {len(rows)} of {len(run.goals)} goals'
+    axes.set(title=told, yticks=[], xlabel='',
+             ylim=(max(len(rows), 8) - 0.4, -0.6))  # fmt: skip
     axes.spines['left'].set_visible(False)
     axes.tick_params(labelbottom=False)
 
 
 def _short(reason: str) -> str:
     """Return a reason without its place, which the map shows, nor when it was felt."""
-    return reason.partition(' at (')[0].partition(': (')[0].replace('remembered ', '')
+    words = reason.partition(' at (')[0].partition(': (')[0].replace('remembered ', '')
+    return wording.clipped(words, LONGEST_REASON)
 
 
 def _draw_flow(axes: Any, run: WalkRun, days: float) -> None:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.bag.reader import BagReader
+    from agv_motion.model.footprint import Footprint
     from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 
     Array = NDArray[np.float64]
@@ -37,6 +38,10 @@ class RecordedWalk(NamedTuple):
     """time, x and y [m] of each"""
     doings: list[tuple[float, str]]
     """from when on the tree did what, of `DOINGS`"""
+    heading: Array
+    """(n,) true [rad]"""
+    footprints: list[Footprint] | None = None
+    """of the tree at the start and at the end; None: only its rim is known"""
 
     def distance(self) -> float:
         """Return the length of the way [m]."""
@@ -80,7 +85,12 @@ def read_walks(bag: BagReader, names: Sequence[str]) -> list[RecordedWalk]:
             doings[name].append((time, doing_of(content.data)))
     return [
         RecordedWalk(
-            name, truth.stamp - bag.start * 1e-9, truth.pose[:2], goals[name], doings[name]
+            name,
+            truth.stamp - bag.start * 1e-9,
+            truth.pose[:2],
+            goals[name],
+            doings[name],
+            truth.pose[2],
         )
         for name, truth in zip(names, truths, strict=True)
     ]

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from agv_motion.report import style, wording
+from agv_motion.model.footprint import disc
+from agv_motion.report import robot_drawing, style, wording
 from agv_motion.report.figure import figure
 from agv_motion.report.walks import DOINGS, RecordedWalk, gaps
 
@@ -25,6 +26,12 @@ SHADES = {
 }  # fmt: skip
 """Colours of all `DOINGS`."""
 
+MOST_GAPS = 6
+"""Lines of gaps that are named; of more the least of all is drawn over them."""
+
+MOST_GOALS = 30
+"""Goals of all trees on the map; of more the latest of each."""
+
 MARGIN = 0.9
 """[m] Nearer than that to each other, goals share a disc on the map."""
 
@@ -33,15 +40,18 @@ def finding(walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> str:
     """Return what the walks were, in one line, from their numbers."""
     walked = sum(walk.distance() for walk in walks)
     seconds = max(float(walk.time[-1]) for walk in walks)
+    trees = 'tree walks' if len(walks) == 1 else 'trees walk'
     said = (
-        f'{wording.in_words(len(walks))} trees walk {wording.in_words(walked)} metres in '
+        f'{wording.in_words(len(walks))} {trees} {wording.in_words(walked)} metres in '
         f'{wording.span_in_words(seconds)}'
     )
     _, between = gaps(walks, traffic.body)
     near = min((float(gap.min()) for gap in between.values() if len(gap)), default=np.inf)
-    return wording.sentence(
-        said if np.isinf(near) else f'{said}, never nearer than {near:.1f} m to each other'
-    )
+    if np.isinf(near):
+        return wording.sentence(said)
+    if near < 0.0:
+        return wording.sentence(f'{said}, two of them {-near:.1f} m into each other at worst')
+    return wording.sentence(f'{said}, never nearer than {near:.1f} m to each other')
 
 
 def draw(
@@ -56,8 +66,10 @@ def draw(
 
     """
     mosaic: list[Any] = [['map', 'gaps'], ['map', 'doings']]
+    size = style.WIDTH, 4.9 + 0.3 * max(len(walks) - 4, 0)
+    heights = [1.0, max(1.0, 0.25 * len(walks))]
     with figure(
-        path, mosaic, theme=theme, figsize=(style.WIDTH, 4.9), width_ratios=[1.35, 1]
+        path, mosaic, theme=theme, figsize=size, width_ratios=[1.35, 1], height_ratios=heights
     ) as axes:
         style.title(axes['map'], finding(walks, traffic))
         _draw_map(axes['map'], walks, zone, traffic.body)
@@ -80,19 +92,14 @@ def _draw_map(axes: Any, walks: Sequence[RecordedWalk], zone: Zone, body: float)
         axes.plot(*walk.path, lw=1.5, color=colour_of(i))
         style.direction(axes, way, colour_of(i), 3)
         for row, name in ((0, 'start'), (-1, walk.name)):
-            style.robot(axes, _looking(way, row), body, colour_of(i), strong=row < 0)
-            style.name_near(axes, way[row], 1.2 * body, name, colour_of(i), taken)
-        for x, y, names in style.grouped([goal[1:] for goal in walk.goals], MARGIN):
+            pose, shape = [*way[row], walk.heading[row]], (walk.footprints or [disc(body)])[row]
+            robot_drawing.draw_robot(axes, pose, shape, colour_of(i), strong=row < 0)
+            said = wording.clipped(name, 18)
+            style.name_near(axes, way[row], 1.2 * body, said, colour_of(i), taken)
+        latest = max(MOST_GOALS // len(walks), 1)
+        first = max(len(walk.goals) - latest, 0)
+        for x, y, names in style.grouped([goal[1:] for goal in walk.goals], MARGIN, first):
             style.number(axes, x, y, names, colour_of(i))
-
-
-def _looking(way: Any, row: int) -> list[float]:
-    """Return the place at the start (0) or the end (-1) of a way and where it led just there."""
-    moved = np.flatnonzero(np.hypot(*(way - way[row]).T) > 0.05)
-    if not len(moved):
-        return [*way[row], 0.0]
-    there = way[moved[0]] - way[0] if row == 0 else way[-1] - way[moved[-1]]
-    return [*way[row], float(np.arctan2(there[1], there[0]))]
 
 
 def _draw_gaps(axes: Any, walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> None:
@@ -100,14 +107,23 @@ def _draw_gaps(axes: Any, walks: Sequence[RecordedWalk], traffic: TrafficParamet
     times, between = gaps(walks, traffic.body)
     scaled = style.time_axis(axes, float(max(w.time[-1] for w in walks)))
     colours = {walk.name: colour_of(i) for i, walk in enumerate(walks)}
+    many = len(between) > MOST_GAPS
     for pair, gap in between.items():
         one, _, other = pair.partition(' and ')
-        axes.plot(scaled(times), gap, color=colours[one], lw=1.6)
-        axes.plot(scaled(times), gap, color=colours[other], lw=1.6, ls=(0, (4, 4)))
-        if len(gap):
-            style.line_label(axes, float(gap[-1]), f'{one}, {other}', style.ink())
-    top = max((float(gap.max()) for gap in between.values() if len(gap)), default=1.0)
-    axes.set(ylim=(0.0, 1.08 * top), xlabel='', ylabel='rim to rim [m]', title='Gaps')
+        axes.plot(scaled(times), gap, color=colours[one], lw=0.5 if many else 1.6)
+        if len(gap) and not many:
+            axes.plot(scaled(times), gap, color=colours[other], lw=1.6, ls=(0, (4, 4)))
+            names = f'{wording.clipped(one, 12)}, {wording.clipped(other, 12)}'
+            style.line_label(axes, float(gap[-1]), names, style.ink())
+    if many:
+        nearest = np.min([*between.values()], axis=0)
+        axes.plot(scaled(times), nearest, color=style.ink(), lw=1.8)
+        style.line_label(axes, float(nearest[-1]), 'nearest two', style.ink())
+    known = [gap for gap in between.values() if len(gap)]
+    top = max((float(gap.max()) for gap in known), default=1.0)
+    bottom = min((float(gap.min()) for gap in known), default=0.0)
+    axes.set(ylim=(1.08 * min(bottom, 0.0), 1.08 * top), xlabel='', ylabel='rim to rim [m]',
+             title='Gaps' if known else 'Gaps: one tree alone')  # fmt: skip
     style.limit(axes, traffic.margin, f'least {traffic.margin:g} m')
     axes.tick_params(labelbottom=False)
 
@@ -122,11 +138,11 @@ def _draw_doings(axes: Any, walks: Sequence[RecordedWalk]) -> None:
             axes.barh(i, scaled(length), left=scaled(begin), color=SHADES[what], height=0.4)
         for k, goal in enumerate(walk.goals):
             style.number(axes, scaled(goal[0]), i - 0.36, f'{k + 1}', colour_of(i))
-    axes.set_yticks(range(len(walks)), [walk.name for walk in walks])
+    axes.set_yticks(range(len(walks)), [wording.clipped(walk.name, 18) for walk in walks])
     axes.set(ylim=(len(walks) - 0.6, -0.7), title='What each does; the numbers are its goals')
     axes.tick_params(axis='y', length=0)
     axes.spines['left'].set_visible(False)
-    axes.legend(
+    axes.figure.legend(
         handles=[Patch(color=SHADES[what], label=what) for what in DOINGS], ncols=len(DOINGS),
-        loc='upper center', bbox_to_anchor=(0.5, -0.3), handlelength=1.0,
+        loc='outside lower right', handlelength=1.0,
     )  # fmt: skip

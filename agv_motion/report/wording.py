@@ -23,7 +23,26 @@ def span_in_words(seconds: float) -> str:
         return 'an hour'
     if seconds < 2.0 * 3600.0:
         return f'{in_words(seconds / 60.0)} minutes'
-    return f'{in_words(seconds / 3600.0)} hours'
+    if seconds < 2.0 * 86400.0:
+        return f'{in_words(seconds / 3600.0)} hours'
+    return f'{in_words(seconds / 86400.0)} days'
+
+
+def counted(number: float, name: str) -> str:
+    """Return a number of things, "one action", "seven actions"."""
+    return f'{in_words(number)} {name}{"" if round(number) == 1 else "s"}'
+
+
+def length(metres: float) -> str:
+    """Return a length in the unit that fits: "3 mm", "40 cm", "15.0 m"."""
+    if metres < 0.01:
+        return f'{1e3 * metres:.0f} mm'
+    return f'{100.0 * metres:.0f} cm' if metres < 1.0 else f'{metres:.1f} m'
+
+
+def clipped(text: str, most: int) -> str:
+    """Return a text of at most so many characters; one that is longer ends with an ellipsis."""
+    return text if len(text) <= most else f'{text[: most - 1].rstrip()}…'
 
 
 def sentence(text: str) -> str:

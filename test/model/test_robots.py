@@ -73,7 +73,7 @@ def test_an_independent_library_has_each_link_at_the_same_place(model):
 def test_what_is_written_is_read_back_to_the_last_bit(model):
     again = read_urdf(write_urdf(model))
     assert again.joints == model.joints
-    assert [link.name for link in again.links] == [link.name for link in model.links]
+    assert again.links == model.links
     assert again.root == model.root
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, nan, pi
+from math import atan, cos, hypot, inf, nan, pi, sin, tan
 
 import pytest
-from hypothesis import given
+import shapely
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from agv_motion.kinematics.platform import PlatformParameters
+from agv_motion.model.footprint import corners_above
+from agv_motion.model.robots import tree_model
 from agv_motion.model.scene_shapes import (
     FAR,
     SceneShape,
@@ -15,6 +19,7 @@ from agv_motion.model.scene_shapes import (
     on_floor,
     outline,
     rotation_centre,
+    shadow,
     sun_arrow,
     uncertainty,
     way,
@@ -92,6 +97,46 @@ def test_the_sun_shines_from_where_it_stands_and_not_at_night():
     assert arrow.points[0] == pytest.approx((10.0 + 3 / 2**0.5, 5.0, 3.0 + 3 / 2**0.5))
     assert words.text == 'in the sun'
     assert [s.kind for s in sun_arrow(HERE, -0.1, 0.0, 'dark', BLACK)] == [ShapeKind.TEXT]
+
+
+POLE = [(0.1, 0.0, 0.0), (-0.1, 0.0, 0.0), (0.0, 0.2, 0.0), (0.0, 0.0, 4.0)]
+
+
+def filled(shapes):
+    """Return the triangles of a shape."""
+    (shape,) = shapes
+    assert shape.kind is ShapeKind.TRIANGLES
+    assert shape.is_drawable
+    corners = [point[:2] for point in shape.points]
+    return [shapely.Polygon(corners[i : i + 3]) for i in range(0, len(corners), 3)]
+
+
+def test_a_shadow_lies_away_from_the_sun_by_hand():
+    """A pole of 4 m and a sun in the east, 45 degrees high: the shadow ends 4 m west of it."""
+    found = shapely.union_all(filled(shadow(HERE, POLE, pi / 4, 0.0, BLACK)))
+    assert found.bounds == pytest.approx((6.0, 4.9, 10.0, 5.1))  # it looks north
+    low = shapely.union_all(filled(shadow(HERE, POLE, atan(0.5), pi / 2, BLACK)))
+    assert low.bounds[1] == pytest.approx(5.0 - 8.0)
+
+
+@settings(max_examples=30)
+@given(st.floats(0.06, 1.5), st.floats(-pi, pi))
+def test_the_shadow_of_a_tree_reaches_to_that_of_its_top_and_is_filled_once(height, azimuth):
+    corners = corners_above(tree_model(PlatformParameters(), 'base_link'))[::7]
+    parts = filled(shadow(HERE, corners, height, azimuth, BLACK))
+    whole = shapely.union_all(parts)
+    assert all(part.exterior.is_ccw for part in parts)
+    assert whole.area == pytest.approx(sum(part.area for part in parts))
+    top = max(z for _, _, z in corners)
+    tip = HERE.x - top / tan(height) * cos(azimuth), HERE.y - top / tan(height) * sin(azimuth)
+    assert whole.distance(shapely.Point(tip)) <= 0.12  # the trunk is 0.12 m thick
+
+
+@pytest.mark.parametrize('elevation', [-0.5, 0.0, 0.05])
+def test_a_low_sun_and_nothing_cast_no_shadow(elevation):
+    assert shadow(HERE, POLE, elevation, 0.0, BLACK) == []
+    assert shadow(HERE, [], 1.0, 0.0, BLACK) == []
+    assert shadow(HERE, [(0.0, 0.0, 1.0)], 1.0, 0.0, BLACK) == []
 
 
 @pytest.mark.parametrize('bad', [nan, inf, -inf])

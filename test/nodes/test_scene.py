@@ -140,6 +140,15 @@ def test_each_part_can_be_left_out_and_goes_at_once(name):
     assert namespaces(one) == ALL
 
 
+def test_only_who_stands_in_the_sun_casts_a_shadow():
+    one = robot()
+    speak(one)
+    one.feed('sunlight', Illuminance(illuminance=5_000.0))
+    one.wait(0.3)
+    assert namespaces(one) == ALL - {'shadow'}
+    assert 'in the shade, 5000 lx' in {marker.text for marker in one.shown().values()}
+
+
 def test_what_has_fallen_silent_is_deleted_and_comes_back():
     one = robot(stale_after=1.0)
     speak(one)

@@ -14,15 +14,21 @@ import pytest
 
 pytest.importorskip('matplotlib')
 
+from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
+from agv_motion.model.footprint import footprint
+from agv_motion.model.robots import differential_model
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.planar import Pose
-from agv_motion.report import errors_between, label_layout, style
+from agv_motion.report import errors_between, label_layout, robot_drawing, style
+from agv_motion.report.fields_figure import FieldLine
+from agv_motion.report.fields_figure import draw as draw_fields
 from agv_motion.report.figure import figure
 from agv_motion.report.localization import LocalizationRun
 from agv_motion.report.localization_figure import carried
 from agv_motion.report.localization_figure import draw as draw_localization
 from agv_motion.report.localization_figure import finding as localization_finding
+from agv_motion.report.recorded_footprint import moments
 from agv_motion.report.route_figure import draw as draw_route
 from agv_motion.report.run import Poses, RunBag
 from agv_motion.report.run_figure import draw as draw_run
@@ -51,6 +57,7 @@ from agv_motion.trajectory.ghost import Ghost
 from agv_motion.trajectory.ghost_parameters import GhostParameters
 
 RECORDED = Path(__file__).parent / 'recorded'
+DRIVE = footprint(differential_model(DifferentialBaseParameters(), 'base_link'), {})
 SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
 
 
@@ -163,6 +170,7 @@ def recorded_walks():
                         held[f'{name}_begins'], held[f'{name}_doings'], strict=True
                     )
                 ],
+                np.zeros(len(held[f'{name}_time'])),
             )
             for name in held['names']
         ]  # fmt: skip
@@ -274,6 +282,122 @@ def test_trajectories_beside_their_reference(sketched, tmp_path):
     assert {best, 'reference', 'run1 /pose', 'run2 /pose', 'Error of rotation [°]'} <= set(texts)
 
 
+@pytest.mark.parametrize(
+    ('points', 'time'),
+    [
+        ([[0.0, 0.0, 0.0]] * 50, np.linspace(0.0, 10.0, 50)),  # it stands
+        ([[1.0, 2.0, 0.5]], np.zeros(1)),  # one pose
+        ([[0.01 * i, np.nan if i == 7 else 0.0, 0.0] for i in range(50)], np.linspace(0, 10, 50)),
+        ([[0.1 * i, 0.0, 0.0] for i in range(50)], np.r_[0:25, 200:225].astype(float)),
+        ([[20.0 * i, 5.0 * i, 0.0] for i in range(50)], np.linspace(0.0, 18000.0, 50)),
+    ],
+    ids=['stands', 'one', 'nan', 'silence', 'far'],
+)
+def test_runs_of_any_kind_are_drawn(sketched, tmp_path, points, time):
+    driven = Poses('/pose', 'map', time, np.array(points))
+    shapes = [DRIVE] * len(moments(len(time)))
+    draw_run(RunBag(None, driven, {}, footprints=shapes), None, tmp_path / 'run.png')
+    check(sketched)
+    (drawn, texts), speed = sketched[-1], None
+    speed = next(axes for axes in drawn.axes if axes.get_title('left') == 'Speed')
+    if len(time) > 1:
+        assert np.isfinite(speed.lines[0].get_ydata()).any()
+    way = next(axes for axes in drawn.axes if axes is not speed).lines[0].get_xydata()
+    assert np.isnan(way).any() == (
+        len(time) > 1 and bool(np.isnan(points).any() or time[25] == 200)
+    )
+    assert ('start and end' in {text for text, _ in texts}) == (
+        np.hypot(*(driven.pose[-1] - driven.pose[0])[:2]) < 0.01
+    )
+
+
+def test_of_a_run_the_robot_is_drawn_to_scale_or_said_not_to_be(sketched, tmp_path):
+    run = straight_run()
+    for shapes, word, bodies in (
+        (None, 'arrow heads not to scale', 0),
+        ([DRIVE] * 5, 'robot to scale', 5),
+    ):
+        draw_run(run._replace(footprints=shapes), None, tmp_path / 'run.png')
+        drawn, texts = sketched[-1]
+        assert any(text.endswith(word) for text, _ in texts)
+        found = drawn.findobj(lambda artist: artist.get_gid() == robot_drawing.BODY)
+        assert len(found) == bodies
+    places = sorted(float(body.get_xy()[:, 0].mean()) for body in found)
+    assert np.array(places) == pytest.approx([0.0, 2.5, 5.0, 7.5, 10.0], abs=0.1)
+
+
+def test_many_trees_with_long_names(sketched, tmp_path):
+    """Ten gaps have no names: the least of all is drawn over them."""
+    time = np.linspace(0.0, 2400.0, 50)
+    trees = [
+        RecordedWalk(
+            f'a_tree_with_a_long_name_{i}', time, np.array([2.0 + time / 300, 1.5 * i + 0 * time]),
+            [(400.0 * k, 2.0 + 2 * k, 1.5 * i) for k in range(6)], [(0.0, 'walks')], 0.0 * time,
+        )
+        for i in range(5)
+    ]  # fmt: skip
+    draw_walks(trees, SQUARE, TrafficParameters(body=1.18, margin=0.2), tmp_path / 'trees.png')
+    drawn, texts = sketched[-1]
+    found = [text for text, _ in texts]
+    assert (
+        'Five trees walk 40 metres in 40 minutes, two of them 0.9 m into each other at worst'
+        in found
+    )
+    assert 'nearest two' in found
+    assert 'a_tree_with_a_lon…' in found
+    low, _ = next(axes for axes in drawn.axes if axes.get_title('left') == 'Gaps').get_ylim()
+    assert low < 1.5 - 2.36
+    for text, box in texts:
+        assert (box.x0, box.y0) >= (0.0, 0.0), text
+        assert box.x1 <= drawn.bbox.x1, text
+
+
+def test_long_reasons_of_many_goals_stay_beside_their_bars(sketched, tmp_path):
+    time = np.linspace(0.0, 3600.0, 400)
+    path = np.array([time, 3.0 + time / 300.0, 4.0 + 0.0 * time, 0.0 * time]).T
+    goals = np.array([[90.0 * i, 3.0 + 0.3 * i, 4.0] for i in range(40)])
+    reasons = ['asked for by somebody with a reason of many words that goes on'] * 40
+    flow = np.array([time, *np.full((3, 400), 0.5)]).T
+    run = WalkRun(path, flow, *np.zeros((2, 1, 2)), goals, reasons, None, None)
+    draw_walk(run, SQUARE, WalkLimits(1 / 30), tmp_path / 'walk.png')
+    drawn, texts = sketched[-1]
+    words = [(text, box) for text, box in texts if text.startswith('asked for')]
+    assert len(words) == 12
+    assert 'The last 12 of 40 goals' in {text for text, _ in texts}
+    edge = next(axes for axes in drawn.axes if axes.get_ylabel() == 'y [m]').bbox.x1
+    for text, box in words:
+        assert len(text) <= 32
+        assert edge < box.x0 < box.x1 <= drawn.bbox.x1
+
+
+def test_a_walk_that_is_none_is_told(sketched, tmp_path):
+    path = np.array([[t, 10.0, 7.0, 0.1 * t] for t in range(0, 3601, 60)], dtype=float)
+    run = WalkRun(
+        path, *np.zeros((1, 1, 4)), *np.zeros((2, 1, 2)), np.empty((0, 3)), [], None, None
+    )
+    draw_walk(run, SQUARE, WalkLimits(1 / 30), tmp_path / 'walk.png', theme='dark')
+    check(sketched)
+    texts = {text for text, _ in sketched[-1][1]}
+    told = 'Stands for an hour, never nearer than 5.8 m to the edge'
+    assert {told, 'start and end', 'No goal was set'} <= texts
+
+
+def test_fields_of_a_bag_with_notes(sketched, tmp_path):
+    time = np.linspace(0.0, 100.0, 50)
+    many = [FieldLine(f'/turrets/state position[{i}]', time, time + i) for i in range(12)]
+    few = [FieldLine(f'/odom twist.linear.{axis}', time, time) for axis in 'xyz']
+    notes = [
+        (10.0, 'rain began'),
+        (10.5, 'somebody opened the gate and left it open'),
+        (99.9, 'end'),
+    ]
+    draw_fields([few, many], tmp_path / 'bag.png', notes)
+    check(sketched)
+    texts = {text for text, _ in sketched[-1][1]}
+    assert {'/odom', 'twist.linear.x', '/turrets/state', 'position[11]', 'rain began'} <= texts
+    assert 'somebody opened the gate and left it op…' in texts
+
+
 def test_a_sequence(sketched, tmp_path):
     found = load_sequence(find_config('sequence_example.yaml'))
     start = Pose(0.0, 0.0, 0.0)
@@ -312,6 +436,22 @@ def test_labels_and_events_that_would_overlap_are_moved_apart(sketched, tmp_path
             style.line_label(axes['a'], 0.5 + 0.001 * i, f'line {i}', 'k')
             style.event(axes['a'], 4.0 + 0.1 * i, f'event {i}')
     check(sketched)
+
+
+def test_many_numbers_at_one_place_are_told_in_short():
+    places = [(0.1 * i, 0.0) for i in range(8)] + [(5.0, 0.0)]
+    numbers = [name.replace('\u2009', '') for _, _, name in style.grouped(places, 0.9)]
+    assert numbers == ['1·…·7·8', '9']
+    assert [name for *_, name in style.grouped(places, 0.9, 8)] == ['9']
+
+
+def test_a_line_is_not_joined_over_a_silence():
+    time, values = style.broken([0.0, 1.0, 2.0, 30.0, 31.0], [1.0, 2.0, 3.0, 4.0, 5.0])
+    assert (
+        np.isnan(time).tolist() == np.isnan(values).tolist() == [False] * 3 + [True] + [False] * 2
+    )
+    assert len(style.broken([0.0, 20.0, 40.0], [1.0, 2.0, 3.0])[0]) == 3  # usual there
+    assert len(style.broken([0.0], [1.0])[0]) == 1
 
 
 def test_a_long_line_is_thinned_and_keeps_its_spikes():

@@ -30,9 +30,11 @@ def test_what_a_tree_does_is_told_by_its_state(state, doing):
 def test_gaps_and_shares_by_hand():
     """Two trees of 1 m on parallel ways, 5 m apart at first and 2.5 m after 10 s."""
     time = np.array([0.0, 10.0])
-    oak = RecordedWalk('oak', time, np.array([[0.0, 10.0], [0.0, 0.0]]), [], [(0.0, 'walks')])
+    oak = RecordedWalk('oak', time, np.array([[0.0, 10.0], [0.0, 0.0]]), [], [(0.0, 'walks')],
+                       np.zeros(2))  # fmt: skip
     doings = [(0.0, 'rests'), (2.5, 'walks'), (7.5, 'waits')]
-    ash = RecordedWalk('ash', time, np.array([[0.0, 10.0], [5.0, 2.5]]), [(1.0, 2.0, 3.0)], doings)
+    ash = RecordedWalk('ash', time, np.array([[0.0, 10.0], [5.0, 2.5]]), [(1.0, 2.0, 3.0)], doings,
+                       np.zeros(2))  # fmt: skip
     times, between = gaps([oak, ash], 1.0)
     assert times[:3] == pytest.approx([0.0, 0.5, 1.0])
     assert between['oak and ash'] == pytest.approx(5.0 - 0.25 * times - 2.0)

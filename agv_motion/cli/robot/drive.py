@@ -148,9 +148,10 @@ def _tell(goal: DriveGoal, start: str, config: str, plot: Path | None) -> None:
     end = trajectory.end
     typer.echo(f'ends at {end.x:.3f} m, {end.y:.3f} m, {degrees(end.theta):.1f} degrees')
     if plot is not None:
+        from agv_motion.cli.robot.robot_shape import shape_in
         from agv_motion.report.trajectory_figure import draw
 
-        draw(trajectory, given.follow.ghost, plot)
+        draw(trajectory, given.follow.ghost, plot, shape_in(find_config(config)))
         typer.echo(f'Figure: {plot}')
 
 

@@ -72,9 +72,10 @@ def route(
     for warning in filter(None, (follow.orbit(), _unfinished(found, run))):
         console.print(f'Warning: {warning}', style='yellow', highlight=False)
     if plot is not None:
+        from agv_motion.cli.robot.robot_shape import shape_in
         from agv_motion.report.route_figure import draw
 
-        draw(found, run, plot)
+        draw(found, run, plot, shape_in(find_config(config)))
         console.print(f'Figure: {plot}')
 
 

@@ -72,7 +72,7 @@ def sequence(
     if context.args:
         msg = f'unknown with --dry-run: {" ".join(context.args)}'
         raise typer.BadParameter(msg)
-    _predict(file, _parameters(config), start, plot)
+    _predict(file, config, start, plot)
 
 
 def _parameters(config: Path | None) -> SequenceParameters:
@@ -84,13 +84,13 @@ def _parameters(config: Path | None) -> SequenceParameters:
     )
 
 
-def _predict(file: str, given: SequenceParameters, start: str, plot: Path | None) -> None:
+def _predict(file: str, config: Path | None, start: str, plot: Path | None) -> None:
     from agv_motion.ros.config import find_config
     from agv_motion.sequence.prediction import predict
     from agv_motion.sequence.sequence_file import load_sequence
 
     found = load_sequence(find_config(file))
-    begin = parse_pose('--start', start)
+    begin, given = parse_pose('--start', start), _parameters(config)
     predicted = predict(found, begin, given.tracking.ghost, given.follow)
     console = terminal()
     console.print(_summary(predicted))
@@ -101,9 +101,10 @@ def _predict(file: str, given: SequenceParameters, start: str, plot: Path | None
         if each.warning:
             console.print(f'Warning: {each.warning}', style='yellow', highlight=False)
     if plot is not None:
+        from agv_motion.cli.robot.robot_shape import shape_in
         from agv_motion.report.sequence_figure import draw
 
-        draw(found.name, begin, predicted, plot)
+        draw(found.name, begin, predicted, plot, shape_in(config) if config else None)
         console.print(f'Figure: {plot}')
 
 
