@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from agv_motion.model.robot_model import RobotJoint, RobotModel
-    from agv_motion.model.shapes import Visual
+    from agv_motion.model.shapes import Color, Visual
     from agv_motion.model.transform import Quaternion, Vector
     from agv_motion.planar import Pose
 
@@ -96,16 +96,21 @@ def footprint(model: RobotModel, positions: Mapping[str, float]) -> Footprint | 
     return Footprint(_hull(body), tuple(turrets), tuple(wheels)) if body else None
 
 
-def corners_above(model: RobotModel) -> list[Vector]:
-    """Return corners of all that is fixed to the base, seen from there [m]: what casts a shadow."""
+def solids(model: RobotModel) -> Iterator[tuple[list[Vector], Color]]:
+    """Yield corners [m] and colour of each convex part that is fixed to the base, seen from it."""
     joints = {joint.child: joint for joint in model.joints}
-    found: list[Vector] = []
     for link in model.links:
         above = list(_above(link.name, joints))
         if all(joint.kind is JointKind.FIXED for joint in above):
             frame = _frame(above, {})
-            found += [corner for visual in link.visuals for corner in _corners(visual, frame)]
-    return found
+            for visual in link.visuals:
+                if corners := list(_corners(visual, frame)):
+                    yield corners, visual.color
+
+
+def corners_above(model: RobotModel) -> list[Vector]:
+    """Return corners of all that is fixed to the base, seen from there [m]: what casts a shadow."""
+    return [corner for corners, _ in solids(model) for corner in corners]
 
 
 def disc(radius: float) -> Footprint:

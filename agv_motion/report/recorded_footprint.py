@@ -46,8 +46,7 @@ def read_footprints(bag: BagReader, topic: str, stamps: Iterable[float]) -> list
         SourceError: The bag is damaged.
 
     """
-    spaces = _namespaces(topic)
-    model = next((m for space in spaces if (m := _model(bag, f'{space}/{DESCRIPTION}'))), None)
+    spaces, model = _namespaces(topic), read_model(bag, topic)
     if model is None:
         return None
     names = steering_joints(model)
@@ -64,6 +63,12 @@ def read_footprints(bag: BagReader, topic: str, stamps: Iterable[float]) -> list
             return None
         found.append(shape)
     return found
+
+
+def read_model(bag: BagReader, topic: str) -> RobotModel | None:
+    """Return the model of the robot that a topic is of; None where the bag has none."""
+    found = (_model(bag, f'{space}/{DESCRIPTION}') for space in _namespaces(topic))
+    return next((model for model in found if model is not None), None)
 
 
 def _namespaces(topic: str) -> list[str]:
