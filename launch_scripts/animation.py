@@ -22,12 +22,18 @@ from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.model.footprint import disc
 from agv_motion.motion.navigation.zone_file import load_zone
 from agv_motion.report import label_layout, style
+from agv_motion.report.recorded_footprint import read_footprints
 from agv_motion.report.robot_drawing import draw_robot
 from agv_motion.report.walk import WalkRun, read_walk
 from agv_motion.report.walk_figure import finding
 from agv_motion.ros.config import find_config
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from agv_motion.model.footprint import Footprint
     from agv_motion.motion.navigation.zone import Zone
 
 FRAMES, EVERY = 90, 90
@@ -46,23 +52,33 @@ def main(
     """Draw an animation of a walk: where the tree goes and why, and what it felt."""
     with BagReader(bag) as reader:
         run = read_walk(reader, 0.1)
-    write(run, load_zone(find_config(zone), PLATFORM_RADIUS), output)
+        stamps = (times(run, FRAMES) + reader.start * 1e-9).tolist()
+        shapes = read_footprints(reader, '/ground_truth', stamps)
+    write(run, load_zone(find_config(zone), PLATFORM_RADIUS), output, shapes)
     typer.echo(f'Animation: {output}, {output.stat().st_size / 1e6:.2f} MB')
 
 
-def write(run: WalkRun, zone: Zone, output: Path, frames: int = FRAMES) -> None:
-    """Write the animation of a walk as a GIF."""
+def times(run: WalkRun, frames: int) -> NDArray[np.float64]:
+    """Return when each picture is taken [s]."""
+    return np.linspace(0.0, float(run.path[-1, 0]), frames)
+
+
+def write(
+    run: WalkRun, zone: Zone, output: Path, shapes: Sequence[Footprint] | None,
+    frames: int = FRAMES,
+) -> None:  # fmt: skip
+    """Write the animation of a walk as a GIF; ``shapes`` are of the tree, one for each picture."""
     mpl.use('Agg')
     pictures, found = [], finding(run, zone, PLATFORM_RADIUS)
     with mpl.rc_context(style.settings()):
-        for time in np.linspace(0.0, float(run.path[-1, 0]), frames):
+        for i, time in enumerate(times(run, frames)):
             drawn, axes = plt.subplot_mosaic(
                 [['map', 'flow'], ['map', 'speed']], figsize=SIZE, dpi=DOTS_PER_INCH,
                 width_ratios=[1.3, 1],
             )  # fmt: skip
             drawn.subplots_adjust(0.05, 0.12, 0.9, 0.84, 0.16, 0.5)
             style.title(axes['map'], found)
-            _draw(axes, run, zone, float(time))
+            _draw(axes, run, zone, float(time), shapes[i] if shapes else disc(PLATFORM_RADIUS))
             canvas: Any = FigureCanvasAgg(drawn)
             canvas.draw()
             pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]))
@@ -76,10 +92,10 @@ def write(run: WalkRun, zone: Zone, output: Path, frames: int = FRAMES) -> None:
     )  # fmt: skip
 
 
-def _draw(axes: dict[str, Any], run: WalkRun, zone: Zone, now: float) -> None:
+def _draw(axes: dict[str, Any], run: WalkRun, zone: Zone, now: float, shape: Footprint) -> None:
     """Draw all that had happened at one time [s]."""
     row = max(int(np.searchsorted(run.path[:, 0], now, 'right')), 1)
-    _draw_map(axes['map'], run, zone, row, now)
+    _draw_map(axes['map'], run, zone, row, now, shape)
     for name, columns, factor in (('flow', run.flow, 1.0), ('speed', run.speeds, 60.0)):
         values = factor * columns[:, 1:]
         style.scale(axes[name], values)
@@ -96,7 +112,9 @@ def _draw(axes: dict[str, Any], run: WalkRun, zone: Zone, now: float) -> None:
     label_layout.settle(axes['map'].figure)
 
 
-def _draw_map(axes: Any, run: WalkRun, zone: Zone, row: int, now: float) -> None:
+def _draw_map(  # noqa: PLR0913, PLR0917 - an instant
+    axes: Any, run: WalkRun, zone: Zone, row: int, now: float, shape: Footprint
+) -> None:
     style.zone(axes, zone.floor, zone.parts)
     flow = np.interp(run.path[:row, 0], run.flow[:, 0], run.flow[:, 3])
     light = LinearSegmentedColormap.from_list('light', [style.SHADE, style.SUN])
@@ -106,7 +124,7 @@ def _draw_map(axes: Any, run: WalkRun, zone: Zone, row: int, now: float) -> None
         vmin=run.flow[:, 3].min(), vmax=run.flow[:, 3].max(),
     )  # fmt: skip
     axes.plot(*run.path[:row:10, 1:3].T, color=style.PATH, lw=1.0)
-    draw_robot(axes, run.path[row - 1, 1:], disc(PLATFORM_RADIUS), strong=True)
+    draw_robot(axes, run.path[row - 1, 1:], shape, strong=True)
     known = int(np.searchsorted(run.goals[:, 0], now, 'right'))
     told = f'{now / 60.0:.0f} min'
     if known:

@@ -20,7 +20,7 @@ from agv_motion.report.recorded_footprint import read_model
 from agv_motion.report.stamped_columns import POSES, pose_columns, topics_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     from matplotlib.axes import Axes
@@ -35,13 +35,17 @@ ADD, DELETE, DELETE_ALL = 0, 2, 3
 ARROW, LINE_STRIP, LINE_LIST, TEXT, TRIANGLES = 0, 4, 5, 9, 11
 """Kinds of visualization_msgs/Marker that are drawn; others are passed over."""
 
+KINDS = frozenset((ARROW, LINE_STRIP, LINE_LIST, TEXT, TRIANGLES))
+
 ELEVATION = radians(52.0)
 """[rad] From which the floor is looked at"""
 SEEN_FROM = 0.5
 """Opacity of a robot's model: what lies under it is seen, too."""
 LUMINANCE, READABLE = (0.2126, 0.7152, 0.0722), 0.4
 """Of red, green and blue (ITU-R BT.709), and by how much words differ from the paper at least"""
-AROUND = 2.5
+SHAPE = 2.1
+"""Width over height of the picture, at least"""
+AROUND = 1.5
 """[m] around robots, ways and goals that the picture shows of the zone"""
 
 
@@ -92,7 +96,7 @@ def read_scene(bag: BagReader, seconds: float) -> Scene:
             break
         for marker in content.markers:
             key = message.connection.topic, marker.ns, marker.id
-            if marker.action == ADD:
+            if marker.action == ADD and marker.type in KINDS:
                 shown[key] = _marker(marker)
             elif marker.action == DELETE:
                 shown.pop(key, None)
@@ -113,7 +117,7 @@ def draw(scene: Scene, title: str, path: Path, *, theme: str = 'light') -> None:
         SourceError: The file cannot be written.
 
     """
-    with figure(path, [['scene']], theme=theme, figsize=(style.WIDTH, 6.6)) as axes:
+    with figure(path, [['scene']], theme=theme, figsize=(style.WIDTH, 5.4)) as axes:
         each = axes['scene']
         style.title(each, title)
         each.set(aspect='equal', xticks=[], yticks=[])
@@ -167,7 +171,8 @@ def _frame(axes: Axes, markers: Sequence[SceneMarker]) -> None:
     near = [seen(marker.points) for marker in markers if marker.namespace not in wide]
     places = np.concatenate(near or [seen(marker.points) for marker in markers])
     (west, south), (east, north) = places.min(axis=0) - AROUND, places.max(axis=0) + AROUND
-    axes.set(xlim=(west, east), ylim=(south, north))
+    wider = 0.5 * max(SHAPE * (north - south) - (east - west), 0.0)
+    axes.set(xlim=(west - wider, east + wider), ylim=(south, north))
 
 
 def _points_a_metre(axes: Axes) -> float:
@@ -192,7 +197,7 @@ def _draw_solid(axes: Axes, solid: Solid) -> None:
 
 def _draw_marker(axes: Axes, marker: SceneMarker, scale: float) -> None:
     """Draw a marker in the way of its kind, its widths to scale but never too thin to be seen."""
-    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Polygon
 
     places, color = seen(marker.points), _on_paper(marker.color)
     width = max(marker.width * scale, 0.8)
@@ -208,11 +213,8 @@ def _draw_marker(axes: Axes, marker: SceneMarker, scale: float) -> None:
                       arrowprops={'arrowstyle': '-|>', 'color': color, 'lw': width,
                                   'mutation_scale': 4.0 * width + 4.0}, zorder=order)  # fmt: skip
     elif marker.kind == TRIANGLES:
-        filled = places[: len(places) // 3 * 3].reshape(-1, 3, 2)
-        axes.add_collection(PolyCollection(
-            list(filled), facecolors=[color], edgecolors='none', antialiased=False, zorder=1.0,
-            gid=marker.namespace,
-        ))  # fmt: skip
+        for area in _areas(places):
+            axes.add_patch(Polygon(area, fc=color, ec='none', zorder=1.0, gid=marker.namespace))
     elif marker.kind == TEXT:
         axes.text(
             places[0, 0], places[0, 1], marker.text, color=_readable(color),
@@ -220,6 +222,17 @@ def _draw_marker(axes: Axes, marker: SceneMarker, scale: float) -> None:
             zorder=6.0, gid=marker.namespace, clip_on=True,
             bbox={'facecolor': style.paper(), 'edgecolor': 'none', 'alpha': 0.7, 'pad': 1.0},
         )  # fmt: skip
+
+
+def _areas(corners: Array) -> Iterator[Array]:
+    """Yield the outlines of what triangles, three corners each, fill together."""
+    import shapely
+
+    triangles = corners[: len(corners) // 3 * 3].reshape(-1, 3, 2)
+    whole = shapely.union_all(shapely.polygons(triangles))
+    for part in getattr(whole, 'geoms', [whole]):
+        if part.geom_type == 'Polygon':
+            yield np.array(part.exterior.coords)
 
 
 def _on_paper(color: tuple[float, float, float, float]) -> Any:
