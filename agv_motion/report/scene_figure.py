@@ -70,14 +70,14 @@ class Solid(NamedTuple):
     color: tuple[float, float, float, float]
 
 
-class Scene(NamedTuple):
+class RecordedScene(NamedTuple):
     """What is to be seen at an instant."""
 
     markers: list[SceneMarker]
     solids: list[Solid]
 
 
-def read_scene(bag: BagReader, seconds: float) -> Scene:
+def read_scene(bag: BagReader, seconds: float) -> RecordedScene:
     """Return the scene of all robots at an instant.
 
     Args:
@@ -106,10 +106,10 @@ def read_scene(bag: BagReader, seconds: float) -> Scene:
         msg = f'{bag.path}: nobody told a scene in the first {seconds:g} s'
         raise ConfigurationError(msg)
     parts = [part for topic in topics for part in _robot(bag, topic, seconds)]
-    return Scene(list(shown.values()), parts)
+    return RecordedScene(list(shown.values()), parts)
 
 
-def draw(scene: Scene, title: str, path: Path, *, theme: str = 'light') -> None:
+def draw(scene: RecordedScene, title: str, path: Path, *, theme: str = 'light') -> None:
     """Draw a scene into a picture.
 
     Raises:
