@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import hypot, isfinite
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -40,6 +41,7 @@ from agv_motion.sun import sun
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from agv_motion.model.transform import Vector
     from agv_motion.ros.port import Port
 
 DIM = 0.25, 0.30, 0.40, 0.35
@@ -111,7 +113,6 @@ class Scene(PlainNode[SceneParameters]):
         """Open the topics."""
         super().__init__(port, parameters)
         self._model, self._radii = parameters.model(), parameters.radii()
-        self._corners = corners_above(self._model)
         self._heard: dict[str, _Heard] = {}
         self._zone: list[SceneShape] = []
         self._trail: list[tuple[float, float]] = []
@@ -126,6 +127,11 @@ class Scene(PlainNode[SceneParameters]):
         port.listen(PoseStamped, 'goal', self._on_goal, LATCHED)
         port.listen(Path, 'path', self._on_path, LATCHED)
         port.every(1.0 / parameters.rate, self.draw, steady=True)
+
+    @cached_property
+    def _corners(self) -> list[Vector]:
+        """What casts the shadow of the robot, seen from its base [m]."""
+        return corners_above(self._model)
 
     def begin(self) -> None:
         """Know nothing of before."""
