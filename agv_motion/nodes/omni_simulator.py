@@ -79,6 +79,29 @@ class OmniSimulatorParameters(SimulatedParameters, OmniBaseParameters):
         )
 
 
+class SimulatedImu:
+    """Publishes `imu`: what a gyroscope measures of the robot's turn."""
+
+    def __init__(self, port: Port, given: OmniSimulatorParameters) -> None:
+        """Open the topic."""
+        self._given = given
+        self._publisher = port.publisher(Imu, 'imu', SENSOR)
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin anew, with the same noise."""
+        self._gyro = Gyro(self._given.gyro, self._given.seed)
+
+    def publish(self, stamp: Any, turn_rate: float) -> None:
+        """Publish what is measured of a turn rate [rad/s]."""
+        message = Imu()
+        message.header.stamp, message.header.frame_id = stamp, self._given.imu_frame
+        message.angular_velocity.z = self._gyro.measure(turn_rate, 1.0 / self._given.rate)
+        message.orientation_covariance[0] = -1.0  # as REP-145 says of what is not measured
+        message.linear_acceleration_covariance[0] = -1.0
+        self._publisher.publish(message)
+
+
 class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
     """`wheels/command` -> `wheels/state`, `fix`, `imu`, `ground_truth`, `/clock`."""
 
@@ -87,11 +110,11 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
 
     def __init__(self, port: Port, parameters: OmniSimulatorParameters) -> None:
         """Put the robot at its start and open the topics."""
+        self._imu = SimulatedImu(port, parameters)
         super().__init__(port, parameters)
         self._joints = WheelJoints(parameters.joint_names)
         self._state = port.publisher(JointState, 'wheels/state', SENSOR, sole=True)
         self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
-        self._imu = port.publisher(Imu, 'imu', SENSOR)
         port.listen(JointState, 'wheels/command', self._on_command, COMMAND)
 
     def accept(self, parameters: OmniSimulatorParameters) -> None:
@@ -106,7 +129,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         )
         self._break(given)
         self._uwb = Uwb(given.uwb, given.seed, self.time)
-        self._gyro = Gyro(given.gyro, given.seed)
+        self._imu.reset()
         self._wanted = [0.0] * len(given.wheel_radii)
         return self._robot
 
@@ -122,7 +145,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         """Publish what encoders and gyroscope tell, and what comes of the UWB."""
         given = self.parameters
         self._publish_state(stamp)
-        self._publish_imu(stamp)
+        self._imu.publish(stamp, self._robot.twist.wz)
         if self.steps % max(round(given.rate / given.uwb.rate), 1) == 0:
             self._uwb.measure(self.time, self._robot.pose)
         for fix in self._uwb.arrivals(self.time):
@@ -149,16 +172,6 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         message.header.stamp, message.header.frame_id = stamp, self.parameters.base_frame
         message.position = self._robot.angles()
         self._state.publish(message)
-
-    def _publish_imu(self, stamp: Any) -> None:
-        message = Imu()
-        message.header.stamp, message.header.frame_id = stamp, self.parameters.imu_frame
-        message.angular_velocity.z = self._gyro.measure(
-            self._robot.twist.wz, 1.0 / self.parameters.rate
-        )
-        message.orientation_covariance[0] = -1.0  # as REP-145 says of what is not measured
-        message.linear_acceleration_covariance[0] = -1.0
-        self._imu.publish(message)
 
     def _publish_fix(self, fix: Any) -> None:
         message = PoseWithCovarianceStamped()

@@ -23,6 +23,7 @@ from agv_motion.simulation.turret_platform import MotorParameters, TurretPlatfor
 from agv_motion.sun import sun
 
 if TYPE_CHECKING:
+    from agv_motion.planar import Pose
     from agv_motion.ros.port import Port
 
 
@@ -68,6 +69,46 @@ class SimulatorParameters(SimulatedParameters, PlatformParameters):
         return [Obstacle(*row) for row in zip(*columns, strict=True)]
 
 
+class SimulatedSunlight:
+    """Publishes `sunlight`: how light it is where the tree stands."""
+
+    def __init__(self, port: Port, given: SimulatorParameters) -> None:
+        """Open the topic."""
+        self._given, self._obstacles = given, given.obstacles()
+        self._publisher = port.publisher(Illuminance, 'sunlight', SENSOR)
+
+    def publish(self, stamp: Any, time: float, pose: Pose) -> None:
+        """Publish the light at a pose and a time [s since 1970]."""
+        given = self._given
+        direction = sun(time, given.latitude, given.longitude)
+        message = Illuminance()
+        message.header.stamp, message.header.frame_id = stamp, given.base_frame
+        message.illuminance = LUX_PER_WATT * irradiance(pose.x, pose.y, direction, self._obstacles)
+        self._publisher.publish(message)
+
+
+class SimulatedFixes:
+    """Publishes `fix`: where a localisation takes the platform to be."""
+
+    def __init__(self, port: Port, given: SimulatorParameters) -> None:
+        """Open the topic."""
+        self._given = given
+        self._publisher = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin anew, with the same noise."""
+        self._sensor = FixSensor(self._given.fixes, self._given.seed)
+
+    def publish(self, stamp: Any, pose: Pose) -> None:
+        """Publish what is measured of a pose."""
+        message = PoseWithCovarianceStamped()
+        message.header.stamp, message.header.frame_id = stamp, self._given.map_frame
+        fill_pose(message.pose.pose, self._sensor.measure(pose))
+        message.pose.covariance = self._sensor.covariance()
+        self._publisher.publish(message)
+
+
 class Simulator(SimulatedNode[SimulatorParameters]):
     """`turrets/command` -> `turrets/state`, `fix`, `ground_truth`, `sunlight` and `/clock`."""
 
@@ -76,12 +117,11 @@ class Simulator(SimulatedNode[SimulatorParameters]):
 
     def __init__(self, port: Port, parameters: SimulatorParameters) -> None:
         """Put the platform at its start and open the topics."""
+        self._fixes = SimulatedFixes(port, parameters)
         super().__init__(port, parameters)
-        self._obstacles = parameters.obstacles()
         self._joints = TurretJoints(len(parameters.turret_x))
         self._state = port.publisher(JointState, 'turrets/state', SENSOR, sole=True)
-        self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
-        self._sunlight = port.publisher(Illuminance, 'sunlight', SENSOR)
+        self._sunlight = SimulatedSunlight(port, parameters)
         port.listen(JointState, 'turrets/command', self._on_command, COMMAND)
 
     def reset(self) -> TurretPlatform:
@@ -89,7 +129,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         given = self.parameters
         self._platform = TurretPlatform(Turrets.of(given), given.motors, given.start())
         self._turned = WheelTurns(len(given.turret_x))
-        self._fix_sensor = FixSensor(given.fixes, given.seed)
+        self._fixes.reset()
         self._wanted = list(self._platform.angles), list(self._platform.speeds)
         return self._platform
 
@@ -109,8 +149,8 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         given = self.parameters
         self._publish_state(stamp)
         if self.steps % max(round(given.rate / given.fixes.rate), 1) == 0:
-            self._publish_fix(stamp)
-            self._publish_sunlight(stamp)
+            self._fixes.publish(stamp, self._platform.pose)
+            self._sunlight.publish(stamp, self.time, self._platform.pose)
 
     def _on_command(self, message: JointState) -> None:
         if self._joints.is_standstill(message):
@@ -128,21 +168,6 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         rates = [speed / self.parameters.wheel_radius for speed in self._platform.speeds]
         self._joints.fill(message, self._platform.angles, rates, self._turned.angles())
         self._state.publish(message)
-
-    def _publish_fix(self, stamp: Any) -> None:
-        message = PoseWithCovarianceStamped()
-        message.header.stamp, message.header.frame_id = stamp, self.parameters.map_frame
-        fill_pose(message.pose.pose, self._fix_sensor.measure(self._platform.pose))
-        message.pose.covariance = self._fix_sensor.covariance()
-        self._fix.publish(message)
-
-    def _publish_sunlight(self, stamp: Any) -> None:
-        given, pose = self.parameters, self._platform.pose
-        direction = sun(self.time, given.latitude, given.longitude)
-        message = Illuminance()
-        message.header.stamp, message.header.frame_id = stamp, given.base_frame
-        message.illuminance = LUX_PER_WATT * irradiance(pose.x, pose.y, direction, self._obstacles)
-        self._sunlight.publish(message)
 
 
 def main() -> None:
