@@ -7,6 +7,7 @@ from math import pi
 import pytest
 
 from agv_motion.planar import Pose
+from agv_motion.trajectory.bounds import NO_RAMP
 from agv_motion.trajectory.line import Line
 from agv_motion.trajectory.motion import STILL
 from agv_motion.trajectory.motions import DriveMotion, TurnMotion
@@ -88,3 +89,26 @@ def test_drawn_it_keeps_its_end_and_the_number_of_poses():
     assert fine[15] == pytest.approx((1.0, 0.0, 0.0))
     assert 5 <= len(trajectory.polyline(0.001, most=5)) <= 8
     assert len(trajectory.polyline(1.0, most=500)) == int(trajectory.duration) + 2
+
+
+@pytest.mark.parametrize('time', [2.0, 2.5, 99.0])
+def test_at_the_end_it_stands_though_a_motion_without_a_ramp_is_at_full_speed_there(time):
+    line = Line(0j, 2.0 + 0j)
+    at_once = DriveMotion(line, (A, B), trapezoid(2.0, 1.0, NO_RAMP), 1.0, backward=False)
+    trajectory = Trajectory((A, B), (at_once,))
+    assert trajectory.duration == pytest.approx(2.0)
+    assert trajectory.speeds(1.999) == pytest.approx((1.0, 0.0))
+    assert trajectory.pose(0.5) == pytest.approx((0.5, 0.0, 0.0))
+    assert (trajectory.speeds(time), trajectory.pose(time)) == (STILL, B)
+
+
+def test_one_without_a_motion_stands_at_any_time():
+    nowhere = Trajectory((A, A), ())
+    assert (nowhere.speeds(-1.0), nowhere.pose(-1.0), nowhere.pose(1.0)) == (STILL, A, A)
+
+
+def test_of_two_motions_the_second_has_its_own_time():
+    turn = TurnMotion(B, C, 1.0, trapezoid(pi / 2, 1.0, 1.0), 1.0)
+    both = Trajectory((A, C), (drive(A, B, 2.0), turn))
+    assert both.pose(3.0 + TURN / 2) == pytest.approx((2.0, 0.0, pi / 4))
+    assert both.speeds(3.0 + TURN / 2) == pytest.approx((0.0, 1.0))
