@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -16,7 +17,7 @@ from sensor_msgs.msg import JointState
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 BEGIN = """
-import os, signal, sys
+import json, os, signal, sys
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.run import run
@@ -26,6 +27,13 @@ def end():
         os.kill(os.getpid(), signal.SIGINT)
 class Node(DifferentialKinematics):
     pass
+for number, phase in enumerate(json.loads(sys.argv[1])):
+    if not os.fork():
+        os.dup2(os.open(f'{number}', os.O_CREAT | os.O_WRONLY), 2)
+        exec(phase)
+        run(Node)
+        sys.exit()
+    print(os.waitstatus_to_exitcode(os.wait()[1]))
 """
 PHASES = {
     'before the node': 'LiveNode.__init__ = lambda *a, **k: (end(), make(*a, **k))[1]',
@@ -81,13 +89,22 @@ def test_during_the_imports(slow_import, command, number):
     assert ended(process) == (0, '')
 
 
+@pytest.fixture(scope='module')
+def interrupted(tmp_path_factory):
+    """Return status and errors for each phase; all are forked once what they import is there."""
+    folder, phases = tmp_path_factory.mktemp('interrupted'), json.dumps([*PHASES.values()])
+    done = subprocess.run(  # noqa: S603 - our own
+        [sys.executable, '-c', BEGIN, phases], cwd=folder,
+        capture_output=True, text=True, check=True, timeout=200.0,
+    )  # fmt: skip
+    ends = [(int(status), (folder / str(number)).read_text())
+            for number, status in enumerate(done.stdout.split())]  # fmt: skip
+    return dict(zip(PHASES, ends, strict=True))
+
+
 @pytest.mark.parametrize('phase', PHASES)
-def test_twice_in_each_phase_of_a_start(phase):
-    code = f'{BEGIN}\n{PHASES[phase]}\nrun(Node)\n'
-    process = subprocess.Popen(  # noqa: S603 - our own
-        [sys.executable, '-c', code], text=True, stderr=subprocess.PIPE
-    )
-    assert ended(process) == (0, '')
+def test_twice_in_each_phase_of_a_start(interrupted, phase):
+    assert interrupted[phase] == (0, '')
 
 
 def test_a_node_whose_terminal_is_closed_says_zero_first(graph):
