@@ -167,7 +167,7 @@ class NoParameters:
 @pytest.fixture(scope='session')
 def live_in_process():
     """Return what lets robots as launch files start them live for a while, without middleware."""
-    from agv_motion.reprocess.recorded import node_class, parameters
+    from agv_motion.reprocess.recorded import LIVE_ONLY, node_class, parameters
     from agv_motion.ros.in_process_graph import InProcessGraph
     from agv_motion.ros.in_process_node import InProcessNode
     from agv_motion.ros.robot_graphs import ROBOTS
@@ -192,7 +192,7 @@ def live_in_process():
         graph = InProcessGraph(record, NOON)
         for namespace in namespaces:
             for node in ROBOTS[robot].nodes:
-                if node.name in {'why', *without}:
+                if node.name in {'why', *LIVE_ONLY, *without}:
                     continue
                 values = parameters(f'{robot}.yaml', node.name, namespace)
                 values |= given.get(node.name, {}) | given.get('all', {})
