@@ -64,7 +64,7 @@ class SimulatedParameters(FrameParameters):
             choices=tuple(each.value for each in ClockRole),
         ),
     ] = ClockRole.LEAD.value
-    start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00:00'
+    start_time: Annotated[str, Spec('simulated start, ISO 8601, UTC')] = '2015-06-15T11:00'
     command_timeout: Annotated[
         float,
         Spec(

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import fields, is_dataclass
 from importlib import import_module
+from types import NoneType
 
 import pytest
+import yaml
 
 rclpy = pytest.importorskip('rclpy')
 
@@ -13,7 +16,7 @@ from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import Parameter
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.nodes.catalogue import available
+from agv_motion.nodes.catalogue import available, parameters_of
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
 from agv_motion.ros.live_node import LiveNode
@@ -152,3 +155,24 @@ def test_wildcards_are_left_out_on_request(tmp_path):
     both = {name: python(value) for name, value in load(path, '/oak/node').items()}
     assert both == {'x': 2, 'y': 1}
     assert list(load(path, '/oak/node', wildcard=False)) == ['x']
+
+
+def _texts(values, prefix=''):
+    """Yield the dotted names and values of all texts among parameters, groups within groups."""
+    for field in fields(values):
+        value = getattr(values, field.name)
+        if is_dataclass(value):
+            yield from _texts(value, f'{prefix}{field.name}.')
+        elif isinstance(value, str) and value:
+            yield prefix + field.name, value
+
+
+def test_a_text_that_a_node_tells_stays_one_for_ros2_param_load():
+    """It reads each text as YAML once more, and raises where that makes a date of it."""
+    changed = {
+        name
+        for node in available()
+        for name, text in _texts(parameters_of(node)())
+        if not isinstance(yaml.safe_load(text), (str, NoneType))
+    }
+    assert changed == {'schedule.opens', 'schedule.closes'}  # 10:00 is 600: refused, with a reason
