@@ -48,7 +48,7 @@ class TreeView:
         self._view.fit(room)
         moment = datetime.fromtimestamp(now, timezone.utc)
         title = f'{moment:%d %b %Y, %H:%M:%S} UTC'
-        numbers = lines(self._numbers(factor), NUMBERS, tall=3)
+        numbers = lines(self._numbers(factor), NUMBERS, tall=5)
         return self._view.picture(title, self._walk(now), numbers)
 
     def _walk(self, now: float) -> Text:

@@ -45,7 +45,7 @@ class TreesView:
                 here = truth.pose.pose.position
                 self._trails.append((here.x, here.y, colour))
                 marks[cell_of(here.x, here.y)] = ('♣', f'bold {colour}')
-            told.append(lines(self._numbers(name), NUMBERS, tall=2))
+            told.append(lines(self._numbers(name), NUMBERS, tall=4 if len(self._names) < 4 else 2))
             told[-1].columns[0].style = colour
         trails = {cell_of(x, y): ('•', colour) for x, y, colour in self._trails}
         moment = datetime.fromtimestamp(now, timezone.utc)

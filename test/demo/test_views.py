@@ -143,3 +143,16 @@ def test_a_map_is_few_bytes_on_a_slow_line(zone):
     told = console.file.getvalue()
     assert len(told) < 2.5 * drawn.rows * drawn.columns
     assert Text.from_ansi(told).plain.rstrip('\n').count('░') > 100
+
+
+@pytest.mark.parametrize('names', [(), ('oak', 'ash', 'elm')])
+def test_what_a_tree_does_is_told_whole(zone, names):
+    heard = Heard()
+    for prefix in [f'{name}/' for name in names] or ['']:
+        heard.hear_tree(prefix)
+        state = 'walking to highest remembered sap flow 0.38 at (11.9, 11.9), felt 19 min ago'
+        heard.messages[f'{prefix}state'] = String(data=state)
+    view = TreesView(heard, zone, names) if names else TreeView(heard, zone, SimulatorParameters())
+    text = '\n'.join(shown(view, 30.0, 80, 24))
+    assert text.count('min ago') == max(len(names), 1)
+    assert '…' not in text
