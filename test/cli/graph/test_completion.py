@@ -57,4 +57,6 @@ def test_nodes_of_the_graph_are_offered(alone, oak, words):
     told = subprocess.run(  # noqa: S603 - the words are ours
         [folder / 'agv'], env=environment, capture_output=True, text=True, check=False
     )
-    assert told.stdout.split() == [oak], told.stderr
+    offered = told.stdout.split()  # others may be on the graph
+    assert oak in offered, told.stderr
+    assert all(name.startswith(asked[-1] or '/') for name in offered)
