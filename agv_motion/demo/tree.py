@@ -47,6 +47,8 @@ DAY = 86400.0
 TOPICS = [
     *(RecordedTopic(f'granier/probe_{i}/temperature_difference', Temperature) for i in (1, 2, 3)),
     RecordedTopic('granier/sap_flow', Vector3Stamped),
+    RecordedTopic('granier/water_use', Vector3Stamped),
+    RecordedTopic('granier/water_use_today', Vector3Stamped),
     RecordedTopic('granier/valid', Bool, latched=True),
     RecordedTopic('granier/state', String, latched=True),
     *ARBITER_TOPICS,

@@ -12,6 +12,7 @@ from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.model.frames import FrameParameters
+from agv_motion.nodes.water_report import WaterReport
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
 from agv_motion.probe.condition import ProbeConditions
@@ -21,6 +22,7 @@ from agv_motion.probe.probe import Probe, ProbeReading
 from agv_motion.probe.signals import signals_of
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
+from agv_motion.probe.water import WaterParameters
 from agv_motion.ros.diagnosis import OK, WARN, Diagnosis
 from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.plain_node import PlainNode
@@ -63,6 +65,7 @@ class GranierProbeParameters(SourceParameters, FrameParameters):
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
     ] = ''
     probe: ProbeParameters = field(default_factory=ProbeParameters)
+    water: WaterParameters = field(default_factory=WaterParameters)
 
     def __post_init__(self) -> None:
         """Check every row, and that the assigned probes exist."""
@@ -119,6 +122,11 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             if given.probe.needs_environment
             else None
         )
+        self._water = (
+            WaterReport(port, given.water, given.probe, given.base_frame)
+            if given.water.sapwood_area
+            else None
+        )
         self._sap_flow = port.publisher(Vector3Stamped, 'granier/sap_flow', SENSOR, sole=True)
         self._valid = port.publisher(Bool, 'granier/valid', LATCHED)
         self._state = port.publisher(String, 'granier/state', LATCHED)
@@ -152,6 +160,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             for i, reading in enumerate(self._readings)
         }
         values |= self._conditions.values(self._readings)
+        values |= self._water.values() if self._water else {}
         values['source silent [s]'] = f'{self._silence(self.port.seconds()):.1f}'
         values['source silent limit [s]'] = f'{self._max_age:.1f}'
         if self._why_invalid:
@@ -188,8 +197,17 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         """Learn from the history of the source; at the first tick, when the clock is known."""
         self._learnt = True
         for sample in self._source.history(now):
-            for probe, value in zip(self._probes, self._corrected(sample), strict=True):
+            readings = [
                 probe.update(sample.time, value, sample.environment)
+                for probe, value in zip(self._probes, self._corrected(sample), strict=True)
+            ]
+            if self._water is not None:
+                self._water.update(sample.time, self._heated(readings), tell=False)
+
+    def _heated(self, readings: list[Any]) -> list[Any]:
+        """Return what the probes say that are heated."""
+        reference = self.parameters.reference_probe
+        return [each for i, each in enumerate(readings, 1) if reference != f'probe_{i}']
 
     def _corrected(self, sample: ProbeSample) -> tuple[float, ...]:
         """Return the temperature differences without the natural gradient, if that is told [K]."""
@@ -217,6 +235,8 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
                 message.header.frame_id = self.parameters.own(f'probe_{i + 1}')
                 self._raw[i].publish(message)
         self._conditions.update(now, self._readings)
+        if self._water is not None:
+            self._water.update(sample.time, self._heated(self._readings), tell=True)
         enough = self.parameters.probe.loss.enough
         self._signals = signals_of(self._chosen, self._readings, enough)
         vector = self._message.vector

@@ -99,7 +99,7 @@ class WaterMeter:
         flow = area * sum(flux for flux, _ in rows) / len(rows)
         moved = area * sqrt(sum(moved * moved for _, moved in rows)) / len(rows)
         if self._before is not None and 0.0 < time - self._before[0] <= LONGEST_GAP:
-            dt = time - self._before[0]
+            dt = min(time - self._before[0], (time + self._offset) % DAY)  # what is of this day
             steps = 0.5 * dt * (flow + self._before[1]), 0.5 * dt * (moved + self._before[2]), dt
             drunk, drunk_moved, known = self._sums
             self._sums = drunk + steps[0], drunk_moved + steps[1], known + steps[2]

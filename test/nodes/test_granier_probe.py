@@ -98,6 +98,24 @@ def test_a_lost_probe_goes_down_its_ladder_and_that_is_told(tester, tmp_path):
     assert tester.wait(states, lambda m: not m.data)
 
 
+def test_litres_are_told_with_their_interval(tester, tmp_path):
+    """Eight hours of the third day are history, and count as of today."""
+    now = tester.listen(Vector3Stamped, 'granier/water_use', SENSOR)
+    today = tester.listen(Vector3Stamped, 'granier/water_use_today', SENSOR)
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=clear_week(tmp_path),
+        csv__start='2013-06-12T13:00:00', water__sapwood_area=0.02,
+    )  # fmt: skip
+    rate, litres = tester.wait(now), tester.wait(today)
+    assert rate.header.stamp.sec > 0
+    for told in (rate.vector, litres.vector):
+        assert 0.0 < told.y < told.x < told.z
+    flux = node.plain._readings[0].flux_density  # noqa: SLF001 - diagnostics round it
+    assert rate.vector.x == pytest.approx(0.02 * flux * 3600.0 * 1000.0)
+    assert 1.0 < litres.vector.x / rate.vector.x < 5.0
+    assert node.plain.diagnose().values['water use today known [h]'] == '13.00'
+
+
 def test_zero_flow_by_the_air_and_an_unheated_probe(tester, tmp_path):
     """Nights of the first two days are dry; the air is told to who listens."""
     air = tester.listen(Vector3Stamped, 'granier/environment', SENSOR)

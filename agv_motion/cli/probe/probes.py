@@ -33,6 +33,13 @@ def probes(
     kelvin_per_millivolt: Annotated[float, typer.Option(help='Of the thermocouple.')] = 25.0,
     plot: Annotated[Path | None, typer.Option(help='Picture to draw of what is known.')] = None,
     to: Annotated[Path | None, typer.Option(help='File to write, in the plainest form.')] = None,
+    water: Annotated[
+        float,
+        typer.Option(help='Sapwood area [cm2]: tell litres a day, with a 95 % interval.', min=0),
+    ] = 0.0,
+    species: Annotated[
+        str, typer.Option(help='Calibration for --water, as probe.calibration.of.')
+    ] = 'granier',
     dark: Annotated[bool, typer.Option('--dark', help='Picture light on dark.')] = False,
 ) -> None:
     """Look at any file of a logger, say what is in it, and print the parameters that read it.
@@ -45,6 +52,7 @@ def probes(
 
     agv probes 'logs/*.dat' --to probes.csv
     """
+    from agv_motion.probe.sources.source import kelvin_per
     from agv_motion.probe.tables.description import describe, parameters_for
     from agv_motion.probe.tables.inspection import inspect
     from agv_motion.probe.tables.table import read_tables
@@ -63,6 +71,8 @@ def probes(
     _tell_parameters(given, unit)
     if to is not None:
         _write(found, to)
+    if water:
+        _tell_water(found, kelvin_per(unit, kelvin_per_millivolt), water, species)
     if plot is not None:
         _draw(found, unit, kelvin_per_millivolt, plot, 'dark' if dark else 'light')
 
@@ -153,6 +163,33 @@ def _draw(
     series = [read_series(found.table.times, column) for column in columns]
     draw(names, series, path, theme)
     typer.echo(f'\n{finding(names, series)}\nFigure: {path}')
+
+
+def _tell_water(found: TableDescription, factor: float, area: float, species: str) -> None:
+    """Print what a tree drank each day, by the mean of its probes."""
+    from rich.table import Table
+
+    from agv_motion.probe.calibration import CalibrationParameters
+    from agv_motion.probe.parameters import ProbeParameters
+    from agv_motion.probe.probe import Probe
+    from agv_motion.probe.water import DAY, WaterMeter, WaterParameters, days_of
+
+    given = ProbeParameters(calibration=CalibrationParameters(of=species))
+    columns = (found.table.values * factor).tolist()
+    probes = [Probe(given) for _ in found.columns]
+    times = found.table.times.tolist()
+    rows = [
+        [probe.update(time, value) for probe, value in zip(probes, values, strict=True)]
+        for time, values in zip(times, columns, strict=True)
+    ]
+    meter = WaterMeter(WaterParameters(sapwood_area=1e-4 * area), given.calibration.chosen(), 0.0)
+    table = Table('day', 'litres', '95 %', 'most [l/h]', 'known', box=None)
+    for day in days_of(meter, times, rows, 0.0):
+        low_high = f'{day.drunk.low:.2f} to {day.drunk.high:.2f}'
+        numbers = [f'{day.drunk.value:.2f}', low_high, f'{day.highest.value:.3f}']
+        table.add_row(_moment(day.day * DAY)[:10], *numbers, f'{100.0 * day.known:.0f} %')
+    typer.echo(f'\nWater through {area:g} cm2 of sapwood, calibration {species}:')
+    terminal().print(table)
 
 
 def _moment(time: float) -> str:

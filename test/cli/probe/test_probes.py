@@ -54,3 +54,25 @@ def test_two_readings_are_told_and_one_is_chosen(alone, tmp_path):
     assert status == 0
     assert 'from 2013-06-10T00:00:00Z to 2013-06-10T00:30:00Z' in out
     assert 'time_format: "month_first"' in out
+
+
+def test_what_a_tree_drank_is_told_for_each_day(alone, tmp_path):
+    file = tmp_path / 'oak.csv'
+    file.write_text(
+        'time,probe_1_mV\n'
+        + ''.join(
+            f'2013-06-{1 + k // 96:02}T{k % 96 // 4:02}:{k % 4 * 15:02}:00Z,{v:.5f}\n'
+            for k in range(3 * 96)
+            for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
+        )
+    )
+    status, out, errors = alone('probes', file, '--water', 120)
+    assert status == 0, errors
+    rows = [line.split() for line in out.splitlines() if line.strip().startswith('2013-06-')]
+    assert [row[0] for row in rows] == ['2013-06-01', '2013-06-02', '2013-06-03']
+    litres, low, high = float(rows[1][1]), float(rows[1][2]), float(rows[1][4])
+    assert low < litres < high
+    assert (litres / low, high / litres) == pytest.approx((3.2, 3.2), rel=0.1)
+    status, _, errors = alone('probes', file, '--water', 120, '--species', 'cactus')
+    assert status == 1
+    assert 'picea_abies' in errors
