@@ -83,15 +83,16 @@ LONG = (
 
 
 ONE_WORKER = (
-    'test/dashboard/browser/', 'test/cli/demo/', 'test/cli/recording/', 'test/cli/',
-    'test/reprocess/',
-)  # fmt: skip
+    ('test/dashboard/browser/',),
+    ('test/cli/demo/', 'test/cli/recording/', 'test/reprocess/', 'test/dashboard/server/foxglove/'),
+    ('test/cli/',),
+)
 """Folders whose files share what takes seconds to make: a browser, a warm Python, recordings"""
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """Give each worker a file after the other, as loadfile does, or a folder of `ONE_WORKER`."""
+    """Give each worker a file after the other, as loadfile does, or folders of `ONE_WORKER`."""
     if config.getoption('dist') != 'loadfile':
         return None
     from xdist.scheduler import LoadFileScheduling
@@ -99,7 +100,7 @@ def pytest_xdist_make_scheduler(config, log):
     class Scheduling(LoadFileScheduling):
         def _split_scope(self, nodeid):
             file = super()._split_scope(nodeid)
-            return next(filter(file.startswith, ONE_WORKER), file)
+            return next((folders[0] for folders in ONE_WORKER if file.startswith(folders)), file)
 
     return Scheduling(config, log)
 
