@@ -32,3 +32,8 @@ def test_so_is_a_speed(bad):
 def test_and_a_curve(bad):
     with pytest.raises(ConfigurationError, match=r'0\.3 to 0\.6 is usual'):
         Request(1.0, 1.0, bad)
+
+
+def test_what_is_not_asked_for_is_straight_and_forward():
+    asked = Request(0.4, 0.4)
+    assert (asked.delta_curve, asked.backward) == (0.0, False)

@@ -66,6 +66,14 @@ def test_faster_than_cruising_is_refused():
         plain(30.0, 1.0, 0.5, start=1.2)
 
 
+def test_faster_than_the_first_bend_allows_is_refused_though_it_could_brake():
+    """30 m are enough to brake from 1.2 m/s; but here it may be no faster than 0.8 m/s."""
+    way, ceiling = np.array([0.0, 10.0, 30.0]), np.array([0.8, 2.0, 2.0])
+    with pytest.raises(GeometryError, match=r'1\.2 m/s is too fast here.* 30 m, allows 0\.8 m/s'):
+        plan_speed(way, ceiling, 0.5, 1.2)
+    assert plan_speed(way, ceiling, 0.5, 0.8).at(0.0).speed == pytest.approx(0.8)
+
+
 def test_too_short_to_brake_is_refused():
     with pytest.raises(GeometryError, match=r'0\.9 m, allows 0\.9487 m/s'):
         plain(0.9, 1.0, 0.5, start=1.0)
