@@ -37,6 +37,12 @@ class Note(NamedTuple):
     text: str
 
 
+def one_line(text: str) -> str:
+    """Return what somebody wrote as a note can hold it: printable, on one line, not too long."""
+    printable = ''.join(c if c.isprintable() else ' ' for c in text)
+    return ' '.join(printable.split())[:LONGEST]
+
+
 def notes_of(bag: Path) -> list[Note]:
     """Return the notes of a bag in the order of their time; lines that are none are passed over."""
     place = _place(bag)

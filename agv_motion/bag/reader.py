@@ -147,6 +147,10 @@ class BagReader:
         self.require(wanted or ())
         return self._messages(wanted, *span_of(start, stop))
 
+    def gaps(self) -> list[tuple[int, int]]:
+        """Return the times between bags: a bag alone has none."""
+        return []
+
     def close(self) -> None:
         """Let go of the files; messages already read stay valid."""
         for file in self.files:

@@ -12,7 +12,7 @@ from agv_motion.bag.chunk_limits import chunk_limits
 from agv_motion.bag.finished_files import FinishedFiles
 from agv_motion.bag.mcap.together import FEW, Together
 from agv_motion.bag.mcap.writer import McapWriter
-from agv_motion.bag.metadata import Topic
+from agv_motion.bag.metadata import FileSummary, Topic
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
@@ -205,9 +205,9 @@ class BagWriter:
         return self._file.size
 
     @property
-    def finished_files(self) -> int:
-        """Number of files before the present one."""
-        return len(self._finished.files)
+    def finished_files(self) -> list[FileSummary]:
+        """The files before the present one, or all of a bag that is finished."""
+        return [file.summary for file in self._finished.files]
 
     @property
     def counts(self) -> list[int]:

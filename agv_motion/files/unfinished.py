@@ -7,6 +7,7 @@ by the next one; a folder in which somebody still writes is known by its lock.
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import secrets
@@ -43,7 +44,9 @@ def beside(target: Path) -> Iterator[Path]:
         yield made
         require_free(target)
         with told(target):
+            _settle(made)
             made.rename(target)
+            _sync(target.parent)
 
 
 @contextmanager
@@ -69,12 +72,9 @@ def replacing(path: Path) -> Iterator[Path]:
         yield made
         if before is not None:
             made.chmod(stat.S_IMODE(before.st_mode))
-        descriptor = os.open(made, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)  # or a power cut may leave the new name with nothing behind it
-        finally:
-            os.close(descriptor)
+        _sync(made)  # or a power cut may leave the new name with nothing behind it
         made.replace(place)
+        _sync(place.parent)
 
 
 @contextmanager
@@ -126,6 +126,31 @@ def sweep(target: Path) -> None:
                 shutil.rmtree(left, ignore_errors=True)
             finally:
                 os.close(lock)
+
+
+def _settle(folder: Path) -> None:
+    """Wait until the disk has a folder and all that is in it: no power cut leaves empty files."""
+    for place, _, files in os.walk(folder):
+        for name in files:
+            _sync(Path(place, name))
+        _sync(Path(place))
+
+
+def _sync(path: Path) -> None:
+    """Wait until the disk has a file, or the names in a folder.
+
+    Raises:
+        OSError: The disk failed to take it.
+
+    """
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    except OSError as error:
+        if error.errno != errno.EINVAL:  # a file system that cannot wait for folders
+            raise
+    finally:
+        os.close(descriptor)
 
 
 def _prefix(target: Path) -> str:

@@ -14,8 +14,8 @@ from std_srvs.srv import Trigger
 from agv_motion.bag.playback.excerpt import PlaybackExcerpt
 from agv_motion.bag.playback.playback import Playback
 from agv_motion.bag.playback.playback_parameters import PlaybackParameters
+from agv_motion.bag.playback.several_bags import SeveralBags
 from agv_motion.bag.quality_of_service import KEYS, NO_PROFILE, WORDS, OfferedQos
-from agv_motion.bag.reader import BagReader
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 from agv_motion.files.marked import quoted
@@ -46,6 +46,7 @@ class BagPlayerParameters(PlaybackParameters):
     """Which bag to play, how, and what else to tell."""
 
     bag: Annotated[str, Spec('folder or file of the bag')] = ''
+    bags: Annotated[tuple[str, ...], Spec('more of them, played with it by one clock')] = ()
     clock: Annotated[
         float, Spec('publish the time of the bag on /clock so often; 0: not', 'Hz', (0.0, 1000.0))
     ] = 0.0
@@ -83,10 +84,11 @@ class BagPlayer(PlainNode[BagPlayerParameters]):
         self.unplayed: dict[str, str] = {}
         """topics that cannot be played, and why"""
         given = parameters
-        if not given.bag:
+        paths = [path for path in (given.bag, *given.bags) if path]
+        if not paths:
             msg = 'which bag? give bag, the path of a folder or file'
             raise ConfigurationError(msg)
-        self._bag = BagReader(given.bag)
+        self._bag = SeveralBags(paths)
         port.close_later(self._bag.close)
         for problem in self._bag.problems:
             port.warning(str(problem))

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
-from datetime import datetime
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from rosgraph_msgs.msg import Clock as ClockMessage
 from std_srvs.srv import Trigger
 
 from agv_motion.bag.recording.recorded_transforms import RecordedTransforms
 from agv_motion.bag.recording.recording import Recording, TopicReport
-from agv_motion.bag.recording.storage_parameters import StorageParameters
 from agv_motion.bag.selection import Selection
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.model.transform_message import TF
-from agv_motion.parameters import Spec, check
+from agv_motion.nodes.bag_recorder_parameters import BagRecorderParameters
+from agv_motion.nodes.recorded_events import RecordedEvents
 from agv_motion.ros.arrivals import TICK, Arrivals
 from agv_motion.ros.clock_guard import CLOCK_TOPIC
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
@@ -37,32 +34,6 @@ if TYPE_CHECKING:
 
 TAKE_PERIOD = 0.005
 """[s] between two takes; wide enough to take many at a time, and far below what queues hold"""
-
-
-@dataclass(frozen=True)
-class BagRecorderParameters:
-    """What to record, and where to."""
-
-    output: Annotated[
-        str, Spec('folder of the new bag; empty: bag_ and the time, in the working directory')
-    ] = ''
-    all: Annotated[bool, Spec('record every topic')] = False
-    topics: Annotated[tuple[str, ...], Spec('record these')] = ()
-    regex: Annotated[str, Spec('record topics in whose name this is found')] = ''
-    exclude_topics: Annotated[tuple[str, ...], Spec('never record these')] = ()
-    exclude_regex: Annotated[str, Spec('never record topics in whose name this is found')] = ''
-    include_hidden_topics: Annotated[bool, Spec('hidden topics as well')] = False
-    start_paused: Annotated[bool, Spec('wait for ~/resume')] = False
-    polling_interval: Annotated[float, Spec('between looks for new topics', 's', (0.01, 60))] = 0.1
-    storage: StorageParameters = field(default_factory=StorageParameters)
-
-    def __post_init__(self) -> None:
-        """Check every row."""
-        check(self)
-
-    def folder(self) -> Path:
-        """Return where the bag goes."""
-        return Path(self.output or datetime.now().astimezone().strftime('bag_%Y_%m_%d-%H_%M_%S'))
 
 
 class BagRecorder(PlainNode[BagRecorderParameters]):
@@ -108,6 +79,7 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         port.close_later(self._listeners.close)
         port.every(given.polling_interval, self._watch, steady=True)
         port.every(TAKE_PERIOD, self._take, steady=True)
+        self.events = RecordedEvents(port, given, self._unable)
         for name, act in (
             ('pause', self._pause),
             ('resume', self._resume),
@@ -125,10 +97,11 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         """Create the bag."""
         self.report, self.failure = [], ''
         self.paused = self.parameters.start_paused
-        self.recording = Recording(self.parameters.folder(), self.parameters.storage)
+        self.recording = Recording(self.parameters.folder(), self.parameters.ring())
         makes = not PUBLISHED and self._selection.takes(TF)
         self._transforms = RecordedTransforms(self.recording.add_topic) if makes else None
         self.port.info(f'recording into {self.recording.path}')
+        self.events.begin(self.recording)
         self._watch()
 
     def halt(self) -> None:
@@ -146,7 +119,9 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         self._subscriptions.clear()
         if self.recording is None:
             return
+        self.events.finish()
         self.report = self.recording.close()
+        self.events.close()
         self.failure = self.recording.failure
         missing = [topic for topic in self.report if topic.lost or topic.dropped]
         for topic in missing:
@@ -169,6 +144,7 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
             'bag': str(self.recording.path),
             'topics': str(self.topics),
             'messages': str(self.recording.messages),
+            **self.events.values(),
         }
         return (
             Diagnosis(WARN, 'paused', values) if self.paused else Diagnosis(OK, 'recording', values)
@@ -185,16 +161,16 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         if self.port.is_simulated and not self.port.nanoseconds():
             return  # no time yet to stamp with
         if self.port.is_simulated:
-            self._listen_to_clock(self.recording)
+            self._listen_to_clock()
         for name, types in self.port.node.get_topic_names_and_types():
-            if self._selection.takes(name):
+            if self._selection.takes(name) or self.events.wants(name):
                 for kind in types:
                     self._meet(name, kind, self.recording)
 
-    def _listen_to_clock(self, recording: Recording) -> None:
+    def _listen_to_clock(self) -> None:
         """Hear `/clock` among the messages that it stamps."""
         if self._arrivals is None:
-            self._arrivals = Arrivals(recording.put, self.port.nanoseconds())
+            self._arrivals = Arrivals(self._put, self.port.nanoseconds())
             add, node = partial(self._arrivals.add, TICK), self._listeners.node(0)
             self._subscriptions['', ''] = (
                 RawSubscription(node, CLOCK_TOPIC, ClockMessage, add),
@@ -245,7 +221,8 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
             )
         message = message_class(kind)
         handle = recording.add_topic(name, kind, offers)
-        put, arrivals, transforms = recording.put, self._arrivals, self._transforms
+        self.events.meet(handle, name, kind)
+        put, arrivals, transforms = self._put, self._arrivals, self._transforms
         moves = transforms if transforms and transforms.wants(name, kind) else None
 
         def take(data: bytes, info: dict[str, Any]) -> None:
@@ -266,6 +243,18 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
             node, name, message, take_simulated if self.port.is_simulated else take
         ), handle
 
+    def _put(self, topic: int, received: int, data: bytes, sent: int, sequence: int = 0) -> None:
+        """Record a message, and show it to the triggers."""
+        if self.recording is not None:
+            self.recording.put(topic, received, data, sent, sequence)
+            self.events.see(topic, received, data)
+
+    def _unable(self) -> str:
+        """Return why nothing is recorded at present, or ''."""
+        if self.recording is None or self.recording.failure:
+            return 'nothing is being recorded'
+        return 'paused: nothing is recorded; resume first' if self.paused else ''
+
     def _pause(self, _: Any = None) -> str:
         self.paused = True
         return 'paused: nothing is recorded'
@@ -281,8 +270,7 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
 
     def _split(self, _: Any) -> str:
         if self.recording is None or self.recording.failure:
-            msg = 'nothing is being recorded'
-            raise ConfigurationError(msg)
+            raise ConfigurationError(self._unable())
         self.recording.split()
         return f'going on in a new file of {self.recording.path}'
 

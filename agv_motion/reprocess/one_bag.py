@@ -14,6 +14,7 @@ from agv_motion.errors import AgvMotionError
 from agv_motion.files.unfinished import beside
 from agv_motion.reprocess import provenance, wiring
 from agv_motion.reprocess.bag_clock import BagClock
+from agv_motion.reprocess.foreign.door import add, depends_on, watched
 from agv_motion.reprocess.recorded import module_of, node_class, parameters
 from agv_motion.reprocess.transcript import TOGETHER, Transcript
 from agv_motion.ros.config import find_config
@@ -44,6 +45,8 @@ class Plan(NamedTuple):
     compression: str
     namespace: str = '/'
     """of the nodes, such as ``/oak``"""
+    foreign: tuple[str, ...] = ()
+    """nodes of others, as ``package.module:Class``"""
 
     def names(self) -> dict[str, str]:
         """Return the remapping by full names."""
@@ -58,6 +61,10 @@ class Plan(NamedTuple):
     def modules(self) -> tuple[str, ...]:
         """Return the modules of the nodes."""
         return tuple(map(module_of, self.nodes))
+
+    def apart(self) -> bool:
+        """Return whether it needs a process of its own: what others do is looked after there."""
+        return bool(self.foreign)
 
     def lost(self, source: Path, reason: str) -> ReprocessOutcome:
         """Return the outcome of a bag whose worker died."""
@@ -116,13 +123,18 @@ def _run(
     source: Path, target: Path, plan: Plan, tell: Callable[[float], None] | None
 ) -> ReprocessOutcome:
     given = {name: parameters(plan.config, name, plan.namespace) for name in plan.nodes}
-    made_by = given, plan._replace(config=''), _contents(given)
+    made_by = (
+        given,
+        plan._replace(config=''),
+        _contents(given),
+        depends_on(plan.foreign, plan.config),
+    )
     digest = provenance.fingerprint(source, made_by)
     with BagReader(source) as bag:
         if provenance.is_made(target, digest):
             outcome = ReprocessOutcome(str(source), made_before=True)
         else:
-            with beside(target) as made:
+            with beside(target) as made, watched(plan.foreign):
                 outcome = _played(bag, made, plan, given, tell)
                 provenance.note(made, source, digest)
         return outcome._replace(problems=tuple(map(str, bag.problems)), lossy=bag.lossy)
@@ -141,9 +153,12 @@ def _played(
         clock = BagClock(bag)
         graph = InProcessGraph(transcript.record, clock.start)
         graph.recorded, graph.takes_rows = bag.topics, True
-        for name in wiring.nodes_for(plan.nodes, bag.topics, plan.namespace):
+        own = wiring.nodes_for(plan.nodes, bag.topics, plan.namespace) if plan.nodes else ()
+        for name in own:
             names = wiring.names_for(name, bag.topics, plan.namespace, plan.names())
             InProcessNode(graph, node_class(name), given[name], names, plan.namespace)
+        for target in plan.foreign:
+            add(graph, target, (plan.namespace, plan.names()), plan.config)
         drawn = Drawn(transcript, graph, bag, plan.namespace)
         graph.start()
         inputs, heard = graph.inputs(), 0

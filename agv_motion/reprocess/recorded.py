@@ -85,6 +85,20 @@ def parameters(config: str, node: str, namespace: str = '/') -> dict[str, Any]:
     return values
 
 
+def all_parameters(config: str, full_name: str) -> dict[str, Any]:
+    """Return all that a file gives to a node of somebody else, by dotted name.
+
+    Raises:
+        ConfigurationError: The file is missing or no YAML.
+
+    """
+    values: dict[str, Any] = {}
+    for key, given in sections(find_config(config)) if config else ():
+        if is_for(key, full_name):
+            values |= dict(_flat(given, ''))
+    return values
+
+
 def _dotted(kind: type[Any], prefix: str = '') -> Iterator[str]:
     """Yield the names of a node's parameters, those of groups dotted."""
     yield from (prefix + name for name, _, _ in rows(kind))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import heapq
 from collections import defaultdict, deque
+from itertools import count
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -34,6 +35,8 @@ class Hearer(Protocol):
     """of its node"""
     takes: type[Any] | None
     """of which rows it takes as they are; None: of none"""
+    hears_itself: bool
+    """whether it hears what its own node says, as on the middleware; else the recording of that"""
 
     def look_ahead(self, messages: list[bytes], stamps: list[int]) -> None:
         """Prepare what will be heard next."""
@@ -76,6 +79,9 @@ class InProcessGraph:
         self.publishers: dict[str, list[Sender]] = {}
         self._timers: list[tuple[int, int, int, Callable[[], None]]] = []
         """when each is due [ns], its number, its period [ns], and what it calls"""
+        self._orders = count()
+        self._dropped: set[int] = set()
+        """numbers of timers that are no more"""
         self._waiting: deque[tuple[Hearer, Any]] = deque()
         self._running = False
 
@@ -125,6 +131,10 @@ class InProcessGraph:
             self._pass_on()
         while timers and timers[0][0] <= stamp:
             due, order, period, callback = timers[0]
+            if order in self._dropped:
+                heapq.heappop(timers)
+                self._dropped.discard(order)
+                continue
             heapq.heapreplace(timers, (due + period, order, period, callback))
             self.now = due
             callback()
@@ -138,22 +148,27 @@ class InProcessGraph:
             for topic, listeners in self.listeners.items()
             if listeners
             and all(
-                publisher.port is listener.port
+                publisher.port is listener.port and not listener.hears_itself
                 for listener in listeners
                 for publisher in self.publishers.get(topic, ())
             )
         }
 
-    def add_timer(self, seconds: float, callback: Callable[[], None]) -> None:
-        """Call ``callback`` again and again, first after ``seconds`` from now."""
-        period = max(round(seconds * 1e9), 1)
-        heapq.heappush(self._timers, (self.now + period, len(self._timers), period, callback))
+    def add_timer(self, seconds: float, callback: Callable[[], None]) -> int:
+        """Call ``callback`` every ``seconds``, not at once; return the number of the timer."""
+        period, order = max(round(seconds * 1e9), 1), next(self._orders)
+        heapq.heappush(self._timers, (self.now + period, order, period, callback))
+        return order
+
+    def drop_timer(self, order: int) -> None:
+        """Call a timer no more."""
+        self._dropped.add(order)
 
     def publish(self, publisher: Sender, data: Any) -> None:
         """Record a message in bytes, or a row, and let the other nodes hear it."""
         self.record(publisher, self.now, data)
         for listener in self.listeners.get(publisher.topic, ()):
-            if listener.port is not publisher.port:
+            if listener.port is not publisher.port or listener.hears_itself:
                 self._waiting.append((listener, data))
 
     def note_complaint(self, text: str) -> None:

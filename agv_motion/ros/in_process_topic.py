@@ -99,6 +99,7 @@ class InProcessListener:
 
     takes: type[Rows] | None = None
     """of which rows it takes as they are; None: of none"""
+    hears_itself = False
 
     def __init__(
         self, port: Participant, kind: Any, topic: str, callback: Callable[..., None],

@@ -51,6 +51,9 @@ class Work(Protocol[Outcome_co]):
     def modules(self) -> Sequence[str]:
         """Return what `run` imports beside the module of its class."""
 
+    def apart(self) -> bool:
+        """Return whether it must not be done in this process."""
+
     def lost(self, source: Path, reason: str) -> Outcome_co:
         """Return what came of a bag whose worker died."""
 
@@ -82,10 +85,12 @@ def outcomes(
     """
     if scheduler:
         yield from _on_cluster(jobs, work, scheduler)
-    elif workers == 1 or len(jobs) == 1:
+    elif (workers == 1 or len(jobs) == 1) and not work.apart():
         for source, target in jobs:
             yield work.run(source, target, tell)
     else:
+        if work.apart():  # texts have the same order in a set then, whenever a worker is started
+            os.environ.setdefault('PYTHONHASHSEED', '0')
         yield from _in_processes(jobs, work, min(workers, len(jobs)))
 
 

@@ -7,7 +7,7 @@ import os
 import pytest
 
 from agv_motion.bag import notes as module
-from agv_motion.bag.notes import Note, add_note, carry, notes_of
+from agv_motion.bag.notes import Note, add_note, carry, notes_of, one_line
 from agv_motion.errors import ConfigurationError, SourceError
 
 
@@ -87,3 +87,9 @@ def test_notes_are_carried_with_their_time(tmp_path):
     assert [n.stamp for n in notes_of(tmp_path / 'new')] == [1, 5, 9]
     assert carry(bags, tmp_path / 'part', [(2, 6)]) == 1
     assert carry(bags, tmp_path / 'part', [(6, 9)]) == 0
+
+
+def test_what_somebody_wrote_becomes_one_line():
+    assert one_line(' rain\n\x1b[31m began ') == 'rain [31m began'
+    assert one_line('\n') == ''
+    assert len(one_line('x' * 5000)) == 1000

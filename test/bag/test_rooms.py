@@ -15,6 +15,8 @@ BAG = ROOT / 'agv_motion' / 'bag'
 FILES = sorted(path for path in BAG.rglob('*.py') if path.name != '__init__.py')
 ABOVE = ('editing', 'checks', 'recording', 'playback')
 """Rooms that use the reader and the writer, which use none of them."""
+ON_TOP = ('events', 'catalog')
+"""Rooms that use those, too, and which nobody uses."""
 
 
 def name_of(path):
@@ -42,7 +44,8 @@ def test_what_reads_and_writes_does_not_know_who_uses_it(path):
     mine = path.relative_to(BAG).parts[0]
     for module in imports(path):
         other = module.split('.')[2]
-        assert other not in ABOVE or other == mine, f'{path} imports {module}'
+        assert other not in ABOVE or other == mine or mine in ON_TOP, f'{path} imports {module}'
+        assert other not in ON_TOP or other == mine, f'{path} imports {module}'
         if mine in ('cdr', 'mcap', 'sqlite'):
             assert other not in ('reader', 'writer'), f'{path} imports {module}'
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -126,3 +127,31 @@ def test_a_place_that_takes_nothing_is_told(tmp_path):
         ):
             made.write_text('new')
     assert not list(tmp_path.iterdir())
+
+
+def test_the_disk_has_everything_before_it_takes_its_place(tmp_path, monkeypatch):
+    """Or a power cut could leave the new name with nothing behind it."""
+    order = []
+    sync, rename = os.fsync, Path.rename
+
+    def noted_sync(descriptor):
+        order.append(Path(f'/proc/self/fd/{descriptor}').readlink().name)
+        sync(descriptor)
+
+    def noted_rename(path, target):
+        order.append('renamed')
+        return rename(path, target)
+
+    monkeypatch.setattr(os, 'fsync', noted_sync)
+    monkeypatch.setattr(Path, 'rename', noted_rename)
+    with beside(tmp_path / 'bag') as made:
+        (made / 'inner').mkdir(parents=True)
+        (made / 'a').write_text('a')
+        (made / 'inner' / 'b').write_text('b')
+    assert order.index('renamed') == len(order) - 2
+    assert set(order[:-2]) == {'a', 'b', 'inner', 'bag'}
+    assert order[-1] == tmp_path.name
+    order.clear()
+    with replacing(tmp_path / 'note') as made:
+        made.write_text('x')
+    assert order == ['note', tmp_path.name]

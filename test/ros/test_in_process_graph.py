@@ -16,6 +16,8 @@ class Ear:
 
     takes = None
 
+    hears_itself = False
+
     def __init__(self, graph, log, answer=None):
         self.port, self._graph, self._log = self, graph, log
         self._answer = SimpleNamespace(topic=answer, port=self) if answer else None
@@ -118,3 +120,14 @@ def test_complaints_are_counted_and_their_number_is_limited(graph):
     graph.note_complaint('0')
     assert len(graph.complaints) == MOST_COMPLAINTS
     assert graph.complaints['0'] == 2
+
+
+def test_a_timer_that_is_dropped_is_called_no_more():
+    graph, calls = InProcessGraph(lambda *_: None, 0), []
+    first = graph.add_timer(1.0, lambda: calls.append('first'))
+    graph.add_timer(1.0, lambda: calls.append('second'))
+    graph.run(1_000_000_000)
+    graph.drop_timer(first)
+    graph.add_timer(0.5, lambda: calls.append('third'))
+    graph.run(2_000_000_000)
+    assert calls == ['first', 'second', 'third', 'second', 'third']

@@ -10,18 +10,20 @@ Seconds count from the first message of the bag, so those of several topics fit 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from agv_motion.bag.columns import tables
 from agv_motion.bag.columns.column import Column, Ragged, Texts
+from agv_motion.bag.columns.message_batches import joined
 from agv_motion.bag.columns.topic_decoder import TopicDecoder
 from agv_motion.bag.request import listed, span_of, whole
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from typing import TypeGuard
 
     from numpy.typing import NDArray
@@ -30,7 +32,7 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.cdr.layout import Leaf
     from agv_motion.bag.columns.batch import Batch
-    from agv_motion.bag.connection import Connection
+    from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.reader import BagReader
     from agv_motion.bag.storage import Storage
 
@@ -160,6 +162,22 @@ def read_topics(
         if chosen:
             _read_file(bag, file, chosen, *span)
     return {topic: _columns(decoder, bag.start) for topic, decoder in decoders.items()}
+
+
+def columns_of(
+    connection: Connection, fields: Iterable[str] | None, messages: Sequence[Message]
+) -> Columns:
+    """Return the columns of messages that are in memory, in the order of their log time.
+
+    Raises:
+        ConfigurationError: The type cannot be understood, or a field is not there.
+        DamagedBagError: A message is not of its type.
+
+    """
+    decoder = TopicDecoder(connection, fields, len(messages), sum(len(m.data) for m in messages))
+    if messages:
+        decoder.put(joined(0, messages, Path(connection.topic)))
+    return _columns(decoder, messages[0].stamp if messages else 0)
 
 
 def _decoder(

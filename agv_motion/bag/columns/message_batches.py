@@ -13,7 +13,7 @@ from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap.chunk_content import LARGEST
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Iterator, Sequence
     from pathlib import Path
 
     from agv_motion.bag.connection import Message
@@ -65,17 +65,26 @@ def unpack_message(message: Message, path: Path) -> Message:
 
 def _joined(waiting: dict[int, list[Message]], path: Path) -> Iterator[Batch]:
     for channel, messages in waiting.items():
-        if not messages:
-            continue
-        short = next((m for m in messages if len(m.data) < ENCAPSULATION), None)
-        if short:
-            finding = f'a message on {short.connection.topic} with {len(short.data)} bytes'
-            raise DamagedBagError(path, 0, finding)
-        data = b''.join(message.data for message in messages)
-        sizes = np.array([len(message.data) for message in messages], np.int64)
-        starts = np.cumsum(sizes) - sizes
-        forms = np.ndarray((len(data) - 1,), '>u2', data, strides=(1,))[starts]
-        stamps = np.array([m.stamp & _ALL for m in messages], np.uint64).view(np.int64)
-        contents = starts + ENCAPSULATION, sizes - ENCAPSULATION
-        yield Batch(channel, data, *contents, forms, stamps, path, [(0, 0)])
-        messages.clear()
+        if messages:
+            yield joined(channel, messages, path)
+            messages.clear()
+
+
+def joined(channel: int, messages: Sequence[Message], path: Path) -> Batch:
+    """Return messages of one channel as a batch; ``path`` is where they come from.
+
+    Raises:
+        DamagedBagError: One is too short for CDR.
+
+    """
+    short = next((m for m in messages if len(m.data) < ENCAPSULATION), None)
+    if short:
+        finding = f'a message on {short.connection.topic} with {len(short.data)} bytes'
+        raise DamagedBagError(path, 0, finding)
+    data = b''.join(message.data for message in messages)
+    sizes = np.array([len(message.data) for message in messages], np.int64)
+    starts = np.cumsum(sizes) - sizes
+    forms = np.ndarray((len(data) - 1,), '>u2', data, strides=(1,))[starts]
+    stamps = np.array([m.stamp & _ALL for m in messages], np.uint64).view(np.int64)
+    contents = starts + ENCAPSULATION, sizes - ENCAPSULATION
+    return Batch(channel, data, *contents, forms, stamps, path, [(0, 0)])

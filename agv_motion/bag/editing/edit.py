@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.bag.mcap.output import NewChunk
+    from agv_motion.bag.mcap.records import Metadata
     from agv_motion.bag.reader import BagReader
 
     Span = tuple[int, int]
@@ -59,6 +60,8 @@ class Edit:
     """[ns] each goes into a file of its own"""
     file_size: int = 0
     """[bytes] after which a new file begins; 0: never"""
+    record: Metadata | None = None
+    """named strings that the new bag has besides"""
 
 
 def edit(
@@ -86,7 +89,7 @@ def edit(
     sources = [source for bag in bags for source in _sources(bag, what, channels)]
     new = NewBag(folder, channels, _profile(bags))
     try:
-        for extra in extras(bags):
+        for extra in (*extras(bags), *([what.record] if what.record else [])):
             new.keep(extra)
         work = _Work(new, fill_of(sources, what), what.file_size)
         total = sum(os.path.getsize(source.file.path) for source in sources) or 1  # noqa: PTH202

@@ -16,9 +16,11 @@ _CLOCK = re.compile(
     r'(?:(\d{4})-(\d\d)-(\d\d)[T ])?(\d\d):(\d\d)(?::(\d\d(?:\.\d{1,9})?))?'
     r'\s*(Z|UTC|[+-]\d\d:?\d\d)?'
 )
+_DATE = re.compile(r'(\d{4})-(\d\d)(?:-(\d\d))?')
 FORMS = (
     '90 (seconds after the start of the bag), -10 (before its end), 14:32 or 14:32:05.5 (UTC, as '
-    'agv bag info prints it, else 14:32+02:00), 2024-05-03T14:32, @1714747920.5 (since 1970)'
+    'agv bag info prints it, else 14:32+02:00), 2024-05-03, 2024-05-03T14:32, @1714747920.5 '
+    '(since 1970)'
 )
 """What may be given."""
 
@@ -41,6 +43,8 @@ def moment(text: str, start: int, end: int) -> int:
         return max(end - distance if found[1] == '-' else start + distance, 0)
     if found := _ABSOLUTE.fullmatch(words):
         return _nanoseconds(found[1])
+    if found := _DATE.fullmatch(words):
+        words = f'{found[1]}-{found[2]}-{found[3] or "01"}T00:00'
     if found := _CLOCK.fullmatch(words):
         try:
             return _clock(found, start, end)

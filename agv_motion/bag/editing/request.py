@@ -6,7 +6,8 @@ import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.editing.around import condition, happenings, windows
+from agv_motion.bag.columns.condition import condition
+from agv_motion.bag.editing.around import happenings, windows
 from agv_motion.bag.editing.edit import EVERYTHING, Edit, edit
 from agv_motion.bag.editing.moments import moment
 from agv_motion.bag.editing.to_sqlite import edit_to_sqlite
@@ -40,7 +41,7 @@ class EditRequest:
     end: str = ''
     """moment before which to stop; empty: never"""
     around: str = ''
-    """a condition as of `agv_motion.bag.editing.around`; empty: none"""
+    """a condition as of `agv_motion.bag.columns.condition`; empty: none"""
     before: float = 0.0
     """[s] from before it was met"""
     after: float = 0.0
@@ -71,6 +72,10 @@ class EditRequest:
     def modules(self) -> tuple[str, ...]:
         """Return nothing: all that an edit needs is imported with this module."""
         return ()
+
+    def apart(self) -> bool:
+        """Return that it may be done in any process."""
+        return False
 
     def lost(self, source: Path, reason: str) -> EditOutcome:
         """Return the outcome of a bag whose worker died."""

@@ -15,19 +15,21 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.connection import Message
     from agv_motion.bag.playback.playback_parameters import PlaybackParameters
+    from agv_motion.bag.playback.several_bags import SeveralBags
     from agv_motion.bag.quality_of_service import OfferedQos
     from agv_motion.bag.reader import BagReader
 
+    Played = BagReader | SeveralBags
 
 NO_OFFERS: dict[str, OfferedQos] = {}
 
 
 class PlaybackExcerpt:
-    """Chosen topics of a bag between two times."""
+    """Chosen topics of a bag, or of several, between two times."""
 
     def __init__(
         self,
-        bag: BagReader,
+        bag: Played,
         given: PlaybackParameters,
         offers: Mapping[str, OfferedQos] = NO_OFFERS,
     ) -> None:
@@ -51,11 +53,16 @@ class PlaybackExcerpt:
         self.bag = bag
         self.begin = bag.start + round(given.start_offset * 1e9)
         self.end = _end(bag, given, self.begin)
+        self._leaps = [after for _, after in bag.gaps()] if given.skip_gaps else []
         self._latched = {topic: kept(_profiles(bag, offers, topic)) for topic in self.topics}
 
     def messages(self, start: int) -> Iterator[Message]:
         """Yield the messages from a time [ns] to the end."""
         return self.bag.messages(self.topics, start=start, stop=self.end + 1)
+
+    def gaps_after(self, start: int) -> deque[int]:
+        """Return the times [ns] after ``start`` to which is leapt from a gap between bags."""
+        return deque(after for after in self._leaps if after > start)
 
     def latched_before(self, start: int) -> Iterator[Message]:
         """Yield what latched topics told before ``start``, as a late listener would get it."""
@@ -82,9 +89,7 @@ class PlaybackExcerpt:
             raise ConfigurationError(msg)
 
 
-def _profiles(
-    bag: BagReader, offers: Mapping[str, OfferedQos], topic: str
-) -> tuple[OfferedQos, ...]:
+def _profiles(bag: Played, offers: Mapping[str, OfferedQos], topic: str) -> tuple[OfferedQos, ...]:
     """Return the quality of service with which a topic is played."""
     if topic in offers:
         return (offers[topic],)
@@ -100,7 +105,7 @@ def _last_instant(seconds: float) -> int:
     return int((Fraction(seconds) + Fraction(nextafter(seconds, inf))) / 2 * 1_000_000_000)
 
 
-def _end(bag: BagReader, given: PlaybackParameters, begin: int) -> int:
+def _end(bag: Played, given: PlaybackParameters, begin: int) -> int:
     """Return the log time [ns] of the last message to play."""
     end = bag.end
     if given.playback_duration >= 0.0:

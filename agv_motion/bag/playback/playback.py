@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 
     from agv_motion.bag.connection import Message
     from agv_motion.bag.playback.delay_histogram import DelayHistogram
+    from agv_motion.bag.playback.several_bags import SeveralBags
     from agv_motion.bag.quality_of_service import OfferedQos
     from agv_motion.bag.reader import BagReader
 
 
 class Playback:
-    """Sends the messages of one bag; pause, seek, rate and the rest may come from any thread."""
+    """Sends the messages of a bag or several; pause, seek, rate: from any thread."""
 
     def __init__(
         self,
-        bag: BagReader,
+        bag: BagReader | SeveralBags,
         given: PlaybackParameters,
         send: Callable[[Message], None],
         offers: Mapping[str, OfferedQos] = NO_OFFERS,
@@ -147,7 +148,10 @@ class Playback:
         for message in excerpt.latched_before(start):
             self._send(message)
         transport.be_at(start)
+        gaps = excerpt.gaps_after(start)
         for message in excerpt.messages(start):
+            while gaps and message.stamp >= gaps[0]:
+                transport.be_at(gaps.popleft())
             if not transport.wait_until_due(message.stamp):
                 return False
             self._send(message)

@@ -28,6 +28,9 @@ class PlaybackParameters:
     playback_until_nsec: Annotated[
         int, Spec('the same, exact, instead of playback_until; negative: not', 'ns')
     ] = -1
+    skip_gaps: Annotated[
+        bool, Spec('go on at once where nothing was recorded between two bags')
+    ] = False
     delay: Annotated[float, Spec('wait before the first message', 's', (0.0, 1e6))] = 0.0
     start_paused: Annotated[bool, Spec('wait for ~/resume')] = False
     topics: Annotated[tuple[str, ...], Spec('play only these')] = ()

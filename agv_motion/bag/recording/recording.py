@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from agv_motion.bag.metadata import FileSummary
     from agv_motion.bag.quality_of_service import OfferedQos
     from agv_motion.bag.recording.storage_parameters import StorageParameters
 
@@ -98,6 +99,10 @@ class Recording:
         self.path = path
         self.failure = ''
         """why the recording ended by itself; empty while it goes on"""
+        self.needed_from: float = inf
+        """[ns] log time; a file that reaches beyond it stays, whatever ``keep_files`` says"""
+        self.only_needed = False
+        """whether the others go when a new file begins"""
         self._given = given
         self._writer = BagWriter(path, compression=given.compression)
         self._queue: deque[QueuedMessage] = deque()
@@ -159,10 +164,11 @@ class Recording:
                 topic.gaps.interrupt()
 
     def split(self) -> None:
-        """Go on in a new file."""
+        """Go on in a new file, unless the recording is closed."""
         with self._lock:
-            self._try(self._drain)
-            self._try(self._split)
+            if not self._writer.closed:
+                self._try(self._drain)
+                self._try(self._split)
 
     def close(self) -> list[TopicReport]:
         """Write what was handed over, finish the bag, and tell what became of each topic."""
@@ -177,6 +183,11 @@ class Recording:
             self._topics[message.topic - 1].dropped += 1
         kept, deleted = self._writer.counts, self._writer.deleted
         return [_report(*each) for each in zip(self._topics, kept, deleted, strict=True)]
+
+    def finished_files(self) -> list[FileSummary]:
+        """Return the files that are whole."""
+        with self._lock:
+            return self._writer.finished_files
 
     @property
     def messages(self) -> int:
@@ -268,8 +279,10 @@ class Recording:
         self._writer.flush(sync=self._given.sync)
         self._writer.split()
         self._split_at = inf
-        while 0 < self._given.keep_files < self._writer.finished_files:
-            self._writer.drop_oldest()
+        keep = 0 if self.only_needed else self._given.keep_files or inf
+        while (files := self._writer.finished_files) and keep < len(files):
+            if files[0].end >= self.needed_from or not self._writer.drop_oldest():
+                break
         for topic in self._topics:
             for handle, _, data, sent, sequence in topic.latest:
                 number = sequence & 0xFFFFFFFF

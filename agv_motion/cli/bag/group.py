@@ -29,6 +29,9 @@ app = typer.Typer(
             'note': 'bag.note:note',
             'list': 'bag.content:contents',
             'du': 'bag.content:du',
+            'index': 'bag.catalog:index',
+            'find': 'bag.catalog:find',
+            'stats': 'bag.catalog:stats',
         }
     ),
     no_args_is_help=True,

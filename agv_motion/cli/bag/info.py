@@ -11,6 +11,7 @@ from agv_motion.cli.bag.options import Bag, moment, opened
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from agv_motion.bag.events.event import Event
     from agv_motion.bag.reader import BagReader
 
 _UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
@@ -41,6 +42,7 @@ def info(
 
 def _head(bag: BagReader) -> None:
     from agv_motion.bag.completeness import completeness, together
+    from agv_motion.bag.events.event import events_of
 
     files = [file.path for file in bag.files]
     length = (bag.end - bag.start) * 1e-9
@@ -56,8 +58,17 @@ def _head(bag: BagReader) -> None:
     told = completeness(bag)
     if told:
         rows['Recording'] = str(together(told))
+    if events := events_of(bag):
+        rows['Event'] = '\n                   '.join(map(_told, events))
     for title, text in rows.items():
         typer.echo(f'{title + ":":<19}{text}')
+
+
+def _told(event: Event) -> str:
+    others = len(event.moments) + event.more - 1
+    more = f' and {others} more' if others else ''
+    short = f'; cut short: {event.cut_short}' if event.cut_short else ''
+    return f'{event.first.reason}{more}, {moment(event.first.stamp)}{short}'
 
 
 def _topics(bag: BagReader, *, verbose: bool) -> None:

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
 
+from agv_motion.cli.recording.event_options import (
+    After,
+    Before,
+    Events,
+    OnlyEvents,
+    Trigger,
+    event_parameters,
+)
 from agv_motion.cli.recording.storage_options import (
     Compression,
     KeepFiles,
@@ -16,12 +23,16 @@ from agv_motion.cli.recording.storage_options import (
     MaxBagDuration,
     MaxBagSize,
     MaxCacheSize,
+    Output,
+    StartPaused,
     Sync,
     WhenFull,
 )
 from agv_motion.cli.recording.topic_options import (
     ExcludeRegex,
     ExcludeTopics,
+    HiddenTopics,
+    PollingInterval,
     Regex,
     Topics,
     chosen_topics,
@@ -44,12 +55,8 @@ def record(
     regex: Regex = '',
     exclude_topics: ExcludeTopics = None,
     exclude_regex: ExcludeRegex = '',
-    include_hidden_topics: Annotated[
-        bool, typer.Option('--include-hidden-topics', help='Hidden topics as well.')
-    ] = False,
-    output: Annotated[
-        Path | None, typer.Option('-o', '--output', help='Folder of the bag; must not exist.')
-    ] = None,
+    include_hidden_topics: HiddenTopics = False,
+    output: Output = None,
     compression: Compression = 'zstd',
     max_bag_size: MaxBagSize = 0,
     max_bag_duration: MaxBagDuration = 0,
@@ -58,12 +65,13 @@ def record(
     when_full: WhenFull = 'stop',
     max_cache_size: MaxCacheSize = 256e6,
     sync: Sync = True,
-    polling_interval: Annotated[
-        float, typer.Option('-p', '--polling-interval', help='Milliseconds between looks.')
-    ] = 100.0,
-    start_paused: Annotated[
-        bool, typer.Option('--start-paused', help='Wait for the service ~/resume.')
-    ] = False,
+    trigger: Trigger = None,
+    before: Before = 120.0,
+    after: After = 60.0,
+    events: Events = None,
+    only_events: OnlyEvents = False,
+    polling_interval: PollingInterval = 100.0,
+    start_paused: StartPaused = False,
     use_sim_time: Annotated[
         bool, typer.Option('--use-sim-time', help='Stamp with /clock.')
     ] = False,
@@ -71,18 +79,21 @@ def record(
 ) -> None:
     """Record topics into a bag (MCAP) until Ctrl-C, then tell what was lost.
 
-    A crash or a power cut loses at most the last second; agv bag recover mends the file.
+    A crash or a power cut loses at most the last second; agv bag recover mends the file. The time
+    around an event (--trigger, or ~/mark of the node) becomes a small bag of its own.
 
     Examples:
     agv record -a
     agv record /cmd_vel /turrets/state -o walk
     agv record -a -d 3600 --keep-files 24     (the last day, by the hour)
+    agv record -a --only-events --trigger '/state ~ stopped'     (a black box)
     """
     given = {
         'output': str(output or ''),
         'all': all_topics,
         'include_hidden_topics': include_hidden_topics,
         'start_paused': start_paused,
+        **event_parameters(trigger, before, after, events, only_events=only_events),
         'polling_interval': polling_interval / 1e3,
         'use_sim_time': use_sim_time,
         'storage__compression': compression,
@@ -141,6 +152,8 @@ def _record(given: dict[str, Any], duration: float) -> None:
     finally:
         rclpy.try_shutdown()
     _tell(console, recorder.report)
+    for path in recorder.events.saved:
+        typer.echo(f'Event: {path}')
     if recorder.failure:
         typer.echo(f'error: {recorder.failure}', err=True)
         raise typer.Exit(1)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.progress import BarColumn, Progress, TextColumn
 
 from agv_motion.cli.bag.options import Duration, StartOffset
 from agv_motion.cli.recording.keys import keyboard
@@ -27,12 +28,22 @@ if TYPE_CHECKING:
 LATEST = 2**63 - 1
 """[ns]"""
 
+StartPaused = Annotated[
+    bool, typer.Option('-p', '--start-paused', help='Wait for the space bar or ~/resume.')
+]
+SkipGaps = Annotated[
+    bool, typer.Option('--skip-gaps', help='Go on at once where no bag was recorded.')
+]
+NoKeys = Annotated[bool, typer.Option('--disable-keyboard-controls', help='Leave the keys alone.')]
+WaitForAcks = Annotated[
+    float, typer.Option(help='Milliseconds to wait for listeners at the end; negative: not.')
+]
 RATE_STEP = 1.1
 """by which an arrow changes the rate"""
 
 
 def replay(
-    bag: Annotated[Path, typer.Argument(help='Folder or file of the bag.')],
+    bag: Annotated[list[Path], typer.Argument(help='Folders or files, played by one clock.')],
     *,
     rate: Annotated[float, typer.Option('-r', '--rate', help='Times as fast as it was.')] = 1.0,
     loop: Annotated[bool, typer.Option('-l', '--loop', help='Begin again at the end.')] = False,
@@ -53,31 +64,29 @@ def replay(
         float, typer.Option(help='Publish the time of the bag on /clock so often [Hz]; 0: not.')
     ] = 0.0,
     delay: Annotated[float, typer.Option('-d', '--delay', help='Seconds to wait first.')] = 0.0,
-    start_paused: Annotated[
-        bool, typer.Option('-p', '--start-paused', help='Wait for the space bar or ~/resume.')
-    ] = False,
+    start_paused: StartPaused = False,
+    skip_gaps: SkipGaps = False,
     qos_profile_overrides_path: Annotated[
         Path | None, typer.Option(help='YAML file: topic, then reliability, durability, depth.')
     ] = None,
-    wait_for_all_acked: Annotated[
-        float, typer.Option(help='Milliseconds to wait for listeners at the end; negative: not.')
-    ] = -1.0,
-    disable_keyboard_controls: Annotated[
-        bool, typer.Option('--disable-keyboard-controls', help='Leave the keys alone.')
-    ] = False,
+    wait_for_all_acked: WaitForAcks = -1.0,
+    disable_keyboard_controls: NoKeys = False,
 ) -> None:
-    """Play a bag to the graph, each message at its time, and tell how late they were.
+    """Play bags to the graph, each message at its time, and tell how late they were.
 
+    Several are played by one clock, those that overlap together, and with the pauses between them.
     Keys: space to pause and go on, right for the next message, up and down for the rate, left for
     ten seconds back, q to end. Examples:
     agv replay demo_output/bag
     agv replay demo_output/bag -r 10 --clock 40 --start-offset 600 --topics /fix
     agv replay walk -l -m /cmd_vel:=/old/cmd_vel
+    agv replay monday tuesday --skip-gaps
     """
     if playback_until_nsec < 0:
         playback_until_nsec = _exact(playback_until_sec)
     given: dict[str, Any] = {
-        'bag': str(bag),
+        'bag': str(bag[0]),
+        'skip_gaps': skip_gaps,
         'rate': rate,
         'loop': loop,
         'start_offset': start_offset,
@@ -90,6 +99,7 @@ def replay(
         'wait_for_all_acked': wait_for_all_acked / 1e3 if wait_for_all_acked >= 0 else -1.0,
     }
     given |= chosen_topics(topics, regex, exclude_topics, exclude_regex)
+    given |= {'bags': [str(path) for path in bag[1:]]} if bag[1:] else {}
     _replay(given, remap or [], keys=not disable_keyboard_controls)
 
 
@@ -127,13 +137,18 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
         )
         start(node)
         player = node.plain
-        with console.status('') as status, keyboard(enabled=keys) as pressed:
+        bar = Progress(
+            BarColumn(), TextColumn('{task.description}'), console=console, transient=True
+        )
+        task = bar.add_task('', total=player.playing.excerpt.end - player.playing.excerpt.begin)
+        with bar, keyboard(enabled=keys) as pressed:
 
             def finished() -> bool:
                 for key in pressed():
                     stop.requested |= key == 'q'
                     _obey(player, key)
-                status.update(_progress(player))
+                done = player.playing.position() - player.playing.excerpt.begin
+                bar.update(task, description=_progress(player), completed=done)
                 return stop.requested or player.playing.finished.is_set()
 
             spin([node], finished)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from agv_motion.reprocess.one_bag import Plan, ReprocessOutcome
 
 NODES = ('granier_probe', 'motion_generator', 'arbiter', 'wheel_kinematics')
+DEFAULT = ','.join(NODES)
+CONFIG = 'tree.yaml'
+"""of nodes of this package, if none is given"""
 
 
 def reprocess(
@@ -26,11 +30,14 @@ def reprocess(
     ],
     *,
     config: Annotated[
-        str, typer.Option('-c', '--config', help='Parameter file: a path, or one of config/.')
-    ] = 'tree.yaml',
+        str | None, typer.Option('-c', '--config', help='Parameters: a path, or one of config/.')
+    ] = None,
     nodes: Annotated[
-        str, typer.Option('-n', '--nodes', help='Which nodes, separated by commas.')
-    ] = ','.join(NODES),
+        str, typer.Option('-n', '--nodes', help=f'By commas; else, without --node, {DEFAULT}.')
+    ] = '',
+    node: Annotated[
+        list[str] | None, typer.Option(help='Any node of yours: package.module:Class; repeatable.')
+    ] = None,
     namespace: Annotated[
         str, typer.Option('--namespace', help='Of the robot, such as oak for /oak/cmd_vel.')
     ] = '',
@@ -52,7 +59,10 @@ def reprocess(
     agv bag diff before after
     agv reprocess recordings/2015 results/2015 --workers 8
     agv reprocess walk again --nodes wheel_kinematics
-    agv reprocess walk again --nodes arbiter
+    agv reprocess walk tracked --node my_robot.tracker:Tracker --config tracker.yaml
+
+    A node of yours must keep to publishers, subscriptions, timers and parameters; what would not be
+    the same again (services, threads, the clock on the wall, spinning) is refused, with its line.
 
     The arbiter is left out of what was recorded without one. Where there was one, what
     motion_generator says goes to cmd_vel/agent as it did then, that of ghost_trajectory to
@@ -62,18 +72,38 @@ def reprocess(
     if not sources:
         msg = f'give at least one bag and where to write: agv reprocess {target} RESULT'
         raise ConfigurationError(msg)
-    chosen = tuple(name.strip() for name in nodes.split(',') if name.strip())
-    if not chosen:
-        msg = f'--nodes {nodes!r}: give at least one node; the default is {",".join(NODES)}'
-        raise ConfigurationError(msg)
+    foreign = tuple(node or ())
+    chosen = _chosen(nodes, foreign)
     pairs = tuple(_pair(one) for one in remap or ())
-    plan = _plan(config, chosen, pairs, compression, '/' + namespace.strip('/'))
+    file = (CONFIG if chosen else '') if config is None else config
+    plan = _plan(file, chosen, pairs, compression, '/' + namespace.strip('/'))
+    plan = plan._replace(foreign=foreign)
     found = sorted(
         outcomes_under_bar('Reprocessing', jobs(sources, target), plan, workers, scheduler)
     )
     _tell(found)
     if any(one.failure or one.lossy for one in found):
         raise typer.Exit(1)
+
+
+def _chosen(nodes: str, foreign: tuple[str, ...]) -> tuple[str, ...]:
+    """Return which nodes of this package to run, once those of others are known to be there.
+
+    Raises:
+        ConfigurationError: There is none at all.
+
+    """
+    if foreign:
+        from agv_motion.reprocess.foreign.source import files_of
+
+        sys.path.append(str(Path.cwd()))
+        for target in foreign:
+            files_of(target)
+    chosen = tuple(name.strip() for name in nodes.split(',') if name.strip())
+    if nodes and not chosen:
+        msg = f'--nodes {nodes!r}: give at least one node; the default is {DEFAULT}'
+        raise ConfigurationError(msg)
+    return chosen or (() if foreign else NODES)
 
 
 def _plan(

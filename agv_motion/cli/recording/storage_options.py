@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+Output = Annotated[
+    Path | None, typer.Option('-o', '--output', help='Folder of the bag; must not exist.')
+]
+StartPaused = Annotated[bool, typer.Option('--start-paused', help='Wait for the service ~/resume.')]
 Compression = Annotated[str, typer.Option(help='zstd, lz4 or none.')]
 MaxBagSize = Annotated[
     float, typer.Option('-b', '--max-bag-size', help='Bytes before a new file; 0: never.')

@@ -16,6 +16,12 @@ ExcludeTopics = Annotated[list[str] | None, typer.Option(help='Never this; one p
 ExcludeRegex = Annotated[
     str, typer.Option('-x', '--exclude-regex', help='Never topics in whose name this is found.')
 ]
+HiddenTopics = Annotated[
+    bool, typer.Option('--include-hidden-topics', help='Hidden topics as well.')
+]
+PollingInterval = Annotated[
+    float, typer.Option('-p', '--polling-interval', help='Milliseconds between looks.')
+]
 
 
 def chosen_topics(

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.bag import BagReader, BagWriter
-from agv_motion.bag.editing.around import condition, happenings, windows
+from agv_motion.bag.columns.condition import condition
+from agv_motion.bag.editing.around import happenings, windows
 from agv_motion.errors import ConfigurationError
 
 SECOND = 10**9
@@ -61,8 +62,9 @@ def test_conditions(bag, text, events, times):
 
 @pytest.mark.parametrize(('text', 'words'), [
     ('/residual', 'is no condition'), ('> 5', 'is no condition'), ('/residual > ', 'is no cond'),
-    ('/gone > 5', 'is in no topic'), ('/residual > much', 'has no texts'),
-    ('/residual > nan', 'has no texts'), ('/state > a', 'texts are compared by'),
+    ('/gone > 5', 'is in no topic'), ('/residual > much', 'takes a finite number'),
+    ('/residual > nan', 'takes a finite number'), ('/residual <= -inf', 'takes a finite number'),
+    ('/residual == much', 'has no texts'), ('/state > a', 'texts are compared by'),
     ('/joints > 5', r'has 3 numbers \(position, limits, stuck\)'),
     ('/joints/limits[2] > 5', 'array of 2'), ('/residual[0] > 5', 'no array'),
     ('/joints/speed > 5', 'speed'), ('/residual ~ 5', 'no texts'),

@@ -1,0 +1,1 @@
+"""Anybody's node of rclpy over a recording: without middleware, the same to the bit, or refused."""
