@@ -134,19 +134,22 @@ class GoalRunner:
         self._find, self._clock = find, clock
         self._robot: Mover | None = None
         self._turn = threading.Lock()
-        self.newest: object = None
-        """stands for the goal that came last"""
+        self._newest: object = None
+        """ticket of the goal that came last"""
         self._closed = False
 
-    def run(self, goal: ActionGoal) -> GoalEnd:
-        """Carry a goal out, or tell why not; returns when it is over."""
-        ticket = object()
-        self.newest = ticket
+    def admit(self) -> object:
+        """Return the ticket of a goal that comes now: those before it give way to it."""
+        self._newest = ticket = object()
+        return ticket
+
+    def run(self, goal: ActionGoal, ticket: object) -> GoalEnd:
+        """Carry out the goal with this ticket, or tell why not; returns when it is over."""
         while not self._turn.acquire(timeout=PERIOD):
-            if self.newest is not ticket:
+            if self._newest is not ticket:
                 return _aborted(REPLACED)
         try:
-            if self._closed or self.newest is not ticket:
+            if self._closed or self._newest is not ticket:
                 return _aborted(CLOSED if self._closed else REPLACED)
             began = self._clock()
             end = self._begin(goal) or self._watch(goal, ticket, began)
@@ -196,7 +199,7 @@ class GoalRunner:
                 return _aborted(CLOSED)
             if goal.is_cancel_requested():
                 return self._cancelled(robot)
-            if self.newest is not ticket:
+            if self._newest is not ticket:
                 return _aborted(REPLACED)
             if 0.0 < goal.allowance < seconds:
                 self._leave(robot)

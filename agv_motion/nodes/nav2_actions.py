@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import rclpy
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
-from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
@@ -153,10 +153,10 @@ class GoalServer:
             domain: ROS domain.
 
         """
-        self.goals = 0
-        """that are not over"""
+        self._taken: dict[Any, object] = {}
+        """ticket of each goal that is not over, by its handle"""
         self._robot: Any = None
-        self._find, self._lock = find, threading.Lock()
+        self._find = find
         self._runner = GoalRunner(self._found)
         self._context = rclpy.Context()
         rclpy.init(
@@ -167,12 +167,13 @@ class GoalServer:
             '_nav2_action_server', namespace=namespace, context=self._context,
             start_parameter_services=False,
         )  # fmt: skip
-        group = ReentrantCallbackGroup()
+        group = MutuallyExclusiveCallbackGroup()  # goals are taken one by one, as they came
         self._servers = [
             ActionServer(
                 self._node, classes[action.name], action.name,
                 partial(self._execute, action, classes[action.name]), callback_group=group,
-                goal_callback=self._admit, cancel_callback=lambda _: CancelResponse.ACCEPT,
+                goal_callback=self._admit, handle_accepted_callback=self._accepted,
+                cancel_callback=lambda _: CancelResponse.ACCEPT,
             )
             for action in ACTIONS
         ]  # fmt: skip
@@ -181,6 +182,11 @@ class GoalServer:
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._spin, name='nav2_actions', daemon=True)
         self._thread.start()
+
+    @property
+    def goals(self) -> int:
+        """That are not over."""
+        return len(self._taken)
 
     def close(self) -> None:
         """Abort the goal that is under way, and leave the graph."""
@@ -205,18 +211,19 @@ class GoalServer:
 
     def _admit(self, _: Any) -> GoalResponse:
         """Take a goal, unless too many wait for the newest to take their place."""
-        with self._lock:
-            if self._ended.is_set() or self.goals >= MOST_GOALS:
-                return GoalResponse.REJECT
-            self.goals += 1
-            return GoalResponse.ACCEPT
+        full = self._ended.is_set() or self.goals >= MOST_GOALS
+        return GoalResponse.REJECT if full else GoalResponse.ACCEPT
+
+    def _accepted(self, handle: Any) -> None:
+        """Make it the newest at once: threads may begin what they execute in another order."""
+        self._taken[handle] = self._runner.admit()
+        handle.execute()
 
     def _execute(self, action: Nav2Action, kind: Any, handle: Any) -> Any:
         try:
-            end = self._runner.run(ServedGoal(action, handle, kind.Feedback()))
+            end = self._runner.run(ServedGoal(action, handle, kind.Feedback()), self._taken[handle])
         finally:
-            with self._lock:
-                self.goals -= 1
+            del self._taken[handle]
         self._node.get_logger().info(f'{action.name}: {end.ending.value}: {end.reason}')
         _finish(handle, end.ending)
         return _result(kind.Result(), action, end)

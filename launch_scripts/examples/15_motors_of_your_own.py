@@ -1,5 +1,4 @@
-"""Your own motors: do `turrets/command`, tell `turrets/state`, stand when nobody commands."""
-# Put your motor controllers where `here` stands, and give them the same time-out.
+"""Your own motors: your controllers go where `here` stands, and stand when nobody commands."""
 
 from time import monotonic
 
@@ -7,7 +6,7 @@ import rclpy
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
 
-TIMEOUT, PERIOD, NONE = 0.5, 0.05, [0.0] * 3  # [s], [s], for three turrets
+TIMEOUT, PERIOD = 0.5, 0.05  # [s]
 angles = {f'turret_{i}_steering': 0.0 for i in range(3)}  # [rad]
 rates = {f'turret_{i}_wheel': 0.0 for i in range(3)}  # [rad/s]
 turned = dict.fromkeys(rates, 0.0)  # [rad] by each wheel since the start
@@ -28,7 +27,7 @@ def tell():
         rates.update(dict.fromkeys(rates, 0.0))  # here
     turned.update({n: turned[n] + PERIOD * rate for n, rate in rates.items()})  # here
     state = JointState(name=[*angles, *rates], position=[*angles.values(), *turned.values()])
-    state.velocity = [*NONE, *rates.values()]
+    state.velocity = [0.0] * 3 + [*rates.values()]
     state.header.stamp = node.get_clock().now().to_msg()
     publisher.publish(state)
 

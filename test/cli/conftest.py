@@ -162,10 +162,10 @@ class Terminal:
         """Read until a live picture of the terminal's size stands whole; return its lines."""
         size, before = (self.screen.columns, self.screen.lines), len(self.pictures)
         end = time.monotonic() + limit
-        while not any(size == shown for shown, _ in self.pictures[before:]):
+        while not (found := [lines for shown, lines in self.pictures[before:] if shown == size]):
             assert self.read(1.0) or self.process.poll() is None, self.told()
             assert time.monotonic() < end, self.told()
-        return self.screen.display[:]
+        return found[-1]
 
     def resize(self, columns, rows):
         """Give the terminal another size while the command runs."""

@@ -116,9 +116,14 @@ def runner(robot):
     return GoalRunner(lambda: robot, robot.clock)
 
 
+def run(runner, goal):
+    """Carry out a goal that comes now."""
+    return runner.run(goal, runner.admit())
+
+
 def test_a_goal_is_ordered_watched_and_told(robot, runner):
     goal = Goal(5.0)
-    end = runner.run(goal)
+    end = run(runner, goal)
     assert end[:3] == (Ending.SUCCEEDED, GoalError.NONE, 'arrived')
     assert end.seconds == pytest.approx(10.0, abs=0.11)
     assert robot.orders == [5.0]
@@ -141,13 +146,13 @@ def test_a_goal_is_ordered_watched_and_told(robot, runner):
     ],
 )
 def test_what_is_no_goal_is_aborted_with_its_error(runner, goal, error, words):
-    end = runner.run(goal)
+    end = run(runner, goal)
     assert end[:2] == (Ending.ABORTED, error)
     assert words in end.reason
 
 
 def test_a_goal_whose_time_is_over_leaves_no_robot_that_drives(robot, runner):
-    assert runner.run(Goal(9.0, allowance=2.0)).seconds == pytest.approx(2.1)
+    assert run(runner, Goal(9.0, allowance=2.0)).seconds == pytest.approx(2.1)
     assert robot.calls == ['cancel']
 
 
@@ -160,20 +165,20 @@ def test_a_goal_whose_time_is_over_leaves_no_robot_that_drives(robot, runner):
 )  # fmt: skip
 def test_what_fails_on_its_way_is_told(robot, runner, fault, error):
     robot.during[3] = lambda: robot.fail(fault, 'because')
-    assert runner.run(Goal())[:3] == (Ending.ABORTED, error, 'because')
+    assert run(runner, Goal())[:3] == (Ending.ABORTED, error, 'because')
 
 
 def test_cancelled_it_brakes(robot, runner):
     goal = Goal()
     robot.during[2] = lambda: setattr(goal, 'cancelled', True)
-    assert runner.run(goal)[:3] == (Ending.CANCELED, GoalError.NONE, 'aborted')
+    assert run(runner, goal)[:3] == (Ending.CANCELED, GoalError.NONE, 'aborted')
     assert robot.calls == ['cancel']
 
 
 def test_where_it_cannot_be_cancelled_there_is_a_stop(robot, runner):
     goal = Goal()
     robot.deaf = goal.cancelled = True
-    end = runner.run(goal)
+    end = run(runner, goal)
     assert end.ending is Ending.CANCELED
     assert 'STOP, since it could not be cancelled: no answer' in end.reason
     assert robot.calls == ['cancel', 'stop']
@@ -183,39 +188,45 @@ def test_one_that_arrives_while_it_is_cancelled_has_succeeded(robot, runner, mon
     goal = Goal()
     goal.cancelled = True
     monkeypatch.setattr(robot, 'cancel', lambda _: setattr(robot, 'state', ARRIVED))
-    assert runner.run(goal).ending is Ending.SUCCEEDED
+    assert run(runner, goal).ending is Ending.SUCCEEDED
 
 
-def beside(robot, runner, second, wait_until):
+def beside(robot, runner, second):
     """Run a goal; give another in the midst of it; return how both end."""
     ends, threads = {}, []
 
     def give():
-        thread = threading.Thread(target=lambda: ends.update(second=runner.run(second)))
+        ticket = runner.admit()
+        thread = threading.Thread(target=lambda: ends.update(second=runner.run(second, ticket)))
         threads.append(thread)
-        ticket = runner.newest
         thread.start()
-        wait_until(lambda: runner.newest is not ticket)
 
     robot.during[3] = give
-    ends['first'] = runner.run(Goal(9.0))
+    ends['first'] = run(runner, Goal(9.0))
     threads[0].join(60.0)
     return ends['first'], ends['second']
 
 
-def test_a_new_goal_takes_the_place_of_the_last_without_a_stop(robot, runner, wait_until):
-    first, second = beside(robot, runner, Goal(1.0), wait_until)
+def test_of_goals_that_are_begun_in_another_order_than_they_came_the_newest_is_carried_out(
+    robot, runner
+):
+    old, new = runner.admit(), runner.admit()
+    assert runner.run(Goal(1.0), new).ending is Ending.SUCCEEDED
+    assert runner.run(Goal(9.0), old)[:3] == (Ending.ABORTED, GoalError.UNKNOWN, REPLACED)
+    assert robot.orders == [1.0]
+
+
+def test_a_new_goal_takes_the_place_of_the_last_without_a_stop(robot, runner):
+    first, second = beside(robot, runner, Goal(1.0))
     assert first[:3] == (Ending.ABORTED, GoalError.UNKNOWN, REPLACED)
     assert second.ending is Ending.SUCCEEDED
     assert robot.orders == [9.0, 1.0]
     assert robot.calls == []
 
 
-def test_a_new_goal_that_is_refused_leaves_no_robot_that_drives_to_the_last(
-    robot, runner, wait_until
-):
+def test_a_new_goal_that_is_refused_leaves_no_robot_that_drives_to_the_last(robot, runner):
     refused = Goal(error=ConfigurationError('nan'))
-    first, second = beside(robot, runner, refused, wait_until)
+    first, second = beside(robot, runner, refused)
     assert (first.reason, second.reason) == (REPLACED, 'nan')
     assert robot.calls == ['cancel']
     assert robot.is_done()
@@ -223,10 +234,10 @@ def test_a_new_goal_that_is_refused_leaves_no_robot_that_drives_to_the_last(
 
 def test_closed_the_goal_under_way_is_taken_back_and_no_other_is_begun(robot, runner):
     robot.during[2] = runner.end
-    assert runner.run(Goal())[:3] == (Ending.ABORTED, GoalError.UNKNOWN, CLOSED)
+    assert run(runner, Goal())[:3] == (Ending.ABORTED, GoalError.UNKNOWN, CLOSED)
     assert robot.calls == ['cancel']
     runner.close()
-    assert runner.run(Goal()) == GoalEnd(Ending.ABORTED, GoalError.UNKNOWN, CLOSED)
+    assert run(runner, Goal()) == GoalEnd(Ending.ABORTED, GoalError.UNKNOWN, CLOSED)
 
 
 def test_no_robot_is_an_aborted_goal_and_looked_for_again(robot):
@@ -239,5 +250,5 @@ def test_no_robot_is_an_aborted_goal_and_looked_for_again(robot):
         return one
 
     runner = GoalRunner(find, robot.clock)
-    assert runner.run(Goal())[:3] == (Ending.ABORTED, GoalError.UNKNOWN, 'no robot')
-    assert runner.run(Goal()).ending is Ending.SUCCEEDED
+    assert run(runner, Goal())[:3] == (Ending.ABORTED, GoalError.UNKNOWN, 'no robot')
+    assert run(runner, Goal()).ending is Ending.SUCCEEDED

@@ -208,9 +208,6 @@ def test_a_new_goal_of_another_action_takes_its_place(actions):
     assert result.error_msg == 'another goal took its place'
 
 
-@pytest.mark.xfail(
-    strict=False, reason='threads may begin goals of one instant in another order than they came'
-)
 def test_of_a_flood_of_goals_the_newest_taken_is_carried_out(actions):
     clients, _, _ = actions
     client = clients['spin']

@@ -24,7 +24,7 @@ LIMIT = 100.0
 def heard(spun):
     """Return what drives the robot, and where it really is, newest last."""
     with spun('omni', 4.0):
-        link, found = ScriptLink(''), {'page': [], 'truth': [None]}
+        link, found = ScriptLink(''), {'page': [], 'truth': []}
         for topic, kind, qos, inbox in (
             ('cmd_vel/page', TwistStamped, COMMAND, 'page'),
             ('ground_truth', Odometry, SENSOR, 'truth'),
@@ -32,6 +32,7 @@ def heard(spun):
             link.hear(kind, topic, qos, lambda one, inbox=inbox: found[inbox].append(one.message))
         link.start(lambda _: None)
         found['link'] = link
+        assert link.wait(lambda: found['truth'], LIMIT)
         yield found
         link.close()
 

@@ -37,7 +37,7 @@ def nodes(spun, wait_until):
 @pytest.fixture(scope='module')
 def ears(nodes):
     """Return what the arbiter is told and tells, and where the robot really is, newest last."""
-    link, heard = ScriptLink(''), {'page': [], 'cmd_vel': [], 'truth': [None]}
+    link, heard = ScriptLink(''), {'page': [], 'cmd_vel': [], 'truth': []}
     for topic, kind, qos, inbox in (
         ('cmd_vel/page', TwistStamped, COMMAND, 'page'),
         ('cmd_vel', TwistStamped, COMMAND, 'cmd_vel'),
@@ -47,6 +47,7 @@ def ears(nodes):
     link.know(Trigger, ['sequence/abort'])
     link.start(lambda _: None)
     heard['link'] = link
+    assert link.wait(lambda: heard['truth'], LIMIT)
     yield heard
     link.close()
 

@@ -89,7 +89,7 @@ class Hare:
         self.simulator = self.start(DifferentialSimulator, time_factor=2.0)
         self.start(DifferentialKinematics, use_sim_time=True)
         self.ghost = self.start(GhostTrajectory, use_sim_time=True)
-        tester.graph.spin_until(lambda: self.ghost.plain.pose is not None)
+        tester.graph.spin_until(lambda: not self.ghost.plain.lost)
 
     def start(self, kind, **changes):
         arguments = [

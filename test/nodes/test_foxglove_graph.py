@@ -35,12 +35,15 @@ LOSSY = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 @pytest.fixture
 def during(graph):
-    """Return what runs a function beside the graph, which is spun until it has returned."""
+    """Return what runs a function beside the graph, which is spun until it has returned.
+
+    Meanwhile ``say()`` is called again and again.
+    """
     with ThreadPoolExecutor(1) as pool:
 
-        def run(act, *args, **options):
+        def run(act, *args, say=lambda: None, **options):
             future = pool.submit(act, *args, **options)
-            graph.spin_until(future.done)
+            graph.repeat(say, future.done)
             return future.result()
 
         yield run
@@ -116,16 +119,15 @@ def test_each_message_comes_as_its_bytes_on_any_terms(tester, tool, during):
     said.header.frame_id, said.child_frame_id = 'odom', 'base_link'
     said.header.stamp.sec, said.twist.twist.linear.x = 7, -0.125
     said.pose.covariance[35] = 3.5
-    odom.publish(said)
-    data = during(heard, tool, 2)
+    data = during(heard, tool, 2, say=lambda: odom.publish(said))
     assert serialize_message(deserialize_message(data, Odometry)) == serialize_message(said)
     found = decode_odom(data)
     assert (found.header.frame_id, found.header.stamp.sec) == ('odom', 7)
     assert (found.twist.twist.linear.x, found.pose.covariance[35]) == (-0.125, 3.5)
-    volatile.publish(String(data='last'))
-    texts = [decode(during(heard, tool, 1)).data]
+    last, texts = String(data='last'), ['']
     while texts[-1] != 'last':
-        texts.append(decode(during(heard, tool, 1)).data)
+        heard_now = during(heard, tool, 1, say=lambda: volatile.publish(last))
+        texts.append(decode(heard_now).data)
     assert 'of old' not in texts
 
 

@@ -32,8 +32,10 @@ class PortOfOne:
         assert kind is DiagnosticStatus
         self.callbacks[topic] = callback
 
-    def steady_seconds(self):
+    def seconds(self):
         return self.now
+
+    steady_seconds = seconds
 
     def tell(self, driver):
         values = [KeyValue(key='driver', value=driver), KeyValue(key='stop', value='')]
@@ -67,13 +69,18 @@ def test_without_an_arbiter_nobody_is_asked():
     assert port.callbacks == {}
 
 
+def looked(port, report, given, driver):
+    """Look a tenth of a second later, while that one drives."""
+    port.now += 0.1
+    port.tell(driver)
+    return report.look(given, HERE, FAST)
+
+
 def test_a_robot_that_a_person_has_stopped_is_not_blocked():
     port = PortOfOne('/cmd_vel/agent')
     given = BlockedParameters(after=1.0)
-    report = BlockedReport(port, given, 0.2, 'clear its way')
-    port.tell('stop')
-    assert not any(report.look(given, HERE, FAST, 0.1) for _ in range(100))
+    report = BlockedReport(port, given, 0.2, 'clear its way', 1.0)
+    assert not any(looked(port, report, given, 'stop') for _ in range(100))
     assert (report.reason, port.errors) == ('', [])
-    port.tell('agent')
-    assert any(report.look(given, HERE, FAST, 0.1) for _ in range(20))
+    assert any(looked(port, report, given, 'agent') for _ in range(20))
     assert report.reason.startswith('blocked: told to move by')
