@@ -13,13 +13,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.probe.sources.logger_line import (
+    EPOCHS,
+    YEARS,
     LoggerLine,
     number_of,
     read_line,
     words_of,
 )
 from agv_motion.probe.tables.time_format import named
-from agv_motion.probe.tables.time_readers import EARLIEST, FORMATS, LATEST, in_range
+from agv_motion.probe.tables.time_readers import FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -66,12 +68,12 @@ def _campbell_printable(text: str, arrival: Arrival) -> LoggerLine:
     found = _PRINTABLE.findall(text)
     if len(found) < 3 or [int(place) for place, _ in found] != list(range(1, len(found) + 1)):
         raise _unlike(PRINTABLE)
-    told = [number_of(value.rstrip('.')) for _, value in found]
-    dated = told[1] > 366.0 and len(told) > 3
-    year = f'{told[1]:.0f}' if dated else ''
-    day, clock = told[2:4] if dated else told[1:3]
-    time = _in_year(year, f'{day:.0f}', f'{clock:.0f}', arrival)
-    return LoggerLine(time, tuple(told[4 if dated else 3 :]), decimal_comma=False)
+    words = [value.rstrip('.') for _, value in found]
+    dated = number_of(words[1]) > 366.0 and len(words) > 3
+    parts = 4 if dated else 3
+    year, day, clock = ['', *(word.lstrip('+').lstrip('0') or '0' for word in words[1:parts])][-3:]
+    time = _in_year(year, day, clock, arrival)
+    return LoggerLine(time, tuple(map(number_of, words[parts:])), decimal_comma=False)
 
 
 def _datataker(text: str, arrival: Arrival) -> LoggerLine:
@@ -80,7 +82,11 @@ def _datataker(text: str, arrival: Arrival) -> LoggerLine:
     cells, told = head.split(','), rest.partition(';')[0].split(',')
     if len(cells) < 6 or cells[0] != 'D' or len(told) < 3 or not told[0].isalpha():
         raise _unlike(DATATAKER)
-    time = _instant(f'{cells[3]} {cells[4]}', named('iso'), arrival) + number_of(cells[5])
+    fraction = number_of(cells[5])
+    if not 0.0 <= fraction < 1.0:
+        msg = f"'{cells[5]:.40}' is no fraction of a second"
+        raise SignalError(msg)
+    time = _instant(f'{cells[3]} {cells[4]}', named('iso'), arrival) + fraction
     return LoggerLine(time, tuple(map(number_of, told[2:])), decimal_comma=False)
 
 
@@ -160,9 +166,7 @@ def _instant(word: str, time_format: TimeFormat, arrival: Arrival) -> float:
     except (ValueError, OverflowError) as error:
         msg = f"'{word:.40}' is no time of the format {time_format.name}"
         raise SignalError(msg) from error
-    if not in_range(instant):
-        msg = f"'{word:.40}' is no time from 1990 to 2100"
-        raise SignalError(msg)
+    _require_set(word, instant.seconds)
     return instant.seconds - (0.0 if instant.zoned else 3600.0 * arrival.utc_offset)
 
 
@@ -171,18 +175,30 @@ def _in_year(year: str, day: str, clock: str, arrival: Arrival) -> float:
     here = datetime.fromtimestamp(arrival.now, timezone.utc).year
     years = [year] if year else [f'{here + i}' for i in (-1, 0, 1)]
     times = [time for each in years if (time := _year_day(f'{each} {day} {clock}'))]
-    if not times or not all(EARLIEST <= time < LATEST for time in times):
+    if not times or not clock.strip():
         msg = f'year {year or "of the arrival"}, day {day}, clock {clock} is no time'
         raise SignalError(msg)
     offset = 3600.0 * arrival.utc_offset
-    return min(times, key=lambda time: abs(time - offset - arrival.now)) - offset
+    nearest = min(times, key=lambda time: abs(time - offset - arrival.now))
+    _require_set(f'year {year or "of the arrival"}, day {day}', nearest)
+    return nearest - offset
+
+
+def _require_set(word: str, seconds: float) -> None:
+    """Refuse the time of a clock that was never set, or is far beyond all loggers."""
+    if not EPOCHS[0] <= seconds <= EPOCHS[1]:
+        msg = (
+            f"'{word:.40}' is no time from {YEARS[0]} to {YEARS[1]}: the clock of the logger was "
+            'not set'
+        )
+        raise SignalError(msg)
 
 
 def _year_day(words: str) -> float | None:
     """Return a time; None where there is none: day 366 is not in every year."""
     try:
         return FORMATS['year_day'](words).seconds
-    except ValueError:
+    except (ValueError, OverflowError):
         return None
 
 

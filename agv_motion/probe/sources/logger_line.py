@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import re
 from datetime import datetime, timedelta, timezone
-from math import nan
+from math import isfinite, nan
 from typing import NamedTuple
 
 from agv_motion.errors import SignalError
+from agv_motion.probe.tables.time_readers import offset_of
 
 EXPECTED = 'expected DD-MM-YY HH:MM:SS v1 v2 ...'
 
@@ -109,14 +110,12 @@ def _moment(found: re.Match[str], utc_offset: float) -> float:
     except ValueError as error:
         msg = f'no such time ({error}): {EXPECTED}, the day before the month'
         raise SignalError(msg) from error
-    zone = found['zone']
-    if zone is None:
-        offset = utc_offset * 3600.0
-    elif zone == 'Z':
-        offset = 0.0
-    else:
-        sign = -1.0 if zone[0] == '-' else 1.0
-        offset = sign * (int(zone[1:3]) * 3600.0 + int(zone[-2:]) * 60.0)
+    try:
+        told = offset_of(found['zone'])
+    except ValueError as error:
+        msg = f'no such zone ({error})'
+        raise SignalError(msg) from error
+    offset = utc_offset * 3600.0 if told is None else told
     return (moment + timedelta(days=midnight)).timestamp() + second - offset
 
 
@@ -167,4 +166,4 @@ def _pointed(words: list[str]) -> tuple[list[str], bool]:
 def number_of(word: str) -> float:
     """Return the number of a word; NaN where it is none, or stands for none."""
     number = float(word) if _NUMBER.fullmatch(word) else nan
-    return nan if number in MISSING else number
+    return nan if number in MISSING or not isfinite(number) else number

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 EARLIEST, LATEST = 631_152_000.0, 4_102_444_800.0
 """[s] since 1970, of the years 1990 and 2100: no logger wrote before, and none has written after"""
 DAY = 86400.0
+MOST_AHEAD = 14.0 * 3600.0
+"""[s] of any place on earth, before UTC"""
 EXCEL_EPOCH, EXCEL_1904_EPOCH, MATLAB_EPOCH = 25569.0, 24107.0, 719529.0
 """[d] that a spreadsheet, an old one of a Macintosh, and MATLAB count up to 1970"""
 
@@ -66,7 +68,7 @@ def _instant(found: re.Match[str]) -> Instant:
         found['half'], int(found['hour']), int(found['minute']),
         float((found['second'] or '0').replace(',', '.')),
     )  # fmt: skip
-    offset = _offset(found['zone'])
+    offset = offset_of(found['zone'])
     return Instant(midnight.timestamp() + seconds - (offset or 0.0), zoned=offset is not None)
 
 
@@ -82,13 +84,21 @@ def _of_day(half: str | None, hour: int, minute: int, second: float) -> float:
     return seconds
 
 
-def _offset(zone: str | None) -> float | None:
-    """Return how far a zone is ahead of UTC [s]; None where there is none."""
+def offset_of(zone: str | None) -> float | None:
+    """Return how far a zone such as Z or +05:30 is ahead of UTC [s]; None where there is none.
+
+    Raises:
+        ValueError: No place on earth is so far ahead or behind.
+
+    """
     if not zone:
         return None
     if zone in {'Z', 'UTC'}:
         return 0.0
-    seconds = int(zone[1:3]) * 3600.0 + (int(zone[-2:]) * 60.0 if len(zone) > 3 else 0.0)
+    minutes = int(zone[-2:]) if len(zone) > 3 else 0
+    seconds = int(zone[1:3]) * 3600.0 + minutes * 60.0
+    if minutes > 59 or seconds > MOST_AHEAD:
+        raise ValueError(zone)
     return -seconds if zone[0] == '-' else seconds
 
 
@@ -166,6 +176,8 @@ def _fields(word: str) -> Instant:
     """Read year, month, day, hour, minute and second, each a column of its own."""
     year, month, day, *clock = word.split()
     if not word.isascii() or len(year) != 4 or len(clock) > 3:
+        raise ValueError(word)
+    if not all(map(str.isdecimal, (year, month, day))):
         raise ValueError(word)
     hour, minute, second = (_number(part) for part in (*clock, '0', '0', '0')[:3])
     if hour % 1.0 or minute % 1.0:

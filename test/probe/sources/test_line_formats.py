@@ -91,6 +91,12 @@ def test_a_year_that_is_not_told_is_the_nearest():
     assert sample.time == now
 
 
+def test_what_is_beyond_all_numbers_is_missing():
+    sample = read('110,2013,161,1230,1e999,0.5,0.6,1e999,9', 'campbell_comma', radiation_field=4)
+    assert isnan(sample.values[0])
+    assert isnan(sample.environment.radiation)
+
+
 def test_what_stands_for_no_value_is_missing():
     values = read('110,2013,161,1230,-7999,NAN,0.63', 'campbell_comma').values
     assert [isnan(value) for value in values] == [True, True, False]
@@ -105,6 +111,13 @@ def test_what_stands_for_no_value_is_missing():
         ('110,1970,161,1230,1,2,3', 'campbell_comma', 'year 1970'),
         ('01+0110. 03+1230.', 'campbell_printable', 'not of the form 01'),
         ('D,1;A,0,1', 'datataker', 'not of the form D,serial'),
+        ('110,9999,366,1230,1,2,3', 'campbell_comma', 'is no time'),
+        ('110,1990,001,0005,1,2,3', 'campbell_comma', 'the clock of the logger was not set'),
+        ('110,2013,161,,1,2,3', 'campbell_comma', 'is no time'),
+        ('01+0110. 02+0161.7 03+1230. 04+1', 'campbell_printable', 'day 161.7, clock 1230 is no'),
+        ('D,1,"J",2013/06/10,12:30:00,x,0;A,0,1', 'datataker', "'x' is no fraction"),
+        ('D,1,"J",2013/06/10,12:30:00,1e9,0;A,0,1', 'datataker', "'1e9' is no fraction"),
+        ('D,1,"J",2000/01/01,00:00:05,0,0;A,0,1', 'datataker', 'the clock of the logger was not'),
         ('none', r'(?P<v1>\d+)', 'not of the form'),
         ('0.41', 'arrival', '1 values, probe field 3 is missing'),
     ],

@@ -77,7 +77,8 @@ def test_a_zone_in_the_word_counts(word, seconds):
         ('fields', '201\uff13 6 10'), ('epoch_s', '-5'), ('epoch_s', 'inf'),
         ('epoch_s', '1_370_822_400'), ('excel', ''), ('year_day', '2013 366'),
         ('year_day', '2013 0.5'), ('year_day', '2013 161.5 1200'), ('fields', '13 6 10'),
-        ('fields', '2013 6 10 12.5'),
+        ('fields', '2013 6 10 12.5'), ('fields', '2013 0_6 1_0'),
+        ('iso', '2013-06-10 12:30+14:30'), ('iso', '2013-06-10 12:30+01:60'),
     ],
 )  # fmt: skip
 def test_what_is_no_such_time_is_refused(name, word):

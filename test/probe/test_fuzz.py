@@ -1,0 +1,13 @@
+"""Lines and tables of loggers at random; launch_scripts/fuzz_probes.py is the long form."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / 'launch_scripts'))
+import fuzz_probes
+
+
+def test_whatever_a_logger_sends_is_read_or_told(capsys):
+    assert fuzz_probes.main(['4000', '7']) == 0, capsys.readouterr().out
