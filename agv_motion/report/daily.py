@@ -21,6 +21,7 @@ TYPES = {
     'goal': 'geometry_msgs/msg/PoseStamped',
     'driver': 'diagnostic_msgs/msg/DiagnosticStatus',
     'why': 'diagnostic_msgs/msg/DiagnosticArray',
+    'granier/water_use_today': 'geometry_msgs/msg/Vector3Stamped',
 }
 """Topics of a robot that count, and their types"""
 
@@ -90,9 +91,9 @@ def _topics(bag: BagReader) -> dict[str, tuple[str, str]]:
     """Return namespace and kind of the topics that count; odometry only where no pose is told."""
     found = {}
     for connection in bag.connections:
-        namespace, _, kind = connection.topic.rpartition('/')
-        if TYPES.get(kind) == connection.type:
-            found[connection.topic] = namespace, kind
+        for kind, wanted in TYPES.items():
+            if connection.type == wanted and connection.topic.endswith(f'/{kind}'):
+                found[connection.topic] = connection.topic.removesuffix(f'/{kind}'), kind
     told = {namespace for namespace, kind in found.values() if kind == 'pose'}
     return {
         topic: (namespace, kind) for topic, (namespace, kind) in found.items()
@@ -109,6 +110,8 @@ def _take(robot: RobotDay, kind: str, time: float, content: Any) -> None:
         robot.zone = content.data
     elif kind == 'driver':
         robot.add_driver(time, content)
+    elif kind == 'granier/water_use_today':
+        robot.add_litres(content.vector)
     else:
         robot.add_reasons(time, content)
 

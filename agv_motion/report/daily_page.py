@@ -9,6 +9,7 @@ from zoneinfo import ZoneInfo
 
 from agv_motion.explanation.words import ago
 from agv_motion.report.daily_drawing import COLOURS, OTHER, bar_of, map_of
+from agv_motion.report.litres import in_litres
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -90,7 +91,9 @@ def _summary(robot: RobotDay) -> str:
     count = len(robot.goals)
     goals = f'{count} goal' + 's' * (count != 1)
     sentences = [f'It went <b>{robot.walked:.1f} m</b>, for {goals}.']
-    drunk = robot.drunk()
+    litres, drunk = robot.litres.total(), robot.drunk()
+    if litres is not None:
+        sentences.append(f'It drank <b>{in_litres(litres)} of water</b>, with 95 % confidence.')
     if drunk is not None:
         sentences.append(
             f'It drank <b>{1000.0 * drunk:.1f} litres of water per square metre of sapwood</b>.'
@@ -100,7 +103,7 @@ def _summary(robot: RobotDay) -> str:
         told = ', '.join(f'{escape(word)} {ago(seconds)}' for word, seconds in totals.items())
         sentences.append(f'It was {told}.')
     if robot.no_numbers:
-        sentences.append(f'{robot.no_numbers} of its places held {NO_NUMBER}.')
+        sentences.append(f'{robot.no_numbers} of its places or amounts held {NO_NUMBER}.')
     return f'<p>{" ".join(sentences)}</p>'
 
 

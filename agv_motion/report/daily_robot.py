@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from agv_motion.dashboard.core.alerts import AlertBook, PlainLink
 from agv_motion.explanation.decision import DECIDERS
 from agv_motion.explanation.evidence import report_of
+from agv_motion.report.litres import LitresDrunk
 
 if TYPE_CHECKING:
     from agv_motion.dashboard.core.alerts import Alert
@@ -116,7 +117,8 @@ class RobotDay:
         self.has_reasons = False
         """whether `why` was recorded: without it there are no alerts"""
         self.no_numbers = 0
-        """poses and goals that held NaN or infinity"""
+        """poses, goals and amounts that held NaN or infinity"""
+        self.litres = LitresDrunk()
         self._alerts = AlertBook()
         self._decider = ''
 
@@ -151,6 +153,11 @@ class RobotDay:
             self.no_numbers += 1
         elif len(self.goals) < MOST_POINTS:
             self.goals.append(GoalOfDay(time, x, y))
+
+    def add_litres(self, vector: Any) -> None:
+        """Take what it drank since midnight: a vector of value, low and high [l]."""
+        if not self.litres.add(float(vector.x), float(vector.y), float(vector.z)):
+            self.no_numbers += 1
 
     def add_driver(self, time: float, message: Any) -> None:
         """Take who drives."""

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from std_msgs.msg import String
 
 from agv_motion.bag import BagReader, BagWriter
@@ -52,6 +52,12 @@ def pose(x, y):
     return message
 
 
+def litres(value):
+    message = Vector3Stamped()
+    message.vector.x, message.vector.y, message.vector.z = value, value / 2.0, 2.0 * value
+    return message
+
+
 def doing(activity, because, sentence):
     return status('/oak/motion_generator', 0, sentence, activity=activity, because=because)
 
@@ -80,6 +86,7 @@ def bag(tmp_path_factory):
         words = 'walking to (4, 1)' if walks else f'resting: {EVIL}'
         now = doing('walking' if walks else 'resting', 'goal' if walks else 'probes', words)
         flux = (2e-6 if second < 100 else 4e-6) if walks else None
+        made.add(second, '/oak/granier/water_use_today', litres(2.0 + 0.002 * second))
         reports = [now, probes(flux, 'good' if walks else 'off')]
         made.add(second, '/diagnostics', DiagnosticArray(status=reports))
         made.add(second, '/oak/driver', status('/oak/arbiter', 0, 'agent drives', driver='agent'))
@@ -109,6 +116,12 @@ def test_what_it_drank_is_the_integral_of_the_flux(day):
     """2e-6 for 90 s, a step of 10 s in the mean of both, 4e-6 for 90 s."""
     (oak,) = day.robots
     assert oak.drunk() == pytest.approx(90 * 2e-6 + 10 * 3e-6 + 90 * 4e-6)
+
+
+def test_litres_are_those_of_the_day_that_is_reported(day):
+    """From 2 to 2.8 litres since midnight: 0.8 of them here."""
+    (oak,) = day.robots
+    assert oak.litres.total() == pytest.approx((0.8, 0.4, 1.6))
 
 
 def test_what_it_did_and_who_drove(day):
@@ -185,11 +198,12 @@ def test_the_page_says_it_all_to_a_person(read):
     assert 'Monday, 15 June 2015' in text
     assert '14:00 to 14:06 (Europe/Paris), 1 robot' in text
     assert 'It went 3.0 m , for 1 goal.' in text
+    assert 'It drank 0.80 L (0.40 to 1.60) of water , with 95 % confidence.' in text
     assert 'It drank 0.6 litres of water per square metre of sapwood' in text
     assert f'14:03 14:06 3 min resting resting: {EVIL}' in text
     assert f'14:03 not over WARN probe 1 is off {EVIL}' in text
     assert 'probe_1 s1 good 50 %, off 50 % 0.6' in text
-    assert '1 of its places held no number' in text
+    assert '1 of its places or amounts held no number' in text
     assert 'From bags/<day>' in text
     assert not re.search(r'\bnan\b', text, re.IGNORECASE)
 

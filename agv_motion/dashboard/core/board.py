@@ -12,6 +12,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.dashboard.core import conversions
+from agv_motion.dashboard.core.drank import drank
 from agv_motion.dashboard.core.entry import Entry
 from agv_motion.dashboard.core.health import health
 from agv_motion.dashboard.core.names import FIELDS, MOST_ROBOTS, robot_of, type_of
@@ -203,10 +204,12 @@ class Board:
         self.put(robot.name, 'health', now, health(robot, now))
         if robot.trail_number:
             self.put(robot.name, 'trail', now, {'points': robot.trail.points()})
-        if robot.day_number:
-            value = robot.day.value()
-            self.put(robot.name, 'day', now, value)
-            self.put(robot.name, 'drank', now, {'hours': value['drunk']})
+        day = robot.day.value() if robot.day_number else None
+        if day is not None:
+            self.put(robot.name, 'day', now, day)
+        water = drank(robot, self.time_of_robots(now), day and day['drunk'])
+        if water is not None:
+            self.put(robot.name, 'drank', now, water)
 
     def _look_at_clock(self) -> None:
         entry, self._clock = self._clock, None

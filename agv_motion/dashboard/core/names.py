@@ -32,6 +32,7 @@ TOPICS = {
     'why': 'diagnostic_msgs/msg/DiagnosticArray',
     'granier/sap_flow': 'geometry_msgs/msg/Vector3Stamped',
     'granier/valid': 'std_msgs/msg/Bool',
+    'granier/water_use_today': 'geometry_msgs/msg/Vector3Stamped',
     **{f'granier/probe_{i}/temperature_difference': 'sensor_msgs/msg/Temperature'
        for i in range(1, 10)},
     'memory/sap_flow': 'nav_msgs/msg/OccupancyGrid',

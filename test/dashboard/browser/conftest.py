@@ -110,7 +110,8 @@ class Park:
         say(robot, 'sap_flow', {'s': [0.8, 0.4, None], 'valid': True})
         say(robot, 'day', {'times': [0.0, 3600.0], 's1': [0.1, 0.9], 's2': [0.2, None],
             's3': [0.3, 0.4], 'drunk': 3.2})  # fmt: skip
-        say(robot, 'drank', {'hours': 3.2})
+        litres = {'value': 12.3, 'low': 3.84, 'high': 39.4}
+        say(robot, 'drank', {'hours': 3.2, 'litres': None if number else litres})
         say(robot, 'health', {'nodes': [{'name': 'arbiter', 'level': 'OK', 'message': 'well',
             'age': 0.2, 'values': {'limit': '0.5'}}],
             'inputs': [{'topic': 'pose', 'age': 0.1, 'limit': 2.0},

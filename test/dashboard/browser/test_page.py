@@ -93,6 +93,7 @@ def test_numbers_that_are_missing_are_told_as_unknown(park, serve, open_page):
     park.say('oak', 'turrets', {'angles': [None] * 3, 'speeds': [None] * 3})
     page = open_page(serve(park).url)
     wait_for_text(page, '#chosen .facts', 'unknown')
+    assert '12.3\u202fL (3.8 to 39.4)' in text(page, '#chosen .facts')
     assert 'NaN' not in page.inner_text('body')
     assert 'oak unknown' in page.get_attribute('#map-canvas', 'aria-label')
 
@@ -184,6 +185,7 @@ def test_public_view_has_no_controls_and_speaks_french(park, serve, open_page):
     assert page.locator('button, input, select, form, [role=button]').count() == 0
     assert page.get_attribute('html', 'lang') == 'fr'
     assert 'comme en 3.2' in text(page, '#public-robots')
+    assert 'a bu 12.3\u202fL aujourd\u2019hui (3.8 à 39.4)' in text(page, '#public-robots')
     page.click('#other-language')
     wait_for_text(page, '#public-robots', 'walking')
     page.keyboard.press('Escape')

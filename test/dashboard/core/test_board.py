@@ -99,7 +99,8 @@ def test_no_number_of_a_robot_makes_what_is_no_json(numbers):
 @pytest.mark.parametrize(
     'topic',
     ['pose', 'odom', 'turrets/state', 'path', 'why', 'driver', 'zone', 'granier/sap_flow',
-     'memory/sap_flow', 'standstill', 'state', 'sunlight', 'wheels/state', 'goal'],
+     'memory/sap_flow', 'standstill', 'state', 'sunlight', 'wheels/state', 'goal',
+     'granier/water_use_today'],
 )  # fmt: skip
 @pytest.mark.parametrize('message', [None, 7, 'x', object(), {}])
 def test_a_message_of_another_kind_harms_nothing(topic, message, messages):

@@ -1,6 +1,6 @@
 import { Chart } from './chart.js';
 import { element, refill, write } from '../words/element.js';
-import { hourMinute, number } from '../words/format.js';
+import { hourMinute, inLitres, number } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
 
 const SIGNALS = ['s1', 's2', 's3'];
@@ -70,7 +70,9 @@ export class ProbesDrawer {
   }
 }
 
-/** @returns {string} what it drank today: hours at full flow, as the signals of its probes say */
-export function drankToday(/** @type {{hours: number|null}|null} */ drank) {
-  return drank ? phrase('drankToday', { hours: number(drank.hours, 1, 'h') }) : '';
+/** @returns {string} what it drank today: litres, or else hours at full flow; empty: not told */
+export function drankToday(/** @type {import('../live/types.js').Drank|null} */ drank) {
+  if (drank?.litres) return phrase('drankLitres', inLitres(drank.litres));
+  if (typeof drank?.hours !== 'number') return '';
+  return phrase('drankToday', { hours: number(drank.hours, 1, 'h') });
 }

@@ -25,5 +25,7 @@
  *   clearance_from: string, home: Point|null}} Zone
  * @typedef {{x: number, y: number, resolution: number, width: number, height: number,
  *   cells: string}} Grid
+ * @typedef {{value: number, low: number, high: number}} Litres with the 95 % interval
+ * @typedef {{hours: number|null, litres: Litres|null}} Drank today
  */
 export {};

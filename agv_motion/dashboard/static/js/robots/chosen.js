@@ -1,6 +1,6 @@
 import { confirm } from '../act/confirm.js';
 import { element, refill, write } from '../words/element.js';
-import { degrees, number, pace } from '../words/format.js';
+import { degrees, inLitres, number, pace } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
 
 /**
@@ -52,6 +52,8 @@ export class Chosen {
       const place = `(${number(goal.x, 1)}, ${number(goal.y, 1)})`;
       facts.push([phrase('goal'), goal.reason ? `${goal.reason}` : place]);
     }
+    const litres = store.value(robot, 'drank')?.litres;
+    if (litres) facts.push([phrase('drank'), phrase('interval', inLitres(litres))]);
     return facts;
   }
 

@@ -66,3 +66,9 @@ export function plain(/** @type {any} */ value) {
   if (typeof value === 'string') return value;
   return JSON.stringify(value);
 }
+
+/** @returns {{litres: string, low: string, high: string}} with as many digits each: `12.3 L`, `3.8`, `39.4` */
+export function inLitres(/** @type {import('../live/types.js').Litres} */ { value, low, high }) {
+  const digits = high < 10 ? 2 : 1;
+  return { litres: number(value, digits, 'L'), low: number(low, digits), high: number(high, digits) };
+}
