@@ -97,6 +97,7 @@ class TreeScenario(Scenario[WalkRun]):
         """Make the eight nodes; the tree starts at the home of its zone."""
         common = {'use_sim_time': True}
         probe = configured_node(GranierProbe, CONFIG, common | self._probes)
+        self._drinks = probe.parameters.water.sapwood_area > 0.0
         motion = configured_node(
             MotionGenerator, CONFIG, common | self._place | {'goals__seed': self._seed},
             **drives_as(TwistSource.AGENT),
@@ -117,7 +118,7 @@ class TreeScenario(Scenario[WalkRun]):
 
     def view(self, recorder: DemoRecorder) -> TreeView:
         """Show zone, trail, probes and turrets."""
-        return TreeView(recorder, self._zone, self._simulator.parameters)
+        return TreeView(recorder, self._zone, self._simulator.parameters, drinks=self._drinks)
 
     def read(self, bag: BagReader) -> WalkRun:
         """Read the walk back."""

@@ -30,16 +30,21 @@ BAR = 15
 class TreeView:
     """Draws what the recorder has heard."""
 
-    def __init__(self, recorder: DemoRecorder, zone: Zone, place: SimulatorParameters) -> None:
+    def __init__(
+        self, recorder: DemoRecorder, zone: Zone, place: SimulatorParameters, *,
+        drinks: bool = False,
+    ) -> None:  # fmt: skip
         """Start with an empty trail.
 
         Args:
             recorder: What has been heard.
             zone: To draw.
             place: Where the sun shines and what throws shadows.
+            drinks: Whether the area of its sapwood is known, and so what it drinks.
 
         """
         self._recorder, self._view, self._place = recorder, MapView(zone), place
+        self._drinks = drinks
         self._obstacles = place.obstacles()
         self._trail: list[tuple[float, float]] = []
 
@@ -77,6 +82,8 @@ class TreeView:
             value = 0.0 if flow is None else getattr(flow.vector, axis)
             bar = '█' * round(BAR * min(max(value, 0.0), 1.0))
             rows.append((name, NOT_YET if flow is None else f'{bar:<{BAR}} {number(value, 5, 2)}'))
+        if self._drinks:
+            rows.append(('drank', self._litres()))
         speed = turn = 0.0
         if twist is not None:
             speed = hypot(twist.twist.linear.x, twist.twist.linear.y) * 60.0
@@ -87,6 +94,16 @@ class TreeView:
         rows.append(('pose', NOT_YET if truth is None else pose_text(pose_of(truth.pose.pose))))
         rows.append(('state', NOT_YET if state is None else state.data))
         return rows
+
+    def _litres(self) -> str:
+        """Return what it drank today with its interval, in one width."""
+        told = self._recorder.latest('granier/water_use_today')
+        if told is None:
+            return NOT_YET
+        litres = told.vector.x, told.vector.y, told.vector.z
+        digits = 2 if max(litres) < 99.995 else 1 if max(litres) < 999.95 else 0
+        value, low, high = (number(each, 5, digits) for each in litres)
+        return f'{value} L {low} to {high}'
 
     def _turrets(self) -> list[tuple[str, str]]:
         """One line a turret: which way it points and how fast it rolls."""

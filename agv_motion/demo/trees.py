@@ -51,6 +51,7 @@ NAMES = ('oak', 'ash', 'elm', 'fir', 'yew')
 
 OF_EACH = (
     ('granier/sap_flow', Vector3Stamped, False),
+    ('granier/water_use_today', Vector3Stamped, False),
     *ARBITER_TOPICS,
     *DRAWN_TOPICS,
     ('goal', PoseStamped, True),

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from agv_motion.bag.message_objects import decoded
 from agv_motion.kinematics.platform import PLATFORM_RADIUS
+from agv_motion.report.litres import LitresDrunk, in_litres
 from agv_motion.report.recorded_footprint import moments, read_footprints
 from agv_motion.ros.messages import pose_of
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 READ = {
     'ground_truth': 4, 'granier/sap_flow': 4, 'turrets/command': 4, 'turrets/residual': 2,
-    'goal': 3,
+    'goal': 3, 'granier/water_use_today': 4,
 }  # fmt: skip
 """Topics of the bag that the report needs, in the order of the fields of `WalkRun`, and the columns
 of each, where nothing came."""
@@ -64,10 +65,19 @@ class WalkRun(NamedTuple):
     """time since the last visit"""
     footprints: list[Footprint] | None = None
     """of the tree at the `moments` of its path; None where the bag does not tell its size"""
+    water: NDArray[np.float64] | None = None
+    """(w, 4) time, what it drank since midnight [l], and the 95 % interval; None: nobody told"""
 
     def distance(self) -> float:
         """Return the length of the way [m]."""
         return float(np.hypot(*np.diff(self.path[:, 1:3], axis=0).T).sum())
+
+    def drunk(self) -> LitresDrunk:
+        """Return what it drank."""
+        found = LitresDrunk()
+        for _, value, low, high in () if self.water is None else self.water.tolist():
+            found.add(value, low, high)
+        return found
 
     def share_inside(self, zone: Zone) -> float:
         """Return the share of the time in which the centre was inside the zone."""
@@ -103,12 +113,12 @@ def read_walk(bag: BagReader, wheel_radius: float) -> WalkRun:
     columns = (
         np.array(rows[name] or np.empty((0, width)), dtype=float) for name, width in READ.items()
     )
-    path, flow, speeds, residual, goals = columns
+    path, flow, speeds, residual, goals, water = columns
     stamps = (path[moments(len(path)), 0] + bag.start * 1e-9).tolist()
     return WalkRun(
         path, flow, speeds, residual, goals, _reasons(goals, states),
         maps.get('memory/sap_flow'), maps.get('memory/last_visit'),
-        read_footprints(bag, '/ground_truth', stamps),
+        read_footprints(bag, '/ground_truth', stamps), water if len(water) else None,
     )  # fmt: skip
 
 
@@ -140,7 +150,7 @@ def _remembered(message: Any) -> Remembered:
 def _numbers(name: str, message: Any, wheel_radius: float) -> tuple[float, ...]:
     if name == 'ground_truth':
         return pose_of(message.pose.pose)
-    if name == 'granier/sap_flow':
+    if name.startswith('granier/'):
         return message.vector.x, message.vector.y, message.vector.z
     if name == 'turrets/command':
         joints = zip(message.name, message.velocity, strict=True)
@@ -184,6 +194,13 @@ def summary(
         'residual of the turrets',
         f'{1e3 * np.median(residual):.3f} mm/s median, {1e3 * residual.max():.3f} mm/s at most',
     )
+    drunk = run.drunk()
+    for name, litres in (
+        ('drank today', drunk.since_midnight()),
+        ('drank in all', drunk.total() if drunk.stretches > 1 else None),
+    ):
+        if litres is not None:
+            table.add_row(name, f'{in_litres(litres)}, with 95 % confidence')
     if len(outcome.latencies):
         p50, p99 = np.percentile(outcome.latencies, [50, 99]) * 1e3
         table.add_row('probe to turrets', f'{p50:.2f} ms median, {p99:.2f} ms p99')

@@ -10,6 +10,7 @@ from agv_motion.kinematics.platform import PLATFORM_RADIUS
 from agv_motion.model.footprint import disc
 from agv_motion.report import robot_drawing, style, wording
 from agv_motion.report.figure import figure
+from agv_motion.report.litres import in_litres
 from agv_motion.report.recorded_footprint import moments
 
 if TYPE_CHECKING:
@@ -64,15 +65,20 @@ def draw(  # noqa: PLR0913 - a picture, each with its own name
         SourceError: The file cannot be written.
 
     """
-    mosaic: list[Any] = [['map', 'goals'], ['map', 'flow'], ['map', 'speed']]
+    rows = {'goals': 2.4, 'flow': 1.0, 'water': 1.0, 'speed': 1.0}
+    if run.water is None:
+        del rows['water']
+    mosaic: list[Any] = [['map', name] for name in rows]
     with figure(
-        path, mosaic, theme=theme, figsize=(style.WIDTH, 5.9), width_ratios=[1.35, 1],
-        height_ratios=[2.4, 1, 1],
+        path, mosaic, theme=theme, figsize=(style.WIDTH, 5.9 if run.water is None else 7.0),
+        width_ratios=[1.35, 1], height_ratios=[*rows.values()],
     ) as axes:  # fmt: skip
         style.title(axes['map'], finding(run, zone, limits.rim, days))
         _draw_map(axes['map'], run, zone, limits.rim)
         _draw_goals(axes['goals'], run, days)
         _draw_flow(axes['flow'], run, days)
+        if run.water is not None:
+            _draw_water(axes['water'], run, days)
         _draw_speeds(axes['speed'], run, limits, days)
 
 
@@ -213,6 +219,22 @@ def _draw_flow(axes: Any, run: WalkRun, days: float) -> None:
             style.line_label(axes, run.flow[-1, 1 + i], name, style.ink())
     style.scale(axes, run.flow[:, 1:], least=0.05)
     axes.set(title='Sap flow', ylabel='of the most [-]', xlabel='')
+    axes.tick_params(labelbottom=False)
+
+
+def _draw_water(axes: Any, run: WalkRun, days: float) -> None:
+    """Draw what it drank since each midnight, in its interval."""
+    scaled = style.time_axis(axes, _seconds(run), days)
+    water = run.water if run.water is not None else np.empty((0, 4))
+    midnights = np.flatnonzero(np.diff(water[:, 1]) < 0.0) + 1
+    time, *litres = np.insert(water, midnights, np.nan, axis=0).T
+    value, low, high = litres
+    axes.fill_between(scaled(time), low, high, color=style.WAITING, alpha=0.3, lw=0)
+    axes.plot(*style.thinned(scaled(time), value), color=style.ROBOT)
+    style.line_label(axes, high[-1], '95 %', style.ink())
+    last = run.drunk().since_midnight()
+    told = '' if last is None else f': {in_litres(last)} today'
+    axes.set(title=f'Drank{told}', ylabel='[L]', xlabel='', ylim=(0.0, None))
     axes.tick_params(labelbottom=False)
 
 

@@ -44,6 +44,8 @@ class Heard:
         odometry.pose.pose.orientation.w = 1.0
         goal.pose.position.x, goal.pose.position.y = 10.0, 7.5
         flow.vector.x, flow.vector.y, flow.vector.z = 0.42, 1.0, -1e-4
+        water = Vector3Stamped()
+        water.vector.x, water.vector.y, water.vector.z = 3.214, 1.0, 10.3
         twist = TwistStamped()
         twist.twist.linear.x, twist.twist.angular.z = -speed, speed
         names = [f'turret_{i}_{part}' for part in ('steering', 'wheel') for i in range(3)]
@@ -52,7 +54,7 @@ class Heard:
         self.messages |= {
             f'{prefix}ground_truth': odometry, f'{prefix}goal': goal, f'{prefix}state': state,
             f'{prefix}granier/sap_flow': flow, f'{prefix}cmd_vel': twist, 'odom': odometry,
-            f'{prefix}turrets/state': joints,
+            f'{prefix}turrets/state': joints, f'{prefix}granier/water_use_today': water,
         }  # fmt: skip
 
 
@@ -71,7 +73,7 @@ def zone():
 @pytest.mark.parametrize(('columns', 'rows'), SIZES)
 def test_a_tree(zone, columns, rows):
     heard = Heard()
-    view = TreeView(heard, zone, SimulatorParameters())
+    view = TreeView(heard, zone, SimulatorParameters(), drinks=True)
     before = shown(view, 0.0, columns, rows)
     heard.hear_tree()
     after = shown(view, 60.0, columns, rows)
@@ -82,6 +84,7 @@ def test_a_tree(zone, columns, rows):
     text = '\n'.join(after)
     words = (
         'state', 'walking to (10.00,', 'pose     7.25   5.50 m    0°', 'wheel0', 'wheel2',
+        'drank   3.21 L  1.00 to 10.30',
         'speed  ██████           0.42', ' 60.0 times real time', '♣', '✕', 'UTC',
     )  # fmt: skip
     for word in words:
@@ -92,6 +95,21 @@ def test_a_tree(zone, columns, rows):
     if columns > 80:
         assert len(after) > 30
         assert min(column) > 80
+
+
+@pytest.mark.parametrize('litres', [(0.0, 0.0, 0.0), (99.0, 9.999, 99.99), (120.0, 99.996, 999.9),
+                                    (400.0, 130.0, 1250.0)])  # fmt: skip
+def test_what_it_drank_is_of_one_width_and_not_told_without_an_area(zone, litres):
+    heard = Heard()
+    heard.hear_tree()
+    vector = heard.messages['granier/water_use_today'].vector
+    vector.x, vector.y, vector.z = litres
+    view = TreeView(heard, zone, SimulatorParameters(), drinks=True)
+    (line,) = [line for line in shown(view, 60.0, 80, 24) if 'drank' in line]
+    told = line[line.index('drank') :].rstrip()
+    assert [told.index(' L '), told.index(' to '), len(told)] == [12, 20, 29]
+    known_by_nobody = TreeView(heard, zone, SimulatorParameters())
+    assert 'drank' not in '\n'.join(shown(known_by_nobody, 60.0, 80, 24))
 
 
 @pytest.mark.parametrize(('columns', 'rows'), SIZES)
