@@ -20,6 +20,9 @@ from agv_motion.model.robots import differential_model
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.planar import Pose
+from agv_motion.probe.parameters import ProbeParameters
+from agv_motion.probe.series import read_series
+from agv_motion.probe.water import DayOfWater, Litres
 from agv_motion.report import errors_between, label_layout, robot_drawing, style
 from agv_motion.report.fields_figure import FieldLine
 from agv_motion.report.fields_figure import draw as draw_fields
@@ -28,6 +31,8 @@ from agv_motion.report.localization import LocalizationRun
 from agv_motion.report.localization_figure import carried
 from agv_motion.report.localization_figure import draw as draw_localization
 from agv_motion.report.localization_figure import finding as localization_finding
+from agv_motion.report.probes_figure import PlaceDays
+from agv_motion.report.probes_figure import draw as draw_probes
 from agv_motion.report.recorded_footprint import moments
 from agv_motion.report.route_figure import draw as draw_route
 from agv_motion.report.run import Poses, RunBag
@@ -133,9 +138,16 @@ def recorded_walk():
         return WalkRun(*columns, [str(reason) for reason in held['reasons']], felt, None)
 
 
-@pytest.mark.parametrize(('days', 'theme'), [(0.0, 'light'), (7.0, 'dark')])
-def test_the_walk(drawn, tmp_path, days, theme):
-    run = recorded_walk()
+def watered(run):
+    """Return a walk with a midnight in it: what it drank rises, and begins again at nothing."""
+    time = run.flow[:, 0]
+    litres = 6.0 * (time % (0.6 * time[-1])) / time[-1]
+    return run._replace(water=np.array([time, litres, litres / 3.2, 3.2 * litres]).T)
+
+
+@pytest.mark.parametrize(('days', 'theme', 'drinks'), [(0.0, 'light', False), (7.0, 'dark', True)])
+def test_the_walk(drawn, tmp_path, days, theme, drinks):
+    run = watered(recorded_walk()) if drinks else recorded_walk()
     draw_walk(run, SQUARE, WalkLimits(1 / 30), tmp_path / 'walk.png', days=days, theme=theme)
     check(drawn)
     texts = [text for text, _ in drawn[-1][1]]
@@ -143,6 +155,9 @@ def test_the_walk(drawn, tmp_path, days, theme):
     assert any(f'residual of the turrets at most {worst:.2f} mm/s, limit 20' in t for t in texts)
     assert any('day of the recording' in text for text in texts) == bool(days)
     assert {'start', 'end', 's3 places'} <= set(texts)
+    assert [text for text in texts if 'Drank' in text] == [
+        'Drank: 2.40 L (0.75 to 7.68) today'
+    ] * drinks
     assert (tmp_path / 'walk.png').stat().st_size < 200_000
 
 
@@ -156,6 +171,29 @@ def test_what_a_walk_was_is_told_from_its_numbers():
     assert 'into the shade' in finding(run._replace(flow=flow[::-1]), SQUARE, 1.0)
     assert 'in an hour that played seven days, never' in finding(run, SQUARE, 1.0, 7.0)
     assert finding(run, SQUARE, 4.5).endswith('0.5 m over the edge at worst')
+
+
+@pytest.mark.parametrize(('count', 'theme', 'area'), [(1, 'dark', 0.0), (5, 'light', 0.012)])
+def test_probes_of_a_file_and_what_the_tree_drank(sketched, tmp_path, count, theme, area):
+    """Days are those of a place six hours ahead of UTC; the file begins at its midnight."""
+    at = np.arange(4 * 96)
+    values = 20.0 - 1.25 * np.maximum(0.0, 1.0 - np.abs(at % 96 - 56) / 24.0) + 0.0025 * (at % 3)
+    parameters = ProbeParameters(solar_offset=6.0)
+    series = [read_series(900.0 * at + 64800.0, values, parameters)] * count
+    drunk = Litres(1.2, 0.4, 3.6)
+    days = [DayOfWater(day, drunk, drunk, 0.5 if day == 1 else 1.0) for day in (1, 2, 3, 4)]
+    water = PlaceDays(days, 6.0) if area else None
+    names = [f'dT of probe {i}' for i in range(count)]
+    draw_probes(names, series, tmp_path / 'oak.png', theme, water)
+    check(sketched)
+    told = 'Water, with 95 % confidence: 1.20 L (0.40 to 3.60) on a usual day'
+    texts = [text for text, _ in sketched[-1][1]]
+    assert [text for text in texts if text.startswith('Water')] == [told] * bool(area)
+    labels = [text for text in texts if text.startswith('days since')]
+    assert labels == ['days since 1970-01-01 18:00 UTC'] * (1 if area else count)
+    if area:
+        axes = next(a for a in sketched[-1][0].axes if a.get_ylabel() == 'water [L/day]')
+        assert [bar.get_x() for bar in axes.patches] == pytest.approx([0.0, 1.0, 2.0, 3.0])
 
 
 def recorded_walks():

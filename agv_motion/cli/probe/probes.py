@@ -12,9 +12,13 @@ import typer
 from agv_motion.cli.terminal import terminal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from agv_motion.probe.parameters import ProbeParameters
     from agv_motion.probe.tables.description import TableDescription
     from agv_motion.probe.tables.inspection import Inspection
     from agv_motion.probe.tables.table_parameters import TableParameters
+    from agv_motion.probe.water import DayOfWater
 
 MOST_GAPS = 3
 """Gaps that are told, the longest first."""
@@ -34,12 +38,15 @@ def probes(
     plot: Annotated[Path | None, typer.Option(help='Picture to draw of what is known.')] = None,
     to: Annotated[Path | None, typer.Option(help='File to write, in the plainest form.')] = None,
     water: Annotated[
-        float,
-        typer.Option(help='Sapwood area [cm2]: tell litres a day, with a 95 % interval.', min=0),
+        float, typer.Option(help='Sapwood area [cm2]: tell litres, with a 95 % interval.', min=0)
     ] = 0.0,
     species: Annotated[
-        str, typer.Option(help='Calibration for --water, as probe.calibration.of.')
+        str, typer.Option(help='Calibration of the flux, as probe.calibration.of.')
     ] = 'granier',
+    longitude: Annotated[
+        float | None,
+        typer.Option(help='Degrees east, for its days; else by --time-zone.', min=-180, max=180),
+    ] = None,
     dark: Annotated[bool, typer.Option('--dark', help='Picture light on dark.')] = False,
 ) -> None:
     """Look at any file of a logger, say what is in it, and print the parameters that read it.
@@ -52,6 +59,7 @@ def probes(
 
     agv probes 'logs/*.dat' --to probes.csv
     """
+    from agv_motion.cli.probe.water_days import tell_water
     from agv_motion.probe.sources.source import kelvin_per
     from agv_motion.probe.tables.description import describe, parameters_for
     from agv_motion.probe.tables.inspection import inspect
@@ -60,21 +68,34 @@ def probes(
     seen = inspect(file)
     _tell_form(seen)
     known = {'file': file, 'time_zone': time_zone}
-    known |= {'time_column': time_column} if time_column else {}
-    known |= {'time_format': time_format} if time_format else {}
+    asked = (('time_column', time_column), ('time_format', time_format))
+    known |= {name: value for name, value in asked if value}
     names = [name.strip() for name in columns.split(',') if name.strip()]
     given = parameters_for(seen, known, names)
     found = describe(read_tables(given), given.columns)
     _tell_rows(found)
     _tell_columns(found, seen, given)
     unit = unit or next((facts.like for facts in found.columns if facts.like), 'mV')
-    _tell_parameters(given, unit)
+    read = _read_as(given, longitude, species, float(found.table.times[0]))
+    _tell_parameters(given, unit, read.solar_offset)
     if to is not None:
         _write(found, to)
-    if water:
-        _tell_water(found, kelvin_per(unit, kelvin_per_millivolt), water, species)
+    factor = kelvin_per(unit, kelvin_per_millivolt)
+    days = tell_water(found, factor, read, water) if water else None
     if plot is not None:
-        _draw(found, unit, kelvin_per_millivolt, plot, 'dark' if dark else 'light')
+        _draw(found, factor, read, days, plot, 'dark' if dark else 'light')
+
+
+def _read_as(
+    given: TableParameters, longitude: float | None, species: str, first: float
+) -> ProbeParameters:
+    """Return how the probes of a file are read whose ``first`` row is at that time [s]."""
+    from agv_motion.probe.calibration import CalibrationParameters
+    from agv_motion.probe.parameters import ProbeParameters
+    from agv_motion.probe.tables.local_time import solar_offset
+
+    offset = solar_offset(given.time_zone, first) if longitude is None else longitude / 15.0
+    return ProbeParameters(solar_offset=offset, calibration=CalibrationParameters(of=species))
 
 
 def _tell_form(seen: Inspection) -> None:
@@ -110,7 +131,7 @@ def _tell_columns(found: TableDescription, seen: Inspection, given: TableParamet
         typer.echo(f'other columns: {", ".join(others)}')
 
 
-def _tell_parameters(given: TableParameters, unit: str) -> None:
+def _tell_parameters(given: TableParameters, unit: str, offset: float) -> None:
     from agv_motion.probe.tables.description import asked_for
 
     typer.echo('\ngranier_probe:\n  ros__parameters:\n    source: csv')
@@ -121,6 +142,8 @@ def _tell_parameters(given: TableParameters, unit: str) -> None:
     if count < len(type(given)().columns):
         names = [f'probe_{min(i + 1, count)}' for i in range(3)]
         typer.echo(f'    assign: {_yaml(names)}  # s1 speed, s2 rotation, s3 places')
+    if offset:
+        typer.echo(f'    probe: {{solar_offset: {offset:.4g}}}')
     typer.echo('    csv:')
     for name, value in values.items():
         told = list(value) if isinstance(value, tuple) else value
@@ -150,46 +173,19 @@ def _write(found: TableDescription, to: Path) -> None:
     typer.echo(f'\nWritten: {to}')
 
 
-def _draw(
-    found: TableDescription, unit: str, kelvin_per_millivolt: float, path: Path, theme: str
-) -> None:
+def _draw(  # noqa: PLR0917 - a picture, and all that is drawn in it
+    found: TableDescription, factor: float, read: ProbeParameters,
+    days: Sequence[DayOfWater] | None, path: Path, theme: str,
+) -> None:  # fmt: skip
     from agv_motion.probe.series import read_series
-    from agv_motion.probe.sources.source import kelvin_per
-    from agv_motion.report.probes_figure import draw, finding
+    from agv_motion.report.probes_figure import PlaceDays, draw, finding
 
-    factor = kelvin_per(unit, kelvin_per_millivolt)
     names = [facts.name for facts in found.columns]
     columns = found.table.values.T * factor
-    series = [read_series(found.table.times, column) for column in columns]
-    draw(names, series, path, theme)
+    series = [read_series(found.table.times, column, read) for column in columns]
+    water = None if days is None else PlaceDays(days, read.solar_offset)
+    draw(names, series, path, theme, water)
     typer.echo(f'\n{finding(names, series)}\nFigure: {path}')
-
-
-def _tell_water(found: TableDescription, factor: float, area: float, species: str) -> None:
-    """Print what a tree drank each day, by the mean of its probes."""
-    from rich.table import Table
-
-    from agv_motion.probe.calibration import CalibrationParameters
-    from agv_motion.probe.parameters import ProbeParameters
-    from agv_motion.probe.probe import Probe
-    from agv_motion.probe.water import DAY, WaterMeter, WaterParameters, days_of
-
-    given = ProbeParameters(calibration=CalibrationParameters(of=species))
-    columns = (found.table.values * factor).tolist()
-    probes = [Probe(given) for _ in found.columns]
-    times = found.table.times.tolist()
-    rows = [
-        [probe.update(time, value) for probe, value in zip(probes, values, strict=True)]
-        for time, values in zip(times, columns, strict=True)
-    ]
-    meter = WaterMeter(WaterParameters(sapwood_area=1e-4 * area), given.calibration.chosen(), 0.0)
-    table = Table('day', 'litres', '95 %', 'most [l/h]', 'known', box=None)
-    for day in days_of(meter, times, rows, 0.0):
-        low_high = f'{day.drunk.low:.2f} to {day.drunk.high:.2f}'
-        numbers = [f'{day.drunk.value:.2f}', low_high, f'{day.highest.value:.3f}']
-        table.add_row(_moment(day.day * DAY)[:10], *numbers, f'{100.0 * day.known:.0f} %')
-    typer.echo(f'\nWater through {area:g} cm2 of sapwood, calibration {species}:')
-    terminal().print(table)
 
 
 def _moment(time: float) -> str:

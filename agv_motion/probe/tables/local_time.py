@@ -51,6 +51,25 @@ def zone_of(name: str) -> tzinfo:
     raise ConfigurationError(msg)
 
 
+def solar_offset(name: str, time: float) -> float:
+    """Return by how much the solar time of a zone is ahead of UTC [h], as its clocks in winter are.
+
+    A clock is up to an hour or two off the sun: who knows the longitude divides it by 15.
+
+    Args:
+        name: Of the zone, as :func:`zone_of` takes it.
+        time: At which the zone is asked [s since 1970].
+
+    Raises:
+        ConfigurationError: There is no zone of that name.
+
+    """
+    zone = zone_of(name)
+    year = datetime.fromtimestamp(time, zone).year
+    ahead = (datetime(year, month, 1, tzinfo=zone).utcoffset() for month in (1, 7))
+    return min((offset or timedelta()).total_seconds() for offset in ahead) / 3600.0
+
+
 class LocalClock:
     """Turns what the clock of a logger showed, row after row as time went on, into UTC."""
 

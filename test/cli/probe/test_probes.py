@@ -66,12 +66,19 @@ def test_what_a_tree_drank_is_told_for_each_day(alone, tmp_path):
             for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
         )
     )
-    status, out, errors = alone('probes', file, '--water', 120)
+    picture = tmp_path / 'oak.png'
+    status, out, errors = alone('probes', file, '--water', 120, '--plot', picture)
     assert status == 0, errors
+    assert picture.read_bytes().startswith(b'\x89PNG')
+    assert 'solar_offset' not in out
     rows = [line.split() for line in out.splitlines() if line.strip().startswith('2013-06-')]
     assert [row[0] for row in rows] == ['2013-06-01', '2013-06-02', '2013-06-03']
     litres, low, high = float(rows[1][1]), float(rows[1][2]), float(rows[1][4])
     assert low < litres < high
+    status, out, errors = alone('probes', file, '--water', 120, '--longitude', -90)
+    assert status == 0, errors
+    assert 'probe: {solar_offset: -6}' in out
+    assert 'days of UTC-6 h' in out
     assert (litres / low, high / litres) == pytest.approx((3.2, 3.2), rel=0.1)
     status, _, errors = alone('probes', file, '--water', 120, '--species', 'cactus')
     assert status == 1

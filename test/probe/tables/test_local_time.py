@@ -8,7 +8,7 @@ import pytest
 
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.probe.tables import TableParameters, read_tables
-from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, zone_of
+from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, solar_offset, zone_of
 from agv_motion.probe.tables.time_readers import Instant
 
 
@@ -73,3 +73,13 @@ def test_fixed_offsets(name, hours):
 def test_what_is_no_zone_is_refused(name):
     with pytest.raises(ConfigurationError, match=r'time_zone = .*Europe/Zurich'):
         zone_of(name)
+
+
+@pytest.mark.parametrize(
+    ('name', 'hours'),
+    [('UTC', 0.0), ('UTC-3:30', -3.5), ('Europe/Zurich', 1.0), ('Europe/Dublin', 0.0),
+     ('America/New_York', -5.0), ('Australia/Sydney', 10.0)],
+)  # fmt: skip
+@pytest.mark.parametrize('time', [1370000000.0, 1385000000.0], ids=['June', 'November'])
+def test_the_sun_knows_no_summer_time(name, hours, time):
+    assert solar_offset(name, time) == hours
