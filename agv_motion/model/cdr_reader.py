@@ -30,17 +30,18 @@ class CdrReader:
         if len(data) < HEADER:
             msg = f'{len(data)} bytes are no message in CDR'
             raise SignalError(msg)
-        self._data, self._at = data, HEADER
-        self._order = '<' if data[1] & 1 else '>'
+        self._data, self.at = data, HEADER
+        self.order = '<' if data[1] & 1 else '>'
+        """of bytes, as `struct` has it"""
 
     def time(self) -> int:
         """Return a builtin_interfaces/Time [ns]."""
-        sec, nanosec = self._take('iI', 4, 8)
-        return int(sec) * SECOND + int(nanosec)
+        sec, nanosec = self._take('iI', 8)
+        return sec * SECOND + nanosec
 
     def text(self) -> str:
         """Return a string."""
-        length = self._count()
+        length = self.count()
         content = self._bytes(length)
         try:
             return content[:-1].decode()
@@ -50,38 +51,29 @@ class CdrReader:
 
     def texts(self) -> list[str]:
         """Return a list of strings."""
-        count = self._count()
-        if count * 4 > len(self._data) - self._at:
+        count = self.count()
+        if count * 4 > len(self._data) - self.at:
             self._end()
         return [self.text() for _ in range(count)]
 
-    def numbers(self, count: int) -> tuple[float, ...]:
-        """Return ``count`` numbers of double precision."""
-        if count * 8 > len(self._data) - self._at:
-            self._end()
-        return self._take(f'{count}d', 8, 8 * count) if count else ()
-
-    def list_of_numbers(self) -> tuple[float, ...]:
-        """Return a list of numbers of double precision."""
-        return self.numbers(self._count())
-
-    def _count(self) -> int:
-        return int(self._take('I', 4, 4)[0])
+    def count(self) -> int:
+        """Return the length of a list, which stands before it."""
+        return self._take('I', 4)[0]
 
     def _bytes(self, length: int) -> bytes:
-        content = self._data[self._at : self._at + length]
+        content = self._data[self.at : self.at + length]
         if len(content) < length:
             self._end()
-        self._at += length
+        self.at += length
         return bytes(content)
 
-    def _take(self, layout: str, alignment: int, size: int) -> tuple[float, ...]:
-        at = self._at + (HEADER - self._at) % alignment
+    def _take(self, layout: str, size: int) -> tuple[int, ...]:
+        at = self.at + (HEADER - self.at) % 4
         try:
-            values = unpack_from(self._order + layout, self._data, at)
+            values = unpack_from(self.order + layout, self._data, at)
         except error:
             self._end()
-        self._at = at + size
+        self.at = at + size
         return values
 
     def _end(self) -> NoReturn:

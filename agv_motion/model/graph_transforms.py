@@ -13,11 +13,14 @@ from typing import TYPE_CHECKING
 from agv_motion.errors import AgvMotionError, SignalError
 from agv_motion.model.cdr_reader import CdrReader
 from agv_motion.model.robot_transforms import RobotTransforms
+from agv_motion.model.stamped_reader import StampedReader
 from agv_motion.model.transform_message import TF, TF_STATIC, encoded
 from agv_motion.model.urdf_reading import read_urdf
 from agv_motion.planar import FARTHEST, Pose
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from agv_motion.model.robot_model import RobotModel
     from agv_motion.model.transform import Transform
 
@@ -36,6 +39,8 @@ MOST = 200
 """Robots on a graph"""
 ANY_HEADING = 3.0
 """[rad2] Variance of a heading that may be any"""
+POSE, COVARIANCE = 7, 36
+"""Numbers of a geometry_msgs/Pose, and of the covariance behind it"""
 YAW = 35
 """Place of the variance of the heading among the numbers of a covariance"""
 
@@ -80,7 +85,7 @@ class GraphTransforms:
             robot = self._robots[namespace] = _Robot(namespace, self._hold)
         try:
             before = robot.fixed
-            transforms = self._take[name](robot, CdrReader(data))
+            transforms = self._take[name](robot, data)
         except AgvMotionError as error:
             self.refused = f'{topic}: {error}'
             return []
@@ -100,33 +105,32 @@ class GraphTransforms:
 
     # What each topic tells
 
-    def _take_robot_description(self, robot: _Robot, message: CdrReader) -> list[Transform]:
-        robot.describe(read_urdf(message.text()))
+    def _take_robot_description(self, robot: _Robot, data: bytes) -> list[Transform]:
+        robot.describe(read_urdf(CdrReader(data).text()))
         return []
 
-    def _take_joint_states(self, robot: _Robot, message: CdrReader) -> list[Transform]:
-        stamp, frame = message.time(), message.text()
-        names, positions = message.texts(), message.list_of_numbers()
+    def _take_joint_states(self, robot: _Robot, data: bytes) -> list[Transform]:
+        stamp, (frame, names), positions = robot.read.joints.read(data)
         robot.note_base(frame, stamp)
         if len(names) != len(positions):  # of joints of which only rates are told
             return []
         return robot.transforms.take_joints(stamp, dict(zip(names, positions, strict=True)))
 
-    def _take_odom(self, robot: _Robot, message: CdrReader) -> list[Transform]:
-        stamp, frame, child = message.time(), message.text(), message.text()
-        pose = _pose(message)
+    def _take_odom(self, robot: _Robot, data: bytes) -> list[Transform]:
+        stamp, (frame, child), numbers = robot.read.odom.read(data)
+        pose = _pose(numbers)
         robot.note_base(child, stamp)
         return robot.transforms.take_odometry(stamp, frame, child, pose)
 
-    def _take_pose(self, robot: _Robot, message: CdrReader) -> list[Transform]:
+    def _take_pose(self, robot: _Robot, data: bytes) -> list[Transform]:
         robot.is_located = True
-        stamp, frame = message.time(), message.text()
-        return robot.transforms.take_pose(stamp, frame, _pose(message))
+        stamp, frame, numbers = robot.read.pose.read(data)
+        return robot.transforms.take_pose(stamp, frame, _pose(numbers))
 
-    def _take_fix(self, robot: _Robot, message: CdrReader) -> list[Transform]:
+    def _take_fix(self, robot: _Robot, data: bytes) -> list[Transform]:
         """Take a fix for a pose: one with a heading, of a robot that no localization locates."""
-        stamp, frame = message.time(), message.text()
-        pose, variance = _pose(message), message.numbers(YAW + 1)[YAW]
+        stamp, frame, numbers = robot.read.fix.read(data)
+        pose, variance = _pose(numbers), numbers[POSE + YAW]
         if robot.is_located or not 0.0 < variance <= ANY_HEADING:
             return []
         return robot.transforms.take_pose(stamp, frame, pose)
@@ -136,6 +140,18 @@ class GraphTransforms:
         namespace, _, name = topic.rpartition('/')
         if name == 'pose' and len(self._robots) < MOST:
             self._robots.setdefault(namespace, _Robot(namespace, self._hold)).is_located = True
+
+
+class _Readers:
+    """What reads each topic of a robot: its frames and joints stay as they are."""
+
+    def __init__(self) -> None:
+        self.odom = StampedReader(lambda message: ((message.text(), message.text()), POSE))
+        self.pose = StampedReader(lambda message: (message.text(), POSE))
+        self.fix = StampedReader(lambda message: (message.text(), POSE + COVARIANCE))
+        self.joints = StampedReader(
+            lambda message: ((message.text(), message.texts()), message.count())
+        )
 
 
 class _Robot:
@@ -148,6 +164,7 @@ class _Robot:
         """told on ``/tf_static``"""
         self.is_located = False
         """Whether a localization tells its pose"""
+        self.read = _Readers()
         self._base: tuple[str, int] | None = None
 
     def describe(self, model: RobotModel) -> None:
@@ -167,14 +184,14 @@ class _Robot:
             self.fixed = self.transforms.fixed(stamp)
 
 
-def _pose(message: CdrReader) -> Pose:
-    """Return the planar part of a geometry_msgs/Pose.
+def _pose(numbers: Sequence[float]) -> Pose:
+    """Return the planar part of a geometry_msgs/Pose, by its numbers.
 
     Raises:
         SignalError: It is none.
 
     """
-    x, y, _, qx, qy, qz, qw = message.numbers(7)
+    x, y, _, qx, qy, qz, qw = numbers[:POSE]
     norm = qx * qx + qy * qy + qz * qz + qw * qw
     if not (isfinite(x + y) and max(abs(x), abs(y)) <= FARTHEST and abs(norm - 1.0) <= 0.01):
         msg = f'a pose at ({x:g}, {y:g}) with a quaternion of the length {norm**0.5:g} is none'

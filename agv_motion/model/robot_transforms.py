@@ -60,8 +60,8 @@ class RobotTransforms:
         """of joints, as they were told last"""
         self._waiting: tuple[str, _Place] | None = None
         """a pose that is newer than all odometry"""
-        self._map: tuple[str, _Place] | None = None
-        """frame of the map, place of `odom` in it, and when that was known"""
+        self._map: Transform | None = None
+        """place of `odom` in the map, as of when it was known last"""
 
     def fixed(self, stamp: int) -> list[Transform]:
         """Return the transforms that hold for good, for ``/tf_static``."""
@@ -137,25 +137,22 @@ class RobotTransforms:
         in_odom = self._odometry_at(place.stamp)
         if in_odom is None or frame == self._odom:
             return []
-        known = self._map is not None
-        if self._map is not None and place.stamp < self._map[1].stamp:
+        known = self._map
+        if known is not None and place.stamp < known.stamp:
             return []
         origin = compose(place.pose, inverse(in_odom))
-        self._map = frame, _Place(place.stamp, origin)
-        found = []
-        if not known and self._hold == inf and self._first is not None:
-            found.append(planar(self._first, frame, self._odom, origin))
-        found.append(planar(place.stamp, frame, self._odom, origin))
+        self._map = planar(place.stamp, frame, self._odom, origin)
+        found = [self._map]
+        if known is None and self._hold == inf and self._first is not None:
+            found.insert(0, self._map._replace(stamp=self._first))
         return [transform for transform in found if self._is_news(transform)]
 
     def _hold_map(self, stamp: int) -> list[Transform]:
         """Return the place of `odom` in the map as it was known last, as long as it counts."""
-        if self._map is None:
+        known = self._map
+        if known is None or stamp - known.stamp > self._hold * SECOND:
             return []
-        frame, known = self._map
-        if stamp - known.stamp > self._hold * SECOND:
-            return []
-        held = planar(stamp, frame, self._odom, known.pose)
+        held = Transform(stamp, known.parent, self._odom, known.translation, known.rotation)
         return [held] if self._is_news(held) else []
 
     def _odometry_at(self, stamp: int) -> Pose | None:

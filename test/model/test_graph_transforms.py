@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, pi, sin
+from struct import pack
 
 import pytest
 
@@ -98,6 +99,14 @@ def test_what_is_no_message_is_passed_over_with_its_reason(say, topic):
     for length in range(min(len(whole), 80)):
         assert graph.take(topic, whole[:length]) == []
         assert topic in graph.refused
+
+
+def test_a_stamp_that_no_message_can_tell_is_passed_over_with_its_reason(say):
+    graph = GraphTransforms()
+    data = bytearray(say.odometry(1.0, (0, 0, 0)))
+    data[4:12] = pack('<iI', 2**31 - 1, 2**32 - 1)
+    assert graph.take('/odom', bytes(data)) == []
+    assert 'behind the last one' in graph.refused
 
 
 @pytest.mark.parametrize('where', [(float('nan'), 0, 0), (0, float('inf'), 0), (1e9, 0, 0)])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.quality_of_service import OfferedQos
@@ -51,9 +50,10 @@ class RecordedTransforms:
         return self._handled(self._transforms.last())
 
     def _handled(self, told: Iterable[tuple[str, bytes]]) -> list[tuple[int, bytes]]:
-        with suppress(SourceError):  # the disk is full, and the recording has told so
+        try:
             return [(self._handle(topic), data) for topic, data in told]
-        return []
+        except SourceError:  # the disk is full, and the recording has told so
+            return []
 
     def _handle(self, topic: str) -> int:
         if topic not in self._handles:
