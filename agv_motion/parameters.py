@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from _typeshed import DataclassInstance
 
+TIME_OF_DAY = 'HH:MM'
+"""Unit of a text that is one: YAML 1.1 makes 600 of 10:00, so a whole number means minutes."""
+
 
 @dataclass(frozen=True)
 class Spec:

@@ -44,6 +44,11 @@ class Twist(NamedTuple):
 REST = Twist(0.0, 0.0, 0.0)
 
 
+def without_minus_zero(twist: Twist) -> Twist:
+    """Return the same twist, no zero in it with a minus before it."""
+    return Twist(twist[0] + 0.0, twist[1] + 0.0, twist[2] + 0.0)
+
+
 def wrap(angle: float) -> float:
     """Return ``angle`` [rad] brought into [-pi, pi); one that lies there is left as it is."""
     if -pi <= angle < pi:

@@ -52,8 +52,17 @@ def main(
     """Draw an animation of a walk: where the tree goes and why, and what it felt."""
     with BagReader(bag) as reader:
         run = read_walk(reader, 0.1)
+        if not len(run.path):
+            msg = f'{bag}: nobody tells ground_truth in it: give a bag of agv demo'
+            raise typer.BadParameter(msg)
         stamps = (times(run, FRAMES) + reader.start * 1e-9).tolist()
         shapes = read_footprints(reader, '/ground_truth', stamps)
+    if shapes is None:
+        typer.echo(
+            f'{bag}: no robot_description in it, so the tree is a disc of {PLATFORM_RADIUS} m '
+            'without wheels; record with the node robot_model on the graph, as agv demo does',
+            err=True,
+        )
     write(run, load_zone(find_config(zone), PLATFORM_RADIUS), output, shapes)
     typer.echo(f'Animation: {output}, {output.stat().st_size / 1e6:.2f} MB')
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+from contextlib import nullcontext
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -49,6 +51,25 @@ def test_a_walk_becomes_a_moving_picture(tmp_path, monkeypatch):
     left = [np.mean(blue_of_the_map(each)) for each in pictures]
     assert left == sorted(left)
     assert left[-1] - left[0] > 60  # of 12 m on a map of 20 m that is 180 pixels wide
+
+
+def test_a_bag_that_does_not_tell_the_robot_is_drawn_with_a_word_about_it(
+    tmp_path, monkeypatch, capsys
+):
+    drawn = []
+    monkeypatch.setattr(animation, 'read_walk', lambda *_: walk())
+    monkeypatch.setattr(animation, 'read_footprints', lambda *_: None)
+    monkeypatch.setattr(animation, 'write', lambda *given: drawn.append(given) or given[2].touch())
+    monkeypatch.setattr(animation, 'BagReader', lambda _: nullcontext(SimpleNamespace(start=0)))
+    animation.main(tmp_path / 'bag', tmp_path / 'walk.gif')
+    assert drawn[0][3] is None
+    (line,) = capsys.readouterr().err.splitlines()
+    assert 'no robot_description' in line
+    assert 'a disc of' in line
+    empty = walk()._replace(path=np.empty((0, 4)))
+    monkeypatch.setattr(animation, 'read_walk', lambda *_: empty)
+    with pytest.raises(animation.typer.BadParameter, match='nobody tells ground_truth'):
+        animation.main(tmp_path / 'bag')
 
 
 def blue_of_the_map(picture):

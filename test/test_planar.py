@@ -19,6 +19,7 @@ from agv_motion.planar import (
     inverse,
     logarithm,
     require_finite,
+    without_minus_zero,
     wrap,
 )
 
@@ -94,3 +95,8 @@ def test_what_is_not_finite_is_named(bad):
 
 def test_large_finite_numbers_pass():
     require_finite('pose', (1e308, 1e308, -1e308))
+
+
+def test_no_zero_has_a_minus():
+    assert str(without_minus_zero(Twist(-0.0, 0.0, -0.0))) == str(Twist(0.0, 0.0, 0.0))
+    assert without_minus_zero(Twist(-0.5, 1e-300, -1e-300)) == Twist(-0.5, 1e-300, -1e-300)

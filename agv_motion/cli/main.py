@@ -6,6 +6,8 @@ import errno
 import os
 import sys
 from io import TextIOWrapper
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -13,6 +15,9 @@ from agv_motion.cli import INTERRUPTED
 from agv_motion.cli.lazy_group import HELP, lazy_group
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.stop import interrupt
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 app = typer.Typer(
     cls=lazy_group(
@@ -61,12 +66,27 @@ def agv() -> None:
     """
 
 
+COMPLETION = '--install-completion', '--show-completion'
+
+
+def name_shell(words: Sequence[str]) -> None:
+    """Let the shell that is named after `--show-completion` count, not the one that runs this.
+
+    typer takes a name only where it is told not to find out by itself.
+    """
+    for option in COMPLETION:
+        after = [b for a, b in pairwise(words) if a == option and not b.startswith('-')]
+        if after or any(word.startswith(f'{option}=') for word in words):
+            os.environ['_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION'] = '1'
+
+
 def main() -> None:
     """Run the command; errors are told in one line, and a closed pipe or terminal is no error.
 
     SIGTERM and SIGHUP end it as Ctrl-C does, where the command has no end of its own.
     """
     interrupt()
+    name_shell(sys.argv[1:])
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors='backslashreplace')  # names of files may be no UTF-8

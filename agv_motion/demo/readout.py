@@ -78,6 +78,24 @@ def lines(rows: Sequence[tuple[str, str]], width: int, tall: int = 1) -> Table:
     return table
 
 
+def paragraphs(values: Sequence[str], width: int, tall: int) -> list[Table]:
+    """Return several sentences, each over the whole ``width``, in ``tall`` lines together.
+
+    Each has as many lines as it takes; where there are too few, the longest is cut at its end.
+    """
+    heights = [len(_wrapped(value, width, tall)) for value in values]
+    while sum(heights) > max(tall, len(values)):
+        heights[heights.index(max(heights))] -= 1
+    made = []
+    for value, height in zip(values, heights, strict=True):
+        table = Table.grid()
+        table.add_column(width=width, no_wrap=True, overflow='ellipsis')
+        for line in _wrapped(value, width, height):
+            table.add_row(Text(line))
+        made.append(table)
+    return made
+
+
 def _wrapped(value: str, width: int, tall: int) -> list[str]:
     """Return a value in lines, as many as it takes but no more than ``tall``."""
     if len(value) <= width:

@@ -87,6 +87,7 @@ class CommandGuard:
             port.listen_to_rows(rows, 'cmd_vel', self._on_stamped_twist, COMMAND, sole=True)
         else:
             port.listen(TwistMessage, 'cmd_vel', self._on_twist, COMMAND, sole=True)
+        port.need('cmd_vel')
         kind = TwistStamped if given.stamped else TwistMessage
         port.listen(kind, 'cmd_vel/stop', lambda _: self._hold(held=True), COMMAND)
         port.listen(Bool, 'standstill', self._on_standstill, LATCHED, sole=True)

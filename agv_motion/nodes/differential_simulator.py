@@ -66,6 +66,7 @@ class DifferentialSimulator(SimulatedNode[DifferentialSimulatorParameters]):
         self._state = port.publisher(JointState, 'wheels/state', SENSOR, sole=True)
         self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         port.listen(JointState, 'wheels/command', self._on_command, COMMAND)
+        port.need('wheels/command')
 
     def reset(self) -> DifferentialRobot:
         """Return a robot at its start, its wheels still."""

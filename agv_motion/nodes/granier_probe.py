@@ -133,6 +133,7 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         port.serve(Trigger, '~/recalibrate', self._on_recalibrate)
         if isinstance(self._source, SimulatedSource):
             port.listen(Illuminance, 'sunlight', self._on_sunlight, SENSOR)
+            port.need('sunlight')
         port.every(1.0 / given.rate, self.tick)
         if given.state_file:
             port.every(SAVE_PERIOD, self._save, steady=True)

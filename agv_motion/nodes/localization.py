@@ -91,6 +91,7 @@ class Localization(PlainNode[LocalizationParameters]):
         self._transforms = None if self._tells is ToldTransforms.NONE else Transforms(port)
         port.listen(Odometry, 'odom', self._on_odometry, SENSOR, sole=True)
         port.listen(PoseWithCovarianceStamped, 'fix', self._on_fix, SENSOR)
+        port.need('odom', 'fix')
         port.listen(Imu, 'imu', self._on_imu, SENSOR)
         port.listen(PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, COMMAND)
         port.listen(PoseWithCovarianceStamped, 'set_pose', self._on_initial_pose, COMMAND)

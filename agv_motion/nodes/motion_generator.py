@@ -57,6 +57,7 @@ class MotionGenerator(PlainNode[MotionGeneratorParameters]):
         port.listen(Vector3Stamped, 'granier/sap_flow', self._on_sap_flow, SENSOR, sole=True)
         port.listen(Bool, 'granier/valid', self._on_valid, LATCHED)
         port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR, sole=True)
+        port.need('granier/sap_flow', 'pose')
         port.listen(PoseStamped, 'goal_pose', self._on_goal, COMMAND)
         port.serve(SetBool, '~/pause', self._on_pause)
         port.serve(Trigger, '~/next_goal', self._on_next_goal)

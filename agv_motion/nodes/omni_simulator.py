@@ -116,6 +116,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         self._state = port.publisher(JointState, 'wheels/state', SENSOR, sole=True)
         self._fix = port.publisher(PoseWithCovarianceStamped, 'fix', SENSOR)
         port.listen(JointState, 'wheels/command', self._on_command, COMMAND)
+        port.need('wheels/command')
 
     def accept(self, parameters: OmniSimulatorParameters) -> None:
         """Break or mend an encoder."""

@@ -33,6 +33,7 @@ class PoseInput:
         self.begin()
         kind = Odometry if given.drives_by_odom else PoseWithCovarianceStamped
         port.listen(kind, given.position, self._on_pose, SENSOR, sole=True)
+        port.need(given.position)
 
     def begin(self) -> None:
         """Know nothing of before: where the robot is must be told anew."""

@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.dashboard.core.names import namespace_of
 from agv_motion.dashboard.server.fleet import RefusedError
-from agv_motion.planar import REST, Pose, Twist
+from agv_motion.planar import REST, Pose, Twist, without_minus_zero
 from agv_motion.ros.messages import fill_pose, fill_twist, stamp_of
 from agv_motion.ros.qos import COMMAND
 
@@ -203,7 +203,7 @@ class RobotActs:
     def _publish_twist(self, topic: str, twist: Twist, moment: int) -> None:
         message = TwistStamped()
         message.header.stamp = stamp_of(moment)
-        fill_twist(message.twist, twist)
+        fill_twist(message.twist, without_minus_zero(twist))
         self.publisher(TwistStamped, topic).publish(message)
 
     def publisher(self, kind: type[Any], topic: str) -> Any:

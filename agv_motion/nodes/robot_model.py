@@ -88,6 +88,7 @@ class RobotModelNode(PlainNode[RobotModelParameters]):
         self._joints = port.publisher(JointState, 'joint_states', SENSOR, sole=True)
         topic = 'turrets/state' if given.platform == Platform.TREE.value else 'wheels/state'
         port.listen(JointState, topic, self._on_state, SENSOR)
+        port.need(topic)
         if tells is ToldOnTf.ALL and self._tf is not None and self._tf.available:
             port.listen(Odometry, 'odom', self._on_odometry, SENSOR)
             port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)

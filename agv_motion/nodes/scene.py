@@ -119,6 +119,7 @@ class Scene(PlainNode[SceneParameters]):
         self._shown: set[tuple[str, int]] = set()
         self._scene = port.publisher(MarkerArray, 'scene', LATCHED, sole=True)
         port.listen(PoseWithCovarianceStamped, 'pose', self._on_pose, SENSOR)
+        port.need('pose')
         port.listen(Odometry, 'odom', self._on_odometry, SENSOR)
         port.listen(JointState, 'joint_states', self._on_joints, SENSOR)
         port.listen(Illuminance, 'sunlight', self._on_light, SENSOR)

@@ -164,6 +164,7 @@ class SimulatedNode(PlainNode[P]):
         port.serve(SetMap, '~/carry', lambda request: self._carry(request.initial_pose))
         if ClockRole(given.clock) is ClockRole.FOLLOW:
             port.listen(ClockMessage, CLOCK_TOPIC, self._follow, CLOCK)
+            port.need(CLOCK_TOPIC)
             return
         period = 1.0 / (given.rate * given.time_factor)
         self._clock = ClockLeader(port, period, self._lead)

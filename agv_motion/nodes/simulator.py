@@ -123,6 +123,7 @@ class Simulator(SimulatedNode[SimulatorParameters]):
         self._state = port.publisher(JointState, 'turrets/state', SENSOR, sole=True)
         self._sunlight = SimulatedSunlight(port, parameters)
         port.listen(JointState, 'turrets/command', self._on_command, COMMAND)
+        port.need('turrets/command')
 
     def reset(self) -> TurretPlatform:
         """Return a platform at its start, its turrets straight."""

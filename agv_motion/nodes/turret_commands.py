@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from std_msgs.msg import Float64MultiArray, String
 
 from agv_motion.kinematics.steering.state import Limiter
-from agv_motion.planar import REST, Twist
+from agv_motion.planar import REST, Twist, without_minus_zero
 from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.turret_rows import TurretRows
@@ -91,10 +91,14 @@ class TurretCommands:
             return
         share = driving.share()
         factor = share / self._given.wheel_radius
-        rates = [factor * speed for speed in setpoints.speeds]
-        angles = [angle - zero for angle, zero in zip(setpoints.angles, self._zero, strict=True)]
+        # + 0.0: no minus before a zero
+        rates = [factor * speed + 0.0 for speed in setpoints.speeds]
+        angles = [
+            angle - zero + 0.0 for angle, zero in zip(setpoints.angles, self._zero, strict=True)
+        ]
         self._command.publish((angles, rates), instant)
         if self._limited.get_subscription_count():
             vx, vy, wz = setpoints.twist(driving.planner.turrets)
-            self._limited.publish(Twist(share * vx, share * vy, share * wz), instant)
+            limited = without_minus_zero(Twist(share * vx, share * vy, share * wz))
+            self._limited.publish(limited, instant)
         self.arrays.send(angles, rates)

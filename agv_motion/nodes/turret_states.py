@@ -96,6 +96,7 @@ class TurretStates:
         self._columns = _Columns(self._message)
         ahead = Ahead(self._prepare, self._take)
         port.listen_ahead(JointState, 'turrets/state', self._on_state, ahead, SENSOR)
+        port.need('turrets/state')
 
     def _on_state(self, message: JointState) -> None:
         """Take a state; one that does not follow the last, see `continuity`, is no news."""

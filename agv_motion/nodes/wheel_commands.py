@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from agv_motion.planar import REST, Twist
+from agv_motion.planar import REST, Twist, without_minus_zero
 from agv_motion.ros.messages import stamp_of
 from agv_motion.ros.qos import COMMAND
 from agv_motion.ros.twist_rows import TwistRows
@@ -50,7 +50,8 @@ class WheelCommands:
             instant: [ns]
 
         """
-        self.twist = twist
+        self.twist = twist = without_minus_zero(twist)
+        rates = [rate + 0.0 for rate in rates]  # no minus before a zero
         message = self.joints.message(rates)
         message.header.stamp = stamp_of(instant)
         message.header.frame_id = self._frame

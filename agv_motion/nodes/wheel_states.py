@@ -76,6 +76,7 @@ class WheelStates:
         self._angles, self._watch = angles, watch
         self._odom = port.publisher(Odometry, 'odom', SENSOR, sole=True)
         port.listen(JointState, 'wheels/state', self._on_state, SENSOR)
+        port.need('wheels/state')
         port.listen(PoseWithCovarianceStamped, 'set_odometry', self._on_pose, COMMAND)
         port.serve(SetMap, '~/set_odometry', lambda request: self._go_on(request.initial_pose))
 

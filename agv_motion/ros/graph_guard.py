@@ -18,8 +18,12 @@ if TYPE_CHECKING:
 
 
 LOOKS_AROUND = 5
-"""Looks at the graph after which those that are there have been found, and a node says of itself
-what it listens to and what is missing."""
+"""Looks at the graph after which those that are there have been found, and a healthy node says what
+it needs and what it makes of it."""
+
+PATIENCE = 25
+"""Looks after which it says what it still lacks: nodes that are started together come one by one,
+on a busy machine in some seconds."""
 
 PAST_THE_ARBITER = '; where there is an arbiter, remap all others to cmd_vel/agent or the like'
 """What to do about those who drive past it."""
@@ -60,7 +64,8 @@ class GraphGuard:
         self._node, self._watch = node, GraphWatch(node)
         self._is_active, self._warnings = is_active, StandingWarnings(warn)
         self._rests = False
-        self._looks_left = 0
+        self._looks: int | None = None
+        """Looks at the graph since the node wanted to say how it is; None: it has."""
 
     def add(
         self, kind: type[Any], topic: str, qos: QoSProfile, *, publishes: bool, sole: bool
@@ -68,14 +73,18 @@ class GraphGuard:
         """Watch a topic of the node from now on."""
         self._watch.add(kind, topic, qos, publishes=publishes, sole=sole)
 
+    def need(self, *topics: str) -> None:
+        """Know that the node can do nothing where nobody publishes ``topics``."""
+        self._watch.needed.extend(topics)
+
     def clear(self) -> None:
         """Watch nothing any more."""
         self._watch.clear()
         self.rivals, self._rests = '', False
 
     def introduce(self) -> None:
-        """Say in a while what the node listens to, what it publishes, and what is missing."""
-        self._looks_left = LOOKS_AROUND
+        """Say in a while what the node needs and makes; before that, what it needs and lacks."""
+        self._looks = 0
 
     def check(self) -> None:
         """Look at the graph; deactivate the node beside a rival, activate it when that is gone."""
@@ -93,10 +102,8 @@ class GraphGuard:
             node.get_logger().info('alone on its topics again: going on')
             node.trigger_activate()
         self._tell()
-        self._looks_left -= self._looks_left > 0 and self._is_active()
-        if self._looks_left == 1:
-            self._looks_left = 0
-            node.get_logger().info(self._watch.introduction())
+        if self._looks is not None and self._is_active():
+            self._introduce(self._looks + 1)
 
     def faults(self) -> tuple[str, ...]:
         """Return what keeps ends from meeting, and what to do about it."""
@@ -106,6 +113,16 @@ class GraphGuard:
         """Return what there is to know for the diagnostics."""
         crowds = {f'publishers of {topic}': who for topic, who in self._watch.crowds().items()}
         return crowds | {f'graph {i + 1}': fault for i, fault in enumerate(self.faults())}
+
+    def _introduce(self, looks: int) -> None:
+        """Say at a look that the node has all it needs, or once after a while what it lacks."""
+        self._looks = looks
+        missing = self._watch.missing() if looks >= LOOKS_AROUND else ''
+        if missing and looks == PATIENCE:
+            self._node.get_logger().warning(f'active, but nobody publishes {missing} yet')
+        if looks >= LOOKS_AROUND and not missing:
+            self._looks = None
+            self._node.get_logger().info(self._watch.introduction())
 
     def _tell(self) -> None:
         """Log what is new."""

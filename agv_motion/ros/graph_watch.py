@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 GRAPH_PERIOD = 0.4
 """[s] Two looks must agree on a rival; so it is told within 0.8 s of its discovery."""
-MOST_TOPICS = 8
+MOST_TOPICS = 3
 """Topics that are named in one list."""
 IN_TURN = 2
 """Topics of each look that are asked for though no number has changed."""
@@ -43,6 +43,8 @@ class GraphWatch:
 
     def __init__(self, node: Node) -> None:
         """Know of no topic yet."""
+        self.needed: list[str] = []
+        """Topics without which the node can do nothing"""
         self._node = node
         self._ends: list[OwnEnd] = []
         self._counts: dict[OwnEnd, tuple[int, int]] = {}
@@ -59,6 +61,7 @@ class GraphWatch:
 
     def clear(self) -> None:
         """Look at nothing any more."""
+        self.needed.clear()
         self._ends.clear()
         self._counts.clear()
         self._found.clear()
@@ -84,27 +87,34 @@ class GraphWatch:
         """Return which nodes published an input together at the last look, by topic."""
         return {end.topic: found.crowd for end, found in self._found.items() if found.crowd}
 
+    def missing(self) -> str:
+        """Return which inputs that the node needs nobody publishes; empty if none."""
+        return self._listed([one for one in self.needed if not self._publishers(one)])
+
     def introduction(self) -> str:
-        """Return in one line what the node listens to, what it publishes, and what nobody tells."""
-        heard = [end.topic for end in self._ends if not end.publishes]
-        told = [end.topic for end in self._ends if end.publishes]
-        missing = [topic for topic in heard if not self._node.count_publishers(topic)]
-        listens = f'listens to {self._listed(heard)}' if heard else 'listens to nothing'
-        publishes = f'publishes {self._listed(told)}' if told else 'publishes nothing'
-        without = f'nobody publishes {self._listed(missing)} yet' if missing else 'all are there'
-        return f'active: {listens}; {publishes}' + f'; {without}' * bool(heard)
+        """Return in a short line what the node needs, and what it makes of it."""
+        needed = self._listed(self.needed)
+        own = [end for end in self._ends if end.publishes]
+        made = self._listed([end.topic for end in [e for e in own if e.sole] or own])
+        return f'active: {needed} -> {made}' if needed and made else f'active: {needed or made}'
 
     def _listed(self, topics: Sequence[str]) -> str:
+        """Return names of topics, those in the node's own namespace as short as they are there."""
+        space = f'{self._node.get_namespace().rstrip("/")}/'
         full = [self._node.resolve_topic_name(topic) for topic in dict.fromkeys(topics)]
+        shown = [name.removeprefix(space) for name in full[:MOST_TOPICS]]
         more = f' and {len(full) - MOST_TOPICS} more' if len(full) > MOST_TOPICS else ''
-        return ', '.join(full[:MOST_TOPICS]) + more
+        return ', '.join(shown) + more
+
+    def _publishers(self, topic: str) -> int:
+        """Return how many publish a topic, which may be remapped: rclpy counts by full names."""
+        return int(self._node.count_publishers(self._node.resolve_topic_name(topic)))
 
     def _has_changed(self, end: OwnEnd) -> bool:
         """Return whether other ends have come or gone; always so while there are rivals."""
-        counts = (
-            self._node.count_publishers(end.topic),
-            self._node.count_subscribers(end.topic) if end.publishes else 0,
-        )
+        full = self._node.resolve_topic_name(end.topic)
+        listeners = self._node.count_subscribers(full) if end.publishes else 0
+        counts = self._publishers(end.topic), listeners
         changed = self._counts.get(end) != counts
         self._counts[end] = counts
         return changed or bool(self._found[end].rivals)

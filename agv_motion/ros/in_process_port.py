@@ -145,6 +145,9 @@ class InProcessPort:
         del qos, sole
         self._add(topic, InProcessRowListener(self, rows, topic, callback))
 
+    def need(self, *topics: str) -> None:
+        """Leave it: what is recorded is there, and nothing else will come."""
+
     def every(self, seconds: float, callback: Callable[[], None], *, steady: bool = False) -> None:
         """Call ``callback`` periodically while active; there is one clock."""
         del steady

@@ -26,7 +26,7 @@ from agv_motion.ros.graph_guard import GraphGuard
 from agv_motion.ros.graph_watch import GRAPH_PERIOD
 from agv_motion.ros.live_port import LivePort
 from agv_motion.ros.log_callers import note_log_callers
-from agv_motion.ros.parameter_changes import differing, refusal
+from agv_motion.ros.parameter_changes import NOTHING, differing, refusal
 from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.quotation import told
@@ -101,6 +101,10 @@ class LiveNode(LifecycleNode, Generic[N]):
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
         """Set parameters; what is wrong is refused with what to write, what is so already taken."""
+        parameter_list = [
+            self.declared.as_written(one, self.get_parameter_or(one.name, NOTHING).value)
+            for one in parameter_list
+        ]
         for parameter in parameter_list:
             wrong = self.declared.wrong(parameter.name, parameter.value)
             if wrong:

@@ -134,6 +134,10 @@ class LivePort:
 
         self.listen(type(rows.message()), topic, take, qos, sole=sole)
 
+    def need(self, *topics: str) -> None:
+        """Tell at the start where nobody publishes ``topics``, which the node cannot do without."""
+        self.graph.need(*topics)
+
     def every(self, seconds: float, callback: Callable[[], None], *, steady: bool = False) -> None:
         """Call ``callback`` periodically while active."""
         self.ends.every(
@@ -154,7 +158,7 @@ class LivePort:
 
     def count_publishers(self, topic: str) -> int:
         """Return how many nodes publish a topic."""
-        return int(self.node.count_publishers(topic))
+        return int(self.node.count_publishers(self.full_name(topic)))
 
     def crowd(self, topic: str) -> str:
         """Return which nodes publish a topic together, in words; empty if one or none does."""

@@ -9,6 +9,7 @@ from agv_motion.files.marked import quoted
 from agv_motion.parameters import moved, nested, rows
 from agv_motion.ros.parameter_arguments import sections
 from agv_motion.ros.suggestion import meant
+from agv_motion.ros.yaml_readings import as_written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,14 +61,14 @@ def _merged(
 
 
 def _build(kind: type[T], values: dict[str, Any], where: str, prefix: str) -> T:
-    plain = {name: origin for name, origin, _ in rows(kind)}
+    plain = {name: (origin, spec.unit) for name, origin, spec in rows(kind)}
     groups = dict(nested(kind))
     given: dict[str, Any] = {}
     for name, value in values.items():
         if name in groups and isinstance(value, dict):
             given[name] = _build(groups[name], value, where, f'{prefix}{name}.')
         elif name in plain:
-            given[name] = _typed(value, plain[name], f'{where}{prefix}{name}')
+            given[name] = _typed(value, *plain[name], f'{where}{prefix}{name}')
         else:
             first = next(iter(value), '') if isinstance(value, dict) else ''
             old = f'{prefix}{name}.{first}' if first else f'{prefix}{name}'
@@ -86,8 +87,9 @@ def _build(kind: type[T], values: dict[str, Any], where: str, prefix: str) -> T:
         raise ConfigurationError(msg) from error
 
 
-def _typed(value: Any, origin: Any, where: str) -> Any:
+def _typed(value: Any, origin: Any, unit: str, where: str) -> Any:
     """Return a value as its row wants it; as ROS, take no 1 for 1.0."""
+    value = as_written(value, origin, unit, None)
     if isinstance(value, list):
         value = tuple(value)
     wanted = tuple if getattr(origin, '__origin__', origin) is tuple else origin

@@ -11,6 +11,7 @@ from rcl_interfaces.msg import (
     ParameterDescriptor,
     SetParametersResult,
 )
+from rclpy.parameter import Parameter
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
@@ -22,13 +23,13 @@ from agv_motion.ros.parameter_changes import empty_array
 from agv_motion.ros.parameter_types import wrong_type
 from agv_motion.ros.quotation import told
 from agv_motion.ros.suggestion import meant
+from agv_motion.ros.yaml_readings import as_written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from _typeshed import DataclassInstance
     from rclpy.node import Node
-    from rclpy.parameter import Parameter
 
     from agv_motion.parameters import Spec
 
@@ -73,10 +74,12 @@ class DeclaredParameters(Generic[T]):
         """
         self._accept = accept
         self._types = dict(_types(kind, ''))
+        self._units = dict(_units(kind, ''))
         given = getattr(node, '_parameter_overrides', {})  # rclpy has no other way to ask
         for name, parameter in given.items():
             if parameter.value is None and name in self._types:
                 parameter = given[name] = empty_array(name, self._types[name])  # noqa: PLW2901
+            parameter = given[name] = self.as_written(parameter)  # noqa: PLW2901
             wrong = self.wrong(name, parameter.value) if name in self._types else ''
             if wrong:
                 raise ConfigurationError(wrong)
@@ -90,6 +93,20 @@ class DeclaredParameters(Generic[T]):
         self.given = frozenset(texts(self.values))
         """texts that whoever started the node gave, names of files among them"""
         node.add_on_set_parameters_callback(self._on_set)
+
+    def as_written(self, parameter: Parameter, present: Any = None) -> Parameter:
+        """Return a parameter with what was written, where YAML has made something else of it.
+
+        Args:
+            parameter: As it has come.
+            present: What it is now; None where it is nothing yet.
+
+        """
+        name = parameter.name
+        if name not in self._types:
+            return parameter
+        value = as_written(parameter.value, self._types[name], self._units[name], present)
+        return parameter if value is parameter.value else Parameter(name, value=value)
 
     def wrong(self, name: str, value: Any) -> str:
         """Return why a parameter cannot have this value: no such name, or type; empty if it may."""
@@ -126,8 +143,12 @@ def filled(kind: type[T], given: Mapping[str, Any], node: str) -> T:
         ConfigurationError: One is no parameter of the ``node``, of another type, or out of range.
 
     """
-    known = dict(_types(kind, ''))
-    own = {name: value for name, value in given.items() if name in known}
+    known, units = dict(_types(kind, '')), dict(_units(kind, ''))
+    own = {
+        name: as_written(value, known[name], units[name], None)
+        for name, value in given.items()
+        if name in known
+    }
     for name, value in own.items():
         wrong = wrong_type(name, value, known[name])
         if wrong:
@@ -166,6 +187,14 @@ def _types(kind: type[Any], prefix: str) -> Iterator[tuple[str, Any]]:
         yield prefix + name, origin
     for name, group in nested(kind):
         yield from _types(group, f'{prefix}{name}.')
+
+
+def _units(kind: type[Any], prefix: str) -> Iterator[tuple[str, str]]:
+    """Yield name and unit of every parameter."""
+    for name, _, spec in rows(kind):
+        yield prefix + name, spec.unit
+    for name, group in nested(kind):
+        yield from _units(group, f'{prefix}{name}.')
 
 
 def _declare(node: Node, kind: type[Any], prefix: str) -> Any:

@@ -119,6 +119,9 @@ class Port(Protocol):
     ) -> None:  # fmt: skip
         """Call ``callback`` with row, frame and stamp [ns] of each message."""
 
+    def need(self, *topics: str) -> None:
+        """Tell at the start where nobody publishes ``topics``, which the node cannot do without."""
+
     def every(self, seconds: float, callback: Callable[[], None], *, steady: bool = False) -> None:
         """Call ``callback`` periodically, on the node's clock or on the ``steady`` one."""
 

@@ -8,6 +8,7 @@ import numpy as np
 from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import TwistStamped
 
+from agv_motion.planar import without_minus_zero
 from agv_motion.ros.messages import fill_twist, twist_of
 from agv_motion.ros.qos import COMMAND
 
@@ -71,7 +72,7 @@ def twist_publisher(port: Port, frame: str, *, stamped: bool) -> Callable[[Twist
 
     def command(twist: Twist) -> float:
         instant = now()
-        publish(twist, instant)
+        publish(without_minus_zero(twist), instant)
         return instant * 1e-9
 
     return command
@@ -81,7 +82,7 @@ def _plain_publisher(port: Port) -> Callable[[Twist], float]:
     message, topic = TwistMessage(), port.publisher(TwistMessage, 'cmd_vel', COMMAND)
 
     def command(twist: Twist) -> float:
-        fill_twist(message, twist)
+        fill_twist(message, without_minus_zero(twist))
         instant = port.seconds()
         topic.publish(message)
         return instant

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from agv_motion.demo.readout import bar, lines, number, pace, pose_text
+from agv_motion.demo.readout import bar, lines, number, pace, paragraphs, pose_text
 from agv_motion.planar import Pose
 
 
@@ -66,3 +66,14 @@ def test_a_bar_is_one_line_of_one_width(share, doing):
     (line,) = shown(bar(share, doing, 80), 80)
     assert line.rstrip().endswith(' %')
     assert len(line.rstrip()) == len(shown(bar(0.5, 'driving', 80), 80)[0].rstrip())
+
+
+def test_sentences_share_the_lines_there_are():
+    long, short = 'a tree that waits for another one and says so at length', 'walking'
+    told = [shown(each, 80) for each in paragraphs([short, long, short], 12, 8)]
+    assert [len(each) for each in told] == [1, 5, 1]
+    assert [line.strip() for line in told[1]][-2:] == ['and says so', 'at length']
+    cut = [shown(each, 80) for each in paragraphs([long, short, long], 12, 6)]
+    assert [len(each) for each in cut] == [2, 1, 3]
+    assert cut[0][-1].rstrip().endswith('…')
+    assert cut[1][0].strip() == short

@@ -163,7 +163,10 @@ def test_a_map_is_few_bytes_on_a_slow_line(zone):
     assert Text.from_ansi(told).plain.rstrip('\n').count('░') > 100
 
 
-@pytest.mark.parametrize('names', [(), ('oak', 'ash', 'elm')])
+TREES = ('oak', 'ash', 'elm', 'fir', 'yew')
+
+
+@pytest.mark.parametrize('names', [(), TREES[:3], TREES[:4], TREES])
 def test_what_a_tree_does_is_told_whole(zone, names):
     heard = Heard()
     for prefix in [f'{name}/' for name in names] or ['']:

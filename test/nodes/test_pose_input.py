@@ -41,6 +41,9 @@ class Port:
     def watch_over(self, watchdog):
         pass
 
+    def need(self, *topics):
+        pass
+
     def listen(self, kind, topic, callback, _qos, *, sole):
         self.heard[topic] = kind, callback
         assert sole

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import fields, is_dataclass
 from importlib import import_module
-from types import NoneType
+from pathlib import Path
 
 import pytest
 import yaml
@@ -13,16 +12,18 @@ import yaml
 rclpy = pytest.importorskip('rclpy')
 
 from rcl_interfaces.msg import ParameterType
-from rclpy.parameter import Parameter
+from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.catalogue import available, parameters_of
 from agv_motion.nodes.motion_generator import MotionGenerator
 from agv_motion.nodes.wheel_kinematics import WheelKinematics
+from agv_motion.parameters import nested, rows
 from agv_motion.ros.live_node import LiveNode
 from agv_motion.ros.parameter_texts import dump, from_text, load, python
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.run import declare
+from agv_motion.ros.yaml_readings import as_written
 
 
 def plain_nodes():
@@ -46,6 +47,84 @@ def made(kind, graph, *arguments):
     node = LiveNode(kind, context=graph.context, cli_args=['--ros-args', *arguments])
     declare(node)
     return node
+
+
+def by_ros2(path, values, name='/any'):
+    """Return what `ros2 param load` sends of what `ros2 param dump` wrote into a file."""
+    content = {}
+    for dotted, value in values.items():
+        *groups, last = dotted.split('.')
+        place = content
+        for group in groups:
+            place = place.setdefault(group, {})
+        place[last] = value
+    whole = {name: {'ros__parameters': content}}
+    path.write_text(yaml.dump(whole, default_flow_style=False))
+    sent = parameter_dict_from_yaml_file(str(path), use_wildcard=True)
+    return [Parameter.from_parameter_msg(one) for one in sent.values()]
+
+
+CONFIGS = sorted((Path(__file__).parents[2] / 'config').glob('*.yaml'))
+
+
+def configured(kind):
+    """Return the files of the package that have something for a node."""
+    return [path for path in CONFIGS if f'/{kind.name}:' in path.read_text()]
+
+
+def test_every_node_takes_back_what_it_tells_from_the_genuine_ros2_param_load(graph, tmp_path):
+    """It reads each text as YAML 1.1 once more: 10:00 comes as 600, 1e-06 as a text."""
+    files = 0
+    for kind in plain_nodes():
+        for given in [('--params-file', str(path)) for path in configured(kind)] or [()]:
+            node = made(kind, graph, *given)
+            told = {one: python(value) for one, value in values_of(node).items()}
+            for sent in by_ros2(tmp_path / 'dump.yaml', told):
+                result = node.set_parameters_atomically([sent])
+                assert result.successful, (kind.name, given, sent.name, result.reason)
+            assert {one: python(value) for one, value in values_of(node).items()} == told
+            node.destroy_node()
+            files += bool(given)
+    assert files >= 10
+
+
+def default_rows(kind, prefix=''):
+    """Yield name, type, unit and default of every parameter, groups within groups."""
+    for name, wanted, spec in rows(kind):
+        yield prefix + name, wanted, spec.unit, getattr(kind(), name)
+    for name, group in nested(kind):
+        yield from default_rows(group, f'{prefix}{name}.')
+
+
+def test_every_default_survives_ros2_param_load(tmp_path):
+    for node in available():
+        of = {name: row for name, *row in default_rows(parameters_of(node))}
+        told = {n: list(v) if isinstance(v, tuple) else v for n, (_, _, v) in of.items()}
+        for sent in by_ros2(tmp_path / 'dump.yaml', told):
+            wanted, unit, _ = of[sent.name]
+            value = told[sent.name]
+            found = as_written(sent.value, wanted, unit, value)
+            assert (list(found) if isinstance(value, list) else found) == value, (node, sent.name)
+
+
+def test_a_time_of_day_may_come_in_minutes(graph, tmp_path):
+    node = made(MotionGenerator, graph)
+    change = by_ros2(tmp_path / 'p.yaml', {'schedule': {'opens': '10:30', 'closes': '08:05'}})
+    assert {one.name: one.value for one in change} == {
+        'schedule.opens': 630, 'schedule.closes': '08:05',
+    }  # fmt: skip
+    assert node.set_parameters_atomically(change).successful
+    assert node.get_parameter('schedule.opens').value == '10:30'
+    assert node.parameters.schedule.opens == '10:30'
+    for wrong in (1440, -1, 10.0, True):
+        refused = node.set_parameters_atomically([Parameter('schedule.opens', value=wrong)])
+        assert not refused.successful
+        assert f'schedule.opens = {wrong!r}: expected a text' in refused.reason
+    assert node.parameters.schedule.opens == '10:30'
+    node.destroy_node()
+    node = made(MotionGenerator, graph, '-p', 'schedule.opens:=545')
+    assert node.parameters.schedule.opens == '09:05'
+    node.destroy_node()
 
 
 def test_every_node_takes_back_what_it_tells(graph, tmp_path):
@@ -155,24 +234,3 @@ def test_wildcards_are_left_out_on_request(tmp_path):
     both = {name: python(value) for name, value in load(path, '/oak/node').items()}
     assert both == {'x': 2, 'y': 1}
     assert list(load(path, '/oak/node', wildcard=False)) == ['x']
-
-
-def _texts(values, prefix=''):
-    """Yield the dotted names and values of all texts among parameters, groups within groups."""
-    for field in fields(values):
-        value = getattr(values, field.name)
-        if is_dataclass(value):
-            yield from _texts(value, f'{prefix}{field.name}.')
-        elif isinstance(value, str) and value:
-            yield prefix + field.name, value
-
-
-def test_a_text_that_a_node_tells_stays_one_for_ros2_param_load():
-    """It reads each text as YAML once more, and raises where that makes a date of it."""
-    changed = {
-        name
-        for node in available()
-        for name, text in _texts(parameters_of(node)())
-        if not isinstance(yaml.safe_load(text), (str, NoneType))
-    }
-    assert changed == {'schedule.opens', 'schedule.closes'}  # 10:00 is 600: refused, with a reason

@@ -49,7 +49,8 @@ def test_a_command_has_a_stamp_where_it_is_wanted(stamped):
     said = []
     graph = InProcessGraph(lambda publisher, _, data: said.append((publisher.kind, data)), 7)
     port = InProcessPort(graph, Place('node', '/oak', {}), str)
-    twist_publisher(port, 'base_link', stamped=stamped)(ROWS[0])
+    command = twist_publisher(port, 'base_link', stamped=stamped)
+    command(ROWS[0])
     ((kind, data),) = said
     message = codec(kind).decode(data)
     assert kind is (TwistStamped if stamped else TwistMessage)
@@ -57,3 +58,6 @@ def test_a_command_has_a_stamp_where_it_is_wanted(stamped):
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == ROWS[0]
     if stamped:
         assert (message.header.stamp.nanosec, message.header.frame_id) == (7, 'base_link')
+    command(Twist(-0.0, -0.0, -0.0))
+    rest = codec(kind).decode(said[-1][1])
+    assert '-0.0' not in str(rest)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 import tempfile
@@ -20,9 +21,12 @@ from agv_motion.ros.robot_graphs import ROBOTS, SIM_TIME, GraphNode, RobotGraph
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
 app = typer.Typer()
+
+FORMAT = 'RCUTILS_CONSOLE_OUTPUT_FORMAT'
+"""Variable of the environment that tells nodes how to log"""
 
 NAMESPACE = re.compile(r'([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
 
@@ -71,10 +75,22 @@ def up(
             if not node.condition or _true(node.condition, given[node.condition])
         }
         respawn = _true('respawn', given['respawn'])
-        group = ProcessGroup(commands, typer.echo, respawn=respawn)
+        group = ProcessGroup(commands, teller(), respawn=respawn)
         group.run(lambda: stop.requested)
     if group.failed:
         raise typer.Exit(1)
+
+
+def teller() -> Callable[[str], None]:
+    """Return what prints a line of a node.
+
+    On a terminal that is its message, and its severity where that is more than a word of good news:
+    the name stands before it already. What is piped has name and time as ROS gives them.
+    """
+    if not sys.stdout.isatty() or FORMAT in os.environ:
+        return typer.echo
+    os.environ[FORMAT] = '{severity}: {message}'
+    return lambda line: typer.echo(line.replace('] INFO: ', '] ', 1))
 
 
 def arguments(graph: RobotGraph, words: Sequence[str]) -> dict[str, str]:

@@ -14,7 +14,7 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.errors import ConfigurationError
-from agv_motion.parameters import Spec, check
+from agv_motion.parameters import TIME_OF_DAY, Spec, check
 
 DAYS = ('mon', 'tue', 'wed', 'thu', 'fri', 'sat', 'sun')
 DAY = 86400.0
@@ -30,9 +30,9 @@ class ScheduleParameters:
     time_zone: Annotated[
         str, Spec('IANA name of the local time, such as Europe/Paris', dynamic=True)
     ] = 'UTC'
-    opens: Annotated[str, Spec('local time, HH:MM', dynamic=True)] = '10:00'
+    opens: Annotated[str, Spec('local time', TIME_OF_DAY, dynamic=True)] = '10:00'
     closes: Annotated[
-        str, Spec('local time, HH:MM; before opens: on the next day', dynamic=True)
+        str, Spec('local time; before opens: on the next day', TIME_OF_DAY, dynamic=True)
     ] = '18:00'
     days: Annotated[tuple[str, ...], Spec('on which it opens', choices=DAYS, dynamic=True)] = DAYS[
         :6

@@ -60,3 +60,23 @@ def test_nodes_of_the_graph_are_offered(alone, oak, words):
     offered = told.stdout.split()  # others may be on the graph
     assert oak in offered, told.stderr
     assert all(name.startswith(asked[-1] or '/') for name in offered)
+
+
+@pytest.mark.parametrize(
+    ('word', 'mark'),
+    [
+        ('bash', 'complete -o default -F'),
+        ('zsh', '#compdef '),
+        ('fish', 'complete --command '),
+    ],
+)
+def test_the_shell_that_is_named_counts(alone, word, mark):
+    status, told, _ = alone('--show-completion', word)
+    assert status == 0
+    assert mark in told
+
+
+def test_a_shell_that_nobody_knows_is_refused(alone):
+    status, told, errors = alone('--show-completion=tsh')
+    assert (status, told) == (2, '')
+    assert "'tsh' is not one of" in ' '.join(errors.split())

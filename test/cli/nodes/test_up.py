@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import sys
 
 import pytest
 import yaml
 
 pytest.importorskip('rclpy')
 
-from agv_motion.cli.nodes.up import arguments, command
+from agv_motion.cli.nodes.up import FORMAT, arguments, command, teller
 from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.catalogue import available
 from agv_motion.ros.robot_graphs import ROBOTS
@@ -102,10 +104,7 @@ def test_what_is_no_truth(alone):
 
 
 def test_a_robot_is_up_and_ends_with_its_wheels_at_rest(alone, tmp_path):
-    process = alone.start(
-        'up', 'omni', '--namespace', 'ant', 'simulate:=false', 'use_sim_time:=false',
-        f'state:={tmp_path}',
-    )  # fmt: skip
+    process = alone.start('up', 'omni', '--namespace', 'ant', f'state:={tmp_path}')
     lines = []
     while not any(line.startswith('[omni_kinematics]') and 'active: ' in line for line in lines):
         lines.append(process.stdout.readline())
@@ -117,5 +116,24 @@ def test_a_robot_is_up_and_ends_with_its_wheels_at_rest(alone, tmp_path):
     assert {'omni_kinematics', 'localization'} <= names
     assert names <= {
         'arbiter', 'why', 'robot_model', 'scene', 'omni_kinematics', 'localization',
-        'ghost_trajectory', 'route_follower', 'sequence',
+        'ghost_trajectory', 'route_follower', 'sequence', 'omni_simulator',
     }  # fmt: skip
+
+
+def test_on_a_terminal_good_news_is_short(monkeypatch, capsys):
+    environment = {}
+    monkeypatch.setattr(os, 'environ', environment)
+    monkeypatch.setattr(sys.stdout, 'isatty', lambda: True)
+    tell = teller()
+    assert environment == {FORMAT: '{severity}: {message}'}
+    tell('[differential_kinematics] INFO: active: cmd_vel, wheels/state -> wheels/command, odom')
+    tell('[omni_kinematics] WARN: active, but nobody publishes cmd_vel yet')
+    assert capsys.readouterr().out.splitlines() == [
+        '[differential_kinematics] active: cmd_vel, wheels/state -> wheels/command, odom',
+        '[omni_kinematics] WARN: active, but nobody publishes cmd_vel yet',
+    ]
+    environment[FORMAT] = 'of somebody'
+    tell = teller()
+    tell('[why] INFO: active: why')
+    assert environment == {FORMAT: 'of somebody'}
+    assert capsys.readouterr().out == '[why] INFO: active: why\n'
