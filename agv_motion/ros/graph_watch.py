@@ -95,7 +95,8 @@ class GraphWatch:
         """Return in a short line what the node needs, and what it makes of it."""
         needed = self._listed(self.needed)
         own = [end for end in self._ends if end.publishes]
-        made = self._listed([end.topic for end in [e for e in own if e.sole] or own])
+        ours = [end for end in own if end.sole or end.topic == 'cmd_vel'] or own
+        made = self._listed([end.topic for end in ours])
         return f'active: {needed} -> {made}' if needed and made else f'active: {needed or made}'
 
     def _listed(self, topics: Sequence[str]) -> str:
