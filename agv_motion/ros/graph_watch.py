@@ -95,8 +95,8 @@ class GraphWatch:
         """Return in a short line what the node needs, and what it makes of it."""
         needed = self._listed(self.needed)
         own = [end for end in self._ends if end.publishes]
-        ours = [end for end in own if end.sole or end.topic == 'cmd_vel'] or own
-        made = self._listed([end.topic for end in ours])
+        drives = [end for end in own if end.topic == 'cmd_vel']
+        made = self._listed([e.topic for e in drives or [e for e in own if e.sole] or own])
         return f'active: {needed} -> {made}' if needed and made else f'active: {needed or made}'
 
     def _listed(self, topics: Sequence[str]) -> str:
