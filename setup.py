@@ -16,6 +16,7 @@ NODES = sorted(
 ROS = ['ros-jazzy-common-interfaces', 'ros-jazzy-rclpy', 'ros-jazzy-rmw-fastrtps-cpp']
 DASHBOARD = ['argon2-cffi>=23', 'starlette>=0.40', 'uvicorn>=0.35', 'websockets>=13']
 PLOT = ['matplotlib>=3.8']
+MQTT = ['paho-mqtt>=2.1']
 
 
 def files(folder: str, pattern: str) -> list[str]:
@@ -77,12 +78,15 @@ setup(
         'ros': ROS,
         # the operator's page
         'dashboard': DASHBOARD,
+        # probes whose logger publishes to a broker
+        'mqtt': MQTT,
         'parquet': ['pyarrow>=14'],
         'plot': PLOT,
         # all that `agv demo` wants on a machine without a ROS installation
         'demo': [*ROS, *DASHBOARD, *PLOT],
         'test': [
             *DASHBOARD,
+            *MQTT,
             *PLOT,
             'axe-playwright-python>=0.1',
             'catkin_pkg',

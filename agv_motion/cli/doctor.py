@@ -44,7 +44,7 @@ MODULES = (
 EXTRAS = {
     'pyarrow': 'parquet', 'distributed': 'cluster', 'dask': 'cluster',
     'starlette': 'dashboard', 'uvicorn': 'dashboard', 'websockets': 'dashboard',
-    'argon2': 'dashboard',
+    'argon2': 'dashboard', 'paho': 'mqtt',
 }  # fmt: skip
 """Modules that a few options want, and the extra that brings each"""
 

@@ -212,7 +212,7 @@ def test_shade_reaches_the_simulated_tree(tester):
 @pytest.mark.parametrize(
     ('parameters', 'error', 'word'),
     [
-        ({'source': 'crystal_ball'}, ConfigurationError, 'simulated, csv, serial'),
+        ({'source': 'crystal_ball'}, ConfigurationError, 'simulated, csv, serial, mqtt'),
         ({'assign': ['probe_1', 'probe_2', 'probe_9']}, ConfigurationError, 'probe_9'),
         ({'probe__low_quantile': 0.99}, ConfigurationError, 'not below'),
         ({'rate': -1.0}, InvalidParameterValueException, 'rate'),

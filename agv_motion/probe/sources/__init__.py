@@ -1,4 +1,4 @@
-"""Where the readings of the probes come from: simulated, recorded, or a serial line.
+"""Where the readings of the probes come from: simulated, recorded, a serial line, or MQTT.
 
 Each keeps `ProbeSource` and gives a `ProbeSample` at a time; :mod:`.sources` names them all.
 """

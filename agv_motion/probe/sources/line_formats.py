@@ -86,7 +86,7 @@ def _datataker(text: str, arrival: Arrival) -> LoggerLine:
     if not 0.0 <= fraction < 1.0:
         msg = f"'{cells[5]:.40}' is no fraction of a second"
         raise SignalError(msg)
-    time = _instant(f'{cells[3]} {cells[4]}', named('iso'), arrival) + fraction
+    time = instant_of(f'{cells[3]} {cells[4]}', named('iso'), arrival) + fraction
     return LoggerLine(time, tuple(map(number_of, told[2:])), decimal_comma=False)
 
 
@@ -121,7 +121,8 @@ def line_reader(name: str, time_format: str) -> Callable[[str, Arrival], LoggerL
         return LINE_FORMATS[name]
     if '(?P<' not in name:
         msg = (
-            f"format = '{name}': choose {', '.join(LINE_FORMATS)}, or a regular expression such as "
+            f"format = '{name}': choose {', '.join(LINE_FORMATS)}, json, or a regular expression "
+            'such as '
             r'(?P<time>\S+ \S+) T1=(?P<v1>\S+) T2=(?P<v2>\S+)'
         )
         raise ConfigurationError(msg)
@@ -147,7 +148,7 @@ def _of_pattern(
             msg = f"it is not of the form '{pattern.pattern:.80}'"
             raise SignalError(msg)
         told = found.groupdict().get('time')
-        time = arrival.now if told is None else _instant(told, time_format, arrival)
+        time = arrival.now if told is None else instant_of(told, time_format, arrival)
         if singles:
             words, comma = [found[name] or '' for name in singles], False
             if not any('.' in word for word in words):
@@ -160,11 +161,17 @@ def _of_pattern(
     return read
 
 
-def _instant(word: str, time_format: TimeFormat, arrival: Arrival) -> float:
+def instant_of(word: str, time_format: TimeFormat, arrival: Arrival) -> float:
+    """Return the time of a word [s since 1970].
+
+    Raises:
+        SignalError: It is none of that format, or outside 1990 to 2100.
+
+    """
     try:
         instant = time_format.read(word.strip())
     except (ValueError, OverflowError) as error:
-        msg = f"'{word:.40}' is no time of the format {time_format.name}"
+        msg = f"'{word:.40}' is no time of the format {time_format.name}: see time_format"
         raise SignalError(msg) from error
     _require_set(word, instant.seconds)
     return instant.seconds - (0.0 if instant.zoned else 3600.0 * arrival.utc_offset)

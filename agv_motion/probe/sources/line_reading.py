@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-from agv_motion.errors import SignalError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.parameters import Spec, check
 from agv_motion.probe.environment import Environment
 from agv_motion.probe.sources.checksum import Checksum, checked
-from agv_motion.probe.sources.line_formats import Arrival, line_reader
+from agv_motion.probe.sources.json_line import read_json
+from agv_motion.probe.sources.line_formats import Arrival, instant_of, line_reader
+from agv_motion.probe.sources.line_listener import LineListener, Origin
+from agv_motion.probe.sources.logger_line import LoggerLine
 from agv_motion.probe.sources.source import (
     KELVIN_PER_MILLIVOLT,
     UNITS,
@@ -18,9 +21,10 @@ from agv_motion.probe.sources.source import (
     kelvin,
     kelvin_per,
 )
+from agv_motion.probe.tables.time_format import named
 
-if TYPE_CHECKING:
-    from agv_motion.probe.sources.logger_line import LoggerLine
+JSON = 'json'
+"""The format that is no line of words."""
 
 
 @dataclass(frozen=True)
@@ -47,12 +51,19 @@ class LineParameters:
         Spec(
             'of the lines: auto (date and clock, or seconds since 1970, then values), arrival '
             '(values alone, with labels or without), campbell_comma, campbell_printable, '
-            'datataker, or a regular expression with groups time and values, or v1, v2, ...'
+            'datataker, json, or a regular expression with groups time and values, or v1, v2, ...'
         ),
     ] = 'auto'
     time_format: Annotated[
-        str, Spec('of the group time of a regular expression, as of csv.time_format')
+        str, Spec('of the group time of a regular expression, or of JSON, as of csv.time_format')
     ] = 'iso'
+    json_keys: Annotated[
+        tuple[str, ...],
+        Spec('members of a JSON object that are its values; within another: air.vpd, probes.0'),
+    ] = ('probe_1', 'probe_2', 'probe_3')
+    json_time: Annotated[
+        str, Spec('member of a JSON object that is its time; empty: that of the arrival')
+    ] = 'time'
     checksum: Annotated[
         str,
         Spec(
@@ -69,7 +80,52 @@ class LineParameters:
 
         """
         check(self)
-        line_reader(self.format, self.time_format)
+        if self.format != JSON:
+            line_reader(self.format, self.time_format)
+            return
+        named(self.time_format)
+        last = max(*self.fields, self.radiation_field, self.vpd_field)
+        if last > len(self.json_keys) or not all(self.json_keys):
+            msg = f'json_keys = {list(self.json_keys)}: name a member for each field up to {last}'
+            raise ConfigurationError(msg)
+
+    @property
+    def stamped(self) -> bool:
+        """Whether a line tells its time; where not, that of its arrival is taken."""
+        if self.format == JSON:
+            return bool(self.json_time)
+        if '(?P<' in self.format:
+            return '(?P<time>' in self.format
+        return self.format != 'arrival'
+
+
+class LineReader(LineListener):
+    """Turns lines into samples, and keeps what is wrong with them until it is asked."""
+
+    def __init__(self, parameters: LineParameters, origin: Origin) -> None:
+        """Have read nothing."""
+        super().__init__(parameters.period, origin)
+        self._given = parameters
+
+    def line(self, text: str, now: float) -> LoggerLine | None:
+        """Return what a line tells that arrives ``now`` [s]; None, and a problem, if nothing."""
+        self.last = text
+        try:
+            line = read_line_of(text, self._given, now)
+        except SignalError as error:
+            self.unreadable(text, str(error))
+            return None
+        if line.decimal_comma:
+            self.note_once('comma', f"decimal commas in '{text:.80}' are read as points: told once")
+        return line
+
+    def sample(self, text: str, line: LoggerLine) -> ProbeSample | None:
+        """Return what a line tells of the probes; None, and a problem, where one is missing."""
+        try:
+            return sample_of(text, line, self._given)
+        except SignalError as error:
+            self.note(str(error))
+            return None
 
 
 def parse_line(text: str, parameters: LineParameters, now: float = 0.0) -> ProbeSample:
@@ -91,10 +147,21 @@ def read_line_of(text: str, given: LineParameters, now: float) -> LoggerLine:
     """
     try:
         line = checked(text, Checksum(given.checksum))
-        return line_reader(given.format, given.time_format)(line, Arrival(now, given.utc_offset))
+        arrival = Arrival(now, given.utc_offset)
+        if given.format == JSON:
+            return _of_json(line, given, arrival)
+        return line_reader(given.format, given.time_format)(line, arrival)
     except SignalError as error:
         msg = f"unreadable line '{text:.80}': {error}"
         raise SignalError(msg) from error
+
+
+def _of_json(text: str, given: LineParameters, arrival: Arrival) -> LoggerLine:
+    told = read_json(text, given.json_keys, given.json_time)
+    time = arrival.now
+    if given.json_time:
+        time = instant_of(told.time, named(given.time_format), arrival)
+    return LoggerLine(time, told.values, decimal_comma=False)
 
 
 def sample_of(text: str, line: LoggerLine, parameters: LineParameters) -> ProbeSample:

@@ -9,6 +9,8 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec
 from agv_motion.probe.sources.csv_file import CsvSource, GrowingSource
 from agv_motion.probe.sources.csv_parameters import CsvParameters
+from agv_motion.probe.sources.mqtt_parameters import MqttParameters
+from agv_motion.probe.sources.mqtt_source import MqttSource
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 from agv_motion.probe.sources.simulated import SimulatedSource, SimulatedSourceParameters
 
@@ -42,6 +44,11 @@ SOURCES = {
         lambda given: len(given.fields),
         lambda given: (bool(given.radiation_field), bool(given.vpd_field)),
     ),
+    'mqtt': SourceKind(
+        lambda given, _: MqttSource(given),
+        lambda given: len(given.fields),
+        lambda given: (bool(given.radiation_field), bool(given.vpd_field)),
+    ),
 }
 """A source is added here, as a group of its name in `SourceParameters`, and in its own file."""
 
@@ -59,6 +66,7 @@ class SourceParameters:
     simulated: SimulatedSourceParameters = field(default_factory=SimulatedSourceParameters)
     csv: CsvParameters = field(default_factory=CsvParameters)
     serial: SerialParameters = field(default_factory=SerialParameters)
+    mqtt: MqttParameters = field(default_factory=MqttParameters)
 
     def probes(self) -> int:
         """Return the number of probes that the chosen source has."""

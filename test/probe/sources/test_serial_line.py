@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from agv_motion.errors import SignalError
-from agv_motion.probe.sources import serial_line
+from agv_motion.probe.sources import attempts, serial_line
 from agv_motion.probe.sources.line_reading import parse_line
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 
@@ -191,7 +191,7 @@ def test_pauses_grow_until_the_line_is_there_and_then_begin_anew(monkeypatch):
     def gone_too(_):
         raise OSError(5, 'gone')
 
-    monkeypatch.setattr(serial_line.wall, 'monotonic', lambda: now.seconds)
+    monkeypatch.setattr(attempts.wall, 'monotonic', lambda: now.seconds)
     monkeypatch.setattr(serial_line.serial, 'Serial', gone)
     source = SerialSource(SerialParameters(port='/dev/anything'))
     for quarter in range(44):
@@ -227,7 +227,7 @@ def test_silence_is_told_once_with_what_came_last(terminal):
     source.read(0.0)
     assert source.complaint() == ''
     source.read(31.0)
-    assert source.complaint().startswith(f'nothing has come from {port} in 31 s at 38400 baud')
+    assert source.complaint().startswith(f'nothing has come in 31 s from {port} at 38400 baud')
     os.write(logger, LINE.encode())
     until(source, 1, now=40.0)
     source.complaint()
