@@ -153,8 +153,8 @@ class GoalServer:
             domain: ROS domain.
 
         """
-        self._taken: dict[Any, object] = {}
-        """ticket of each goal that is not over, by its handle"""
+        self._taken: dict[bytes, object] = {}
+        """ticket of each goal that is not over, by its id"""
         self._robot: Any = None
         self._find = find
         self._runner = GoalRunner(self._found)
@@ -216,14 +216,15 @@ class GoalServer:
 
     def _accepted(self, handle: Any) -> None:
         """Make it the newest at once: threads may begin what they execute in another order."""
-        self._taken[handle] = self._runner.admit()
+        self._taken[bytes(handle.goal_id.uuid)] = self._runner.admit()
         handle.execute()
 
     def _execute(self, action: Nav2Action, kind: Any, handle: Any) -> Any:
+        number = bytes(handle.goal_id.uuid)
         try:
-            end = self._runner.run(ServedGoal(action, handle, kind.Feedback()), self._taken[handle])
+            end = self._runner.run(ServedGoal(action, handle, kind.Feedback()), self._taken[number])
         finally:
-            del self._taken[handle]
+            del self._taken[number]
         self._node.get_logger().info(f'{action.name}: {end.ending.value}: {end.reason}')
         _finish(handle, end.ending)
         return _result(kind.Result(), action, end)
