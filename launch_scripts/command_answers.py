@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 LONGEST = 20.0
 """[s] that a command may take"""
 FILE = tempfile.TemporaryFile
-os.environ['COLUMNS'] = '300'  # no table is folded
 
 
 class Answer(NamedTuple):
