@@ -105,7 +105,7 @@ def gaps(walks: Sequence[RecordedWalk], body: float) -> tuple[Array, dict[str, A
 
     """
     begin, end = max(w.time[0] for w in walks), min(w.time[-1] for w in walks)
-    times = np.arange(begin, end, 0.5)
+    times = np.arange(begin, max(end, begin + 0.5), 0.5)  # one at least, of whatever walk
     there = {
         walk.name: np.array([np.interp(times, walk.time, line) for line in walk.path])
         for walk in walks

@@ -42,3 +42,14 @@ def test_gaps_and_shares_by_hand():
     assert ash.spans() == [(0.0, 2.5, 'rests'), (2.5, 5.0, 'walks'), (7.5, 2.5, 'waits')]
     assert (ash.share('walks'), ash.share('gives way')) == (0.5, 0.0)
     assert oak.distance() == 10.0
+
+
+def test_walks_that_were_ended_before_they_met_in_time_have_a_gap_all_the_same():
+    oak, ash = (
+        RecordedWalk(name, np.array([at]), np.array([[x], [0.0]]), [], [(at, 'rests')], np.zeros(1))
+        for name, at, x in (('oak', 0.1, 0.0), ('ash', 0.2, 5.0))
+    )
+    times, between = gaps([oak, ash], 1.0)
+    assert times == pytest.approx([0.2])
+    assert between['oak and ash'] == pytest.approx([3.0])
+    assert 'oak and ash came nearest: 3.00 m' in nearest([oak, ash], TRAFFIC)
