@@ -187,4 +187,4 @@ class MqttConnection:
 def _reason(result: int) -> str:
     from paho.mqtt.client import error_string  # noqa: PLC0415 - an extra
 
-    return error_string(result).rstrip('.')
+    return str(error_string(result)).rstrip('.')
