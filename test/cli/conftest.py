@@ -124,6 +124,11 @@ def whole(lines):
     return bool(told and PROGRESS.search(told[-1]) and len(frame) > 3)
 
 
+def frame_ends(lines):
+    """Return the columns at which the frame of the map in ``lines`` ends: one, or it jumps."""
+    return {line.find('│', 1) for line in lines if line.startswith('│') and '│' in line[1:]}
+
+
 class Terminal:
     """Runs a command of `agv` in a real terminal (a pty), and reads its screen as it changes."""
 
@@ -134,6 +139,8 @@ class Terminal:
         self._stream = pyte.ByteStream(self.screen)
         self.pictures = []
         """the screen after each thing that was written, size and lines"""
+        self._old_frame = set()
+        """the columns at which the map's frame ended before the terminal got its size"""
         self._resize(columns, rows)
         streams = dict.fromkeys(('stdin', 'stdout', 'stderr'), self._slave)
         self.process = agv.start(*words, start_new_session=True, **streams, **options)
@@ -146,7 +153,7 @@ class Terminal:
         if not select.select([self._master], [], [], seconds)[0]:
             return False
         self._stream.feed(os.read(self._master, 65536))
-        if whole(self.screen.display):
+        if whole(self.screen.display) and frame_ends(self.screen.display) != self._old_frame:
             self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
         return True
 
@@ -168,12 +175,18 @@ class Terminal:
         return found[-1]
 
     def resize(self, columns, rows):
-        """Give the terminal another size while the command runs."""
+        """Give the terminal another size while the command runs: its frame must follow."""
+        self._old_frame = frame_ends(self.pictures[-1][1]) if self.pictures else set()
         self.screen.resize(rows, columns)
         self._resize(columns, rows)
 
     def press(self, keys):
-        """Press keys."""
+        """Press keys, once all that was written is read.
+
+        Ctrl-C throws away what a terminal still holds, and cuts a write that waits for room.
+        """
+        while self.read(0.0):
+            pass
         os.write(self._master, keys)
 
     def end(self, limit=180.0):
@@ -208,8 +221,7 @@ class Terminal:
         for size, lines in self.pictures:
             for line in lines:
                 assert not JARRING.search(line), line
-                if line.startswith('│') and '│' in line[1:]:
-                    found.setdefault(size, set()).add(line.find('│', 1))
+            found[size] = found.get(size, set()) | frame_ends(lines)
         assert all(len(ends) == 1 for ends in found.values()), found
         return found
 
