@@ -2,7 +2,8 @@
 
 launch_scripts/benchmark_edits.py [MB]: a bag of that size (300), then each command of both, in
 turn, as a person starts it; processor time (user and system, in seconds, without that of a start
-that does nothing) and memory at its peak [MiB]. pip install "agv_motion[benchmark]" first.
+that does nothing) and memory at its peak [MiB]. Then the writer beside that of foxglove-sdk, and an
+index of many bags. pip install "agv_motion[benchmark]" first.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+import foxglove
 import numpy as np
+from foxglove.mcap import MCAPCompression, MCAPWriteOptions
 
 from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.reader import BagReader
@@ -25,6 +28,10 @@ from agv_motion.bag.writer import BagWriter
 
 SECOND = 10**9
 ROUNDS = 3
+BAGS = 100
+"""that are indexed"""
+MESSAGES, SIZE = 100_000, 300
+"""that are written, and the bytes of each"""
 TOPICS = (('/odom', 720, 4), ('/imu', 320, 1), ('/scan', 8000, 20), ('/camera', 200_000, 40))
 """of each the bytes of a message, and every which of the ticks has one"""
 AGV, PYMCAP, ROSBAGS = 'agv', 'pymcap-cli', 'rosbags-convert'
@@ -87,7 +94,9 @@ def cost(*command: str | Path) -> Cost:
     return Cost(used, wall, int(done.stdout.split()[-1]) >> 10)
 
 
-def pairs(bag: Path, folder: Path) -> dict[str, tuple[list[str | Path], list[str | Path]]]:
+def pairs(
+    bag: Path, tables: Path, folder: Path
+) -> dict[str, tuple[list[str | Path], list[str | Path]]]:
     """Return our command and the peer's of each comparison; each writes into a new place."""
     file, new, other = next(bag.glob('*.mcap')), folder / 'ours', folder / 'theirs.mcap'
     filtering, theirs = [AGV, 'bag', 'filter', bag, new], [PYMCAP, 'filter', file, other]
@@ -101,17 +110,28 @@ def pairs(bag: Path, folder: Path) -> dict[str, tuple[list[str | Path], list[str
             [AGV, 'bag', 'convert', bag, new],
             [ROSBAGS, '--src', bag, '--dst', folder / 'theirs', '--dst-storage', 'sqlite3'],
         ),
+        'convert to MCAP': (
+            [AGV, 'bag', 'convert', tables, new, '--compression', 'none'],
+            [ROSBAGS, '--src', tables, '--dst', folder / 'theirs', '--dst-storage', 'mcap'],
+        ),
+        'convert to MCAP, zstd': (
+            [AGV, 'bag', 'convert', tables, new],
+            [ROSBAGS, '--src', tables, '--dst', folder / 'theirs', '--dst-storage', 'mcap',
+             '--compress', 'zstd', '--compress-mode', 'storage'],
+        ),
     }  # fmt: skip
 
 
 def compared(bag: Path, folder: Path) -> None:
     """Print each comparison."""
+    tables = bag.with_name('tables')
+    cost(AGV, 'bag', 'convert', bag, tables)
     starts = {
         AGV: median(cost(AGV, 'bag', 'filter', '-h').processor for _ in range(ROUNDS)),
         PYMCAP: median(cost(PYMCAP, 'filter', '--help').processor for _ in range(ROUNDS)),
         ROSBAGS: median(cost(ROSBAGS, '--help').processor for _ in range(ROUNDS)),
     }
-    for what, both in pairs(bag, folder).items():
+    for what, both in pairs(bag, tables, folder).items():
         costs: tuple[list[Cost], list[Cost]] = ([], [])
         for _ in range(ROUNDS):
             for command, found in zip(both, costs, strict=True):
@@ -145,11 +165,58 @@ def cut(bag: Path, folder: Path) -> None:
         print(f'cut 10 s: {took:.3f} s, {time.process_time() - used:.3f} s of the processor')
 
 
+def index(folder: Path) -> None:
+    """Print what an index of many bags costs, and a look at it when nothing is new."""
+    folder.mkdir()
+    for number in range(BAGS):
+        write(folder / f'{number}', 1.0)
+    start = median(cost(AGV, 'bag', 'index', '-h').processor for _ in range(ROUNDS))
+    first, again = (cost(AGV, 'bag', 'index', folder).processor - start for _ in range(2))
+    print(f'index of {BAGS} bags: {first:.2f} s of the processor; again {again:.2f} s')
+
+
+def written(folder: Path) -> None:
+    """Print what messages cost on their way into a bag, beside foxglove-sdk's writer in Rust."""
+    data = [bytes([i % 251]) * SIZE for i in range(MESSAGES)]
+    used: tuple[list[float], list[float]] = ([], [])
+    for _ in range(ROUNDS):
+        for act, found in zip((_ours, _foxglove), used, strict=True):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            begin = time.process_time()
+            act(folder, data)
+            found.append(time.process_time() - begin)
+    ours, theirs = map(median, used)
+    print(
+        f'write {MESSAGES} messages: {ours:.3f} s of the processor, foxglove-sdk {theirs:.3f} s: '
+        f'{theirs / ours:.2f} times'
+    )
+
+
+def _ours(folder: Path, data: list[bytes]) -> None:
+    with BagWriter(folder / 'ours') as bag:
+        topic = bag.add_topic('/a', 'a/msg/A', 'uint8[] x', type_hash='')
+        for i, content in enumerate(data):
+            bag.write(topic, 1000 * SECOND + i * SECOND // 1000, content)
+
+
+def _foxglove(folder: Path, data: list[bytes]) -> None:
+    context = foxglove.Context()
+    schema = foxglove.Schema(name='a/msg/A', encoding='ros2msg', data=b'uint8[] x')
+    options = MCAPWriteOptions(compression=MCAPCompression.Zstd, profile='ros2')
+    with foxglove.open_mcap(folder / 'a.mcap', context=context, writer_options=options):
+        topic = foxglove.Channel('/a', schema=schema, message_encoding='cdr', context=context)
+        for i, content in enumerate(data):
+            topic.log(content, log_time=1000 * SECOND + i * SECOND // 1000)
+
+
 if __name__ == '__main__':
     place = Path(tempfile.mkdtemp(prefix='agv_motion_'))
     try:
         write(place / 'bag', float(sys.argv[1]) if len(sys.argv) > 1 else 300.0)
         cut(place / 'bag', place / 'new')
         compared(place / 'bag', place / 'new')
+        written(place / 'new')
+        index(place / 'season')
     finally:
         shutil.rmtree(place)

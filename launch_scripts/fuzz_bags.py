@@ -14,6 +14,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from agv_motion.bag.catalog.find import Question
+from agv_motion.bag.catalog.find import find as ask
+from agv_motion.bag.catalog.index import BagIndex
+from agv_motion.bag.catalog.statistics import Period, amounts, topic_amounts
 from agv_motion.bag.checks.check import Limits, check
 from agv_motion.bag.checks.sizes import sizes
 from agv_motion.bag.columns.columns import read_topics
@@ -134,7 +138,7 @@ def looked_at(path: Path, saved: Path) -> None:
         with BagWriter(saved) as writer:
             Recovery(writer).save(path)
 
-    for act in (messages, columns, careless, findings, recovery, notes):
+    for act in (messages, columns, careless, findings, recovery, notes, indexed):
         told(path, partial(act, path))
     for number, request in enumerate(REQUESTS):
         told(path, partial(edited, path, saved.with_name(f'{saved.name}_{number}'), request))
@@ -152,6 +156,19 @@ def edited(path: Path, new: Path, request: EditRequest) -> None:
     assert made <= read, made - read
     if not (request.begin or request.around or request.topics.topics):
         assert made == read, read - made
+
+
+def indexed(path: Path) -> None:
+    """Put the bag into an index, and ask that."""
+    folder = path.with_name('season')
+    folder.mkdir(exist_ok=True)
+    copy = folder / path.name
+    copy.write_bytes(path.read_bytes())
+    with BagIndex(folder) as index:
+        index.update()
+        list(ask(index, Question(where='/joints/position > -1'), complain=lambda _: None))
+        amounts(index, Question(), Period.DAY, 60.0)
+        topic_amounts(index, Question())
 
 
 def notes(path: Path) -> None:

@@ -2,8 +2,8 @@
 
 launch_scripts/fuzz_doors.py [INPUTS] [SEED] [DOOR ...]: so many inputs a door (100,000), all doors
 or those whose names begin so. Ends with status 1 when something was uncaught, came out that is not
-finite, or took longer than a second of processor time. The doors are in `fuzz_files.py` and
-`fuzz_nodes.py`; test/test_doors.py is the short form.
+finite, or took longer than a second of processor time. The doors are in `fuzz_files.py`,
+`fuzz_beside_bags.py` and `fuzz_nodes.py`; test/test_doors.py is the short form.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+import fuzz_beside_bags
 import fuzz_files
 import fuzz_nodes
 from fuzzing import fuzz_all
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 def doors() -> Iterator[tuple[str, Callable[[random.Random], Callable[[], None]]]]:
     """Yield all doors by name."""
     yield from fuzz_files.doors()
+    yield from fuzz_beside_bags.doors()
     yield from fuzz_nodes.doors()
 
 

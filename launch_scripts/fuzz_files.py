@@ -187,6 +187,18 @@ def sound_state() -> str:
     return json.dumps({'version': 1, 'probes': [probe.state() for probe in probes]})
 
 
+def flipped(sound: bytes, rng: random.Random) -> bytes:
+    """Return bytes of which some are others, gone, or too many."""
+    data = bytearray(sound)
+    for _ in range(rng.choice((0, 1, 1, 2, 5))):
+        at = rng.randrange(len(data))
+        if rng.random() < 0.7:
+            data[at] ^= 1 << rng.randrange(8)
+        else:
+            data[at : at + rng.randrange(20)] = bytes(rng.randrange(9))
+    return bytes(data)
+
+
 def memory_door(folder: Path) -> Callable[[random.Random], Callable[[], None]]:
     """Return the door of the memory of places: bytes, not text."""
     zone = Zone([[0, 0], [4, 0], [4, 3], [0, 3]])
@@ -197,14 +209,7 @@ def memory_door(folder: Path) -> Callable[[random.Random], Callable[[], None]]:
     without_digest = sound.partition(b'\n')[2] if sound.startswith(b'agv_motion') else sound
 
     def door(rng: random.Random) -> Callable[[], None]:
-        data = bytearray(rng.choice((sound, without_digest)))
-        for _ in range(rng.choice((0, 1, 1, 2, 5))):
-            at = rng.randrange(len(data))
-            if rng.random() < 0.7:
-                data[at] ^= 1 << rng.randrange(8)
-            else:
-                data[at : at + rng.randrange(20)] = bytes(rng.randrange(9))
-        path.write_bytes(data)
+        path.write_bytes(flipped(rng.choice((sound, without_digest)), rng))
 
         def act() -> None:
             memory = make()

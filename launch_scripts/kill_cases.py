@@ -51,6 +51,12 @@ class Case(NamedTuple):
     """whether it has workers that may be killed"""
     beside: str = ''
     """what runs beside it: 'talker' or 'cluster'"""
+    copies: tuple[str, ...] = ()
+    """bags among the sources that are copied into its folder before"""
+    indexed: bool = False
+    """whether it leaves an index of the bags in its folder, which is judged by what it tells"""
+    debts: tuple[str, ...] = ()
+    """command that saves the events that an ended recorder owes"""
     again: bool = True
     """whether the same command completes what was ended; else it refuses, and touches nothing"""
 
@@ -81,8 +87,14 @@ def cases(sources: Path, cluster: str) -> list[Case]:
         Case('bag convert', ('bag', 'convert', walk, 'new'), (), ('new',)),
         Case('bag compress', ('bag', 'compress', walk, 'new', '--compression', 'lz4'), (),
              ('new',)),
+        Case('bag index', ('bag', 'index', '.'), copies=('walk', 'torn.mcap'), indexed=True),
+        Case('bag find', ('bag', 'find', '.', '--where', '/cmd_vel/twist/linear/x > -9'),
+             copies=('walk',), indexed=True),
         Case('bag filter -j 2', ('bag', 'filter', walks, 'new', '--topics', '/odom', '-j', '2'), (),
              tuple(f'new/{name}' for name in 'abc'), forked=False, worker=True),
+        Case('bag compress -j 2', ('bag', 'compress', walks, 'new', '--compression', 'lz4',
+                                   '-j', '2'), (), tuple(f'new/{name}' for name in 'abc'),
+             forked=False, worker=True),
         Case('bag export csv', ('bag', 'export', walk, 'tables', '--topics', '/odom', '--topics',
                                 '/fix', '--topics', '/cmd_vel'), (notes,)),
         Case('bag export parquet', ('bag', 'export', walk, 'tables', '--topics', '/odom',
@@ -103,6 +115,11 @@ def cases(sources: Path, cluster: str) -> list[Case]:
         Case('record a ring', ('record', '-a', '-o', 'bag', '-d', '0.2', '--keep-files', '2',
                                '--duration', '2'),
              bag='bag', forked=False, beside='talker', again=False),
+        Case('record --trigger', ('record', '-a', '-o', 'bag', '-d', '0.25', '--duration', '2',
+                                  '--trigger', '/number/data ~ 99.', '--before', '0.5', '--after',
+                                  '0.3'),
+             bag='bag', forked=False, beside='talker', again=False,
+             debts=('record', '-a', '-o', 'later', '--duration', '0.5')),
         Case('demo', ('demo', '--minutes', '0.3', '--no-page', '--output', '.'),
              (('notes.txt', OLD),),
              bag='bag', forked=False),
@@ -122,7 +139,11 @@ def cases(sources: Path, cluster: str) -> list[Case]:
 
 def prepare(sources: Path, chosen: list[Case]) -> None:
     """Make the bags that the chosen commands read."""
-    read = ' '.join(word for case in chosen for word in case.command)
+    read = ' '.join(
+        word
+        for case in chosen
+        for word in (*case.command, *(str(sources / name) for name in case.copies))
+    )
     sources.mkdir()
     if str(sources / 'walk') in read or str(sources / 'torn') in read:
         record_simulated_tree(sources / 'walk', 20)

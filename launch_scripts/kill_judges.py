@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import sqlite3
+from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mcap.exceptions import McapError
 from mcap.reader import NonSeekingReader, SeekingReader
 from rosbags.rosbag2 import Reader, ReaderError
 
+from agv_motion.bag.catalog.index import NAME as INDEX
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
@@ -18,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     Files = dict[str, bytes]
-    Row = tuple[str, int, bytes]
+    Row = tuple[Any, ...]
 
 
 def files(folder: Path) -> Files:
@@ -34,6 +37,31 @@ def shown(found: Files) -> Files:
         for name, content in found.items()
         if not name.endswith('.tmp') and not any(p.startswith('.') for p in Path(name).parts)
     }
+
+
+def index(folder: Path) -> list[Row]:
+    """Return what the index of a folder tells of each bag and topic, after a check of the file."""
+    with closing(sqlite3.connect(folder / INDEX)) as database:
+        ask = database.execute
+        return [
+            *ask('PRAGMA integrity_check'),
+            *ask('SELECT path, signature, start, stop, messages, fault FROM bag ORDER BY path'),
+            *ask(
+                'SELECT path, name, type, topic.messages, topic.size FROM topic '
+                'JOIN bag ON bag.id = topic.bag ORDER BY path, name'
+            ),
+        ]
+
+
+def unpaid(folder: Path) -> list[str]:
+    """Return what is left in a folder of events: journals, halves, and bags that are torn."""
+    halves = [name for name in files(folder) if name.startswith('.')]
+    return halves + [f'{path.name}: {told}' for path in events(folder) if (told := torn(path))]
+
+
+def events(folder: Path) -> list[Path]:
+    """Return the bags in a folder of events."""
+    return sorted(folder.glob('event_*'))
 
 
 def bag(path: Path, saved: Path) -> Iterator[str]:

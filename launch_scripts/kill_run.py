@@ -36,6 +36,7 @@ PATIENCE = 20.0
 CHANGES = frozenset((
     'write', 'pwrite', 'writerow', 'writerows', 'flush', 'close', 'fsync', 'fdatasync', 'ftruncate',
     'mkdir', 'rmdir', 'rename', 'replace', 'unlink', 'remove', 'chmod', 'flock',
+    'execute', 'executemany', 'executescript', 'commit',
 ))  # fmt: skip
 """Names of the functions in C that change files; before and after each a process can be ended."""
 IN_MEMORY = str, io.StringIO, io.BytesIO

@@ -62,7 +62,10 @@ class Trial:
             msg = f'{case.name}: undisturbed it ends with {ended.status}: {ended.told}'
             raise RuntimeError(msg)
         self._whole: Way = ended.way
-        self._results = {n: c for n, c in found.items() if before.get(n) != c}
+        self._results = {
+            n: c for n, c in found.items() if before.get(n) != c and n != kill_judges.INDEX
+        }
+        self._index = kill_judges.index(self._work) if case.indexed else []
 
     def moment(self, rng: random.Random, by: str) -> Moment:
         """Return a moment of the kinds that the command allows."""
@@ -92,6 +95,9 @@ class Trial:
         for name, content in self._case.before:
             (self._work / name).parent.mkdir(parents=True, exist_ok=True)
             (self._work / name).write_bytes(content)
+        for name in self._case.copies:
+            source, copy = self._sources / name, self._work / name
+            (shutil.copytree if source.is_dir() else shutil.copy2)(source, copy)
         before = kill_judges.files(self._work)
         whole = None if moment is None else self._whole
         ended = run(self._case.command, self._work, moment, whole, forked=self._case.forked)
@@ -145,6 +151,7 @@ class Trial:
         if not case.again:
             if again.status != 1 or 'choose' not in again.told or after != found:
                 yield f'again: status {again.status}, it should refuse: {again.told}'
+            yield from self._of_debts()
             return
         there = all(found.get(n) == c for n, c in self._results.items())  # all but the last word
         if again.status != case.status and not (there and 'File exists' in again.told):
@@ -154,10 +161,26 @@ class Trial:
                 yield f'again: a torn bag: {torn}'
         elif kill_judges.shown(after) != before | kill_judges.shown(self._results):
             yield 'again: other results than undisturbed'
-        expected = {*before, *self._results}
+        if case.indexed and kill_judges.index(self._work) != self._index:
+            yield 'again: the index tells something else than undisturbed'
+        expected = {*before, *self._results, kill_judges.INDEX}
         litter = [n for n in after if n not in expected and n not in kill_judges.shown(after)]
         if litter:
             yield f'again: left behind {litter}'
+
+    def _of_debts(self) -> Iterator[str]:
+        """Events are whole wherever their recorder was ended, and the next one saves the others."""
+        if not self._case.debts:
+            return
+        folder = self._work / 'events'
+        torn = [path.name for path in kill_judges.events(folder) if kill_judges.torn(path)]
+        if torn:
+            yield f'torn events: {torn}'
+        paid = run(self._case.debts, self._work, None, self._whole, forked=False)
+        if paid.status or 'Traceback' in paid.told:
+            yield f'the next recorder: status {paid.status}: {paid.told[-2000:]}'
+        if left := kill_judges.unpaid(folder):
+            yield f'the next recorder has left {left}'
 
 
 def trials(case: Case, asked: argparse.Namespace, folder: Path) -> int:
@@ -192,6 +215,7 @@ def main(words: list[str] | None = None) -> int:
     asked = parser.parse_args(words)
     interrupt()  # so that what runs beside ends with this
     folder, wrong = Path(tempfile.mkdtemp(prefix='trial_kills_')), 0
+    os.environ['XDG_CACHE_HOME'] = str(folder / 'cache')  # where an index goes from a full disk
     chosen = [case for case in cases(folder / 'sources', 'later') if _is_asked(case, asked.only)]
     prepare(folder / 'sources', chosen)
     with ExitStack() as stack:

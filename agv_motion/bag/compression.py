@@ -33,7 +33,7 @@ def compressor(name: str) -> Callable[[bytes], bytes]:
 
     """
     if name == 'zstd':
-        return zstandard.ZstdCompressor(level=_FAST).compress
+        return _compress_zstd
     if name == 'lz4':
         return lz4.frame.compress  # type: ignore[no-any-return] # lz4 has no types
     if name == '':
@@ -96,6 +96,15 @@ def salvage(name: str, stored: Buffer, limit: int) -> bytes:
         return _zstd_by_piece(stored, limit) if name == 'zstd' else _lz4_by_piece(stored, limit)
     except ValueError:
         return b''
+
+
+def _compress_zstd(data: bytes) -> bytes:
+    """Compress by the compressor of this thread: a new one takes fresh memory for each chunk."""
+    found: zstandard.ZstdCompressor | None = getattr(_of_thread, 'zstd_compressor', None)
+    if found is None:
+        found = zstandard.ZstdCompressor(level=_FAST)
+        _of_thread.zstd_compressor = found
+    return found.compress(data)
 
 
 def _zstd_decompressor() -> zstandard.ZstdDecompressor:

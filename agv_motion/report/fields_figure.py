@@ -29,8 +29,6 @@ MOST_NAMED = 8
 """Lines of a panel that are named at their ends; more have a legend beside it."""
 
 _LONGEST_TITLE = 100
-_LONGEST_NOTE = 40
-"""characters of a note that are drawn"""
 DASHES = ('-', '--', '-.', ':')
 """Of a line, by how often its colour was there before in its panel."""
 
@@ -97,7 +95,7 @@ def draw(
             _name(axes[str(i)], panel)
             axes[str(i)].grid()
         for time, words in notes:
-            said = wording.clipped(words, _LONGEST_NOTE)
+            said = wording.clipped(words, wording.LONGEST_NOTE)
             style.event(axes['0'], time, said, also=[axes[str(i)] for i in range(1, len(panels))])
         axes[str(len(panels) - 1)].set_xlabel('time since the start of the bag [s]')
 

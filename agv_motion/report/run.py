@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from agv_motion.bag.message_objects import decoded
+from agv_motion.bag.notes import notes_of
 from agv_motion.errors import ConfigurationError
 from agv_motion.report.recorded_footprint import moments, read_footprints
 from agv_motion.report.stamped_columns import topics_of
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.notes import Note
     from agv_motion.bag.reader import BagReader
     from agv_motion.model.footprint import Footprint
 
@@ -58,6 +60,8 @@ class RunBag(NamedTuple):
     """Of all those paths"""
     footprints: list[Footprint] | None = None
     """of the robot at its `moments`; None where the bag does not tell its size"""
+    notes: tuple[Note, ...] = ()
+    """what somebody noted while the robot was on its way"""
 
     def distance(self) -> float:
         """Return how far the robot went [m]."""
@@ -91,7 +95,10 @@ def read_run(bag: BagReader, planned: str = '', driven: str = '') -> RunBag:
         msg = f'{bag.path} does not tell where the robot was; it has {has}'
         raise ConfigurationError(msg)
     stamps = robot.time[moments(len(robot.time))].tolist()
-    return RunBag(ghost, robot, ways, frozenset(frames), read_footprints(bag, robot.topic, stamps))
+    footprints = read_footprints(bag, robot.topic, stamps)
+    first, last = robot.time[0], robot.time[-1]
+    notes = tuple(n for n in notes_of(bag.path) if first <= 1e-9 * n.stamp <= last)
+    return RunBag(ghost, robot, ways, frozenset(frames), footprints, notes)
 
 
 def _pick(told: dict[str, Poses], named: str, ends: Sequence[str], frame: str) -> Poses | None:

@@ -52,6 +52,10 @@ def draw(run: RunBag, errors: Errors | None, path: Path, *, theme: str = 'light'
             axes['place'].plot(*style.thinned(*line), color=style.ROBOT)
             axes['place'].set(ylabel='[cm]', ylim=(0.0, None), title='Distance from the way shown')
         _draw_speed(axes['speed'], run)
+        for note in run.notes:
+            words = wording.clipped(note.text, wording.LONGEST_NOTE)
+            others = [axes[row] for row in rows[1:]]
+            style.event(axes[rows[0]], _since(run, 1e-9 * note.stamp), words, also=others)
         for row in rows:
             axes[row].grid()
             style.time_axis(axes[row], run.duration())

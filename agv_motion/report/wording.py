@@ -7,6 +7,8 @@ NUMBERS = (
     'twelve', 'thirteen', 'fourteen', 'fifteen', 'sixteen', 'seventeen', 'eighteen', 'nineteen',
     'twenty',
 )  # fmt: skip
+LONGEST_NOTE = 40
+"""characters of a note that are drawn"""
 
 
 def in_words(number: float) -> str:

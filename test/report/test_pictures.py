@@ -14,6 +14,7 @@ import pytest
 
 pytest.importorskip('matplotlib')
 
+from agv_motion.bag.notes import Note
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.model.footprint import footprint
 from agv_motion.model.robots import differential_model
@@ -288,6 +289,17 @@ def test_a_run_beside_the_way_that_was_shown(sketched, tmp_path):
     assert {'10.0 m in 10 s, never more than 3 cm from the way', 'start', 'end'} <= set(texts)
     assert off_the_way(run) == pytest.approx(np.full(201, 0.03))
     assert off_the_way(straight_run(frames=frozenset({'odom'}))) is None
+
+
+def test_of_a_run_notes_are_named_when_they_were_taken(sketched, tmp_path):
+    notes = Note(2_500_000_000, 'rain began'), Note(6 * 10**9, 'x' * 60)
+    draw_run(straight_run()._replace(notes=notes), None, tmp_path / 'run.png')
+    check(sketched)
+    drawn, texts = sketched[-1]
+    assert {'rain began', 'x' * 39 + '…'} <= {text for text, _ in texts}
+    for axes in drawn.axes[1:]:  # all but the map
+        upright = [line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1]
+        assert upright == [2.5, 6.0]
 
 
 def test_a_run_beside_its_ghost(sketched, tmp_path):

@@ -9,7 +9,7 @@ from agv_motion.bag.reader import BagReader
 from agv_motion.errors import AgvMotionError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
     from pathlib import Path
 
     from agv_motion.bag.mcap.chunk import Chunk
@@ -61,6 +61,38 @@ def entry_of(path: Path) -> BagEntry:
             return BagEntry(bag.start, bag.end, bag.message_count, stored, fault, topics)
     except (AgvMotionError, OSError) as error:
         return BagEntry(size=stored, fault=str(error))
+
+
+class ReadBag(NamedTuple):
+    """What another process has read."""
+
+    source: str
+    entry: BagEntry | None
+    """None: the process has died over it"""
+
+
+class EntryReading:
+    """Reads bags in other processes; see :class:`agv_motion.ros.many_bags.Work`."""
+
+    def run(
+        self, source: Path, target: Path, tell: Callable[[float], None] | None = None
+    ) -> ReadBag:
+        """Return what is in a bag."""
+        del target, tell
+        return ReadBag(str(source), entry_of(source))
+
+    def modules(self) -> tuple[str, ...]:
+        """Return nothing: all that is needed is imported with this module."""
+        return ()
+
+    def apart(self) -> bool:
+        """Return that it may be done in any process."""
+        return False
+
+    def lost(self, source: Path, reason: str) -> ReadBag:
+        """Return that nothing is known of a bag."""
+        del reason
+        return ReadBag(str(source), None)
 
 
 def _sizes(bag: BagReader) -> dict[str, float]:

@@ -59,9 +59,7 @@ def limits(index: BagIndex, asked: Question) -> tuple[int, int]:
         ConfigurationError: There is no such moment, or they are the wrong way round.
 
     """
-    row = index.database.execute(
-        'SELECT min(start), max(stop) FROM bag WHERE messages > 0'
-    ).fetchone()
+    (row,) = index.ask('SELECT min(start), max(stop) FROM bag WHERE messages > 0')
     start, end = row[0] or 0, row[1] or 0
     first = moment(asked.begin, start, end) if asked.begin else 0
     stop = moment(asked.end, start, end) if asked.end else 2**63 - 1
@@ -128,10 +126,10 @@ def _rows(index: BagIndex, asked: Question, first: int, stop: int) -> list[Any]:
             given.append(name)
     columns = 'id, path, start, stop, messages, size, fault'
     query = f'SELECT {columns} FROM bag WHERE {" AND ".join(where)}'  # noqa: S608 - no user's text
-    return index.database.execute(f'{query} ORDER BY start, path', given).fetchall()
+    return index.ask(f'{query} ORDER BY start, path', given)
 
 
 def _may_have(index: BagIndex, bag: int, name: str) -> bool:
     """Return whether some topic of a bag is the beginning of a name."""
-    topics = index.database.execute('SELECT name FROM topic WHERE bag = ?', (bag,))
+    topics = index.ask('SELECT name FROM topic WHERE bag = ?', (bag,))
     return any(f'{name}/'.startswith(f'{topic}/') for (topic,) in topics)

@@ -11,29 +11,32 @@ import sqlite3
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import TYPE_CHECKING, Any, NamedTuple, final
 
 from agv_motion.bag.catalog.discovery import bags_below, signature
 from agv_motion.bag.catalog.entry import entry_of
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from types import TracebackType
 
     from agv_motion.bag.catalog.entry import BagEntry
 
 NAME = '.agv_bags.sqlite3'
-VERSION = 1
+VERSION = 2
 LATEST = 2**63 - 1
 """[ns] that SQLite holds"""
+MOST_MESSAGES = 2**50
+"""of a bag; what a damaged one tells beyond would make sums that SQLite cannot hold"""
 TOGETHER = 50
 """bags that are written at a time: a kill loses no more of the work"""
 _TABLES = """
 CREATE TABLE bag (id INTEGER PRIMARY KEY, path BLOB UNIQUE NOT NULL, signature TEXT NOT NULL,
-    start INTEGER, stop INTEGER, messages INTEGER, size INTEGER, fault TEXT);
-CREATE TABLE topic (bag INTEGER NOT NULL REFERENCES bag ON DELETE CASCADE, name TEXT, type TEXT,
-    messages INTEGER, size REAL);
+    start INTEGER NOT NULL, stop INTEGER NOT NULL, messages INTEGER NOT NULL, size INTEGER NOT NULL,
+    fault TEXT NOT NULL) STRICT;
+CREATE TABLE topic (bag INTEGER NOT NULL REFERENCES bag ON DELETE CASCADE, name TEXT NOT NULL,
+    type TEXT NOT NULL, messages INTEGER NOT NULL, size REAL) STRICT;
 CREATE INDEX topic_of_bag ON topic (bag);
 CREATE INDEX bag_of_topic ON topic (name);
 """
@@ -48,6 +51,11 @@ class IndexReport(NamedTuple):
     """new or changed ones"""
     gone: int
     damaged: int
+
+
+def _in_turn(bags: list[Path]) -> Iterator[tuple[Path, BagEntry]]:
+    for path in bags:
+        yield path, entry_of(path)
 
 
 @final
@@ -67,11 +75,16 @@ class BagIndex:
         self.folder = folder.resolve()
         self.path, self.database = _opened(self.folder)
 
-    def update(self, tell: Callable[[int, int], None] = lambda _done, _all: None) -> IndexReport:
+    def update(
+        self, tell: Callable[[int, int], None] = lambda _done, _all: None,
+        read: Callable[[list[Path]], Iterable[tuple[Path, BagEntry]]] = _in_turn,
+    ) -> IndexReport:  # fmt: skip
         """Read bags that are new or have changed, and forget those that are gone.
 
         Args:
             tell: Called with the number of bags that are done, and of all.
+            read: Yields what is in each of some bags, in any order; one that it leaves out is read
+                by the next update.
 
         Raises:
             SourceError: The disk takes nothing.
@@ -82,22 +95,34 @@ class BagIndex:
             found = {os.fsencode(p.relative_to(self.folder)): p for p in bags_below(self.folder)}
             gone = known.keys() - found.keys()
             self.database.executemany('DELETE FROM bag WHERE path = ?', [(p,) for p in gone])
-            read = 0
-            for number, (name, path) in enumerate(sorted(found.items())):
-                tell(number, len(found))
+            new = {}
+            for name, path in sorted(found.items()):
                 with suppress(OSError):  # gone meanwhile: the next update knows
                     mark = signature(path)
                     if known.get(name) != mark:
-                        self._put(name, mark, entry_of(path))
-                        read += 1
-                        if not read % TOGETHER:
-                            self.database.commit()
+                        new[path] = name, mark
+            done = len(found) - len(new)
+            tell(done, len(found))
+            for number, (path, entry) in enumerate(read(list(new)), 1):
+                self._put(*new[path], entry)
+                if not number % TOGETHER:
+                    self.database.commit()
+                tell(done + number, len(found))
             self.database.commit()
             (damaged,) = self.database.execute(
                 "SELECT count() FROM bag WHERE fault != ''"
             ).fetchone()
-            tell(len(found), len(found))
-        return IndexReport(len(found), read, len(gone), damaged)
+        return IndexReport(len(found), len(new), len(gone), damaged)
+
+    def ask(self, query: str, values: Sequence[Any] = ()) -> list[Any]:
+        """Return the rows that answer a query.
+
+        Raises:
+            SourceError: The file is damaged.
+
+        """
+        with _told(self.path):
+            return self.database.execute(query, values).fetchall()
 
     def decoded(self, path: bytes) -> Path:
         """Return where a bag lies whose path is in the index."""
@@ -127,10 +152,16 @@ class BagIndex:
         (number,) = put(
             'INSERT INTO bag (path, signature, start, stop, messages, size, fault) '
             'VALUES (?, ?, ?, ?, ?, ?, ?) RETURNING id',
-            (name, mark, *span, entry.messages, entry.size, _text(entry.fault)),
+            (name, mark, *span, _count(entry.messages), entry.size, _text(entry.fault)),
         ).fetchone()
-        rows = [(number, _text(t.name), _text(t.type), *t[2:]) for t in entry.topics]
+        rows = [
+            (number, _text(t.name), _text(t.type), _count(t.messages), t.size) for t in entry.topics
+        ]
         self.database.executemany('INSERT INTO topic VALUES (?, ?, ?, ?, ?)', rows)
+
+
+def _count(messages: int) -> int:
+    return min(messages, MOST_MESSAGES)
 
 
 def _text(given: str) -> str:
@@ -151,8 +182,12 @@ class _told:  # noqa: N801 - a context
         self, kind: type[BaseException] | None, error: BaseException | None, trace: object
     ) -> None:
         if isinstance(error, sqlite3.Error):
-            msg = f'the index {self._path} cannot be written ({error}): delete it, or free the disk'
+            msg = f'the index {self._path} cannot be used ({error}): delete it, or free the disk'
             raise SourceError(msg) from error
+
+
+def _decoded(text: bytes) -> str:
+    return text.decode(errors='replace')
 
 
 def _opened(folder: Path) -> tuple[Path, sqlite3.Connection]:
@@ -172,6 +207,7 @@ def _opened(folder: Path) -> tuple[Path, sqlite3.Connection]:
 def _database(path: Path) -> sqlite3.Connection:
     """Return the index in a file, which is made anew where it is none of this version."""
     database = sqlite3.connect(path, timeout=30.0)
+    database.text_factory = _decoded
     try:
         database.execute('PRAGMA foreign_keys = ON')
         (version,) = database.execute('PRAGMA user_version').fetchone()
@@ -188,5 +224,6 @@ def _database(path: Path) -> sqlite3.Connection:
     database.close()
     path.unlink(missing_ok=True)
     database = sqlite3.connect(path, timeout=30.0)
+    database.text_factory = _decoded
     database.executescript(f'PRAGMA foreign_keys = ON;{_TABLES}PRAGMA user_version = {VERSION};')
     return database

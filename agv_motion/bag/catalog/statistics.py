@@ -64,10 +64,10 @@ def amounts(index: BagIndex, asked: Question, period: Period | None, gap: float)
 
     """
     first, stop = limits(index, asked)
-    rows = index.database.execute(
+    rows = index.ask(
         'SELECT start, stop, messages, size FROM bag '
         'WHERE messages > 0 AND start < ? AND stop >= ? ORDER BY start', (stop, first),
-    ).fetchall()  # fmt: skip
+    )  # fmt: skip
     groups: dict[str, list[tuple[int, int, int, int]]] = {}
     for row in rows:
         groups.setdefault(_period(row[0], period), []).append(row)
@@ -77,7 +77,7 @@ def amounts(index: BagIndex, asked: Question, period: Period | None, gap: float)
 def topic_amounts(index: BagIndex, asked: Question) -> list[TopicAmount]:
     """Return what was recorded of each topic, by name and type."""
     first, stop = limits(index, asked)
-    rows = index.database.execute(
+    rows = index.ask(
         'SELECT name, type, count(), sum(bag.stop - bag.start) / 1e9, sum(topic.messages), '
         'CASE WHEN count() = count(topic.size) THEN sum(topic.size) END '
         'FROM topic JOIN bag ON bag.id = topic.bag '

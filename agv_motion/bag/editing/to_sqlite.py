@@ -7,6 +7,7 @@ last two go into a file beside it, ``extras.mcap``, which this package reads aga
 from __future__ import annotations
 
 import sqlite3
+from concurrent.futures import ThreadPoolExecutor
 from heapq import merge
 from itertools import chain
 from operator import attrgetter
@@ -54,7 +55,7 @@ def edit_to_sqlite(
     try:
         made = _Tables(writer, bags, what)
         total = sum(bag.message_count for bag in bags) or 1
-        for block in _blocks(_messages(bags, what)):
+        for block in _ahead(_blocks(_messages(bags, what))):
             made.write(block)
             progress(min(made.messages / total, 1.0))
         told = made.described()
@@ -135,6 +136,15 @@ def _blocks(messages: Iterator[Message]) -> Iterator[list[Message]]:
             block, size = [], 0
     if block:
         yield block
+
+
+def _ahead(blocks: Iterator[list[Message]]) -> Iterator[list[Message]]:
+    """Yield the blocks; while one is written, another thread reads the next."""
+    with ThreadPoolExecutor(1) as pool:
+        coming = pool.submit(next, blocks, None)
+        while (block := coming.result()) is not None:
+            coming = pool.submit(next, blocks, None)
+            yield block
 
 
 def _keep(bags: Sequence[BagReader], folder: Path) -> None:

@@ -206,6 +206,13 @@ class BlackBox:
         from agv_motion.bag.events import saving  # noqa: PLC0415 - as above
 
         recording, made = Path(left.recording), 0
+        if not recording.is_absolute() or '\0' in left.recording:
+            journal.close(done=False)
+            self._complain(
+                f"the journal {journal.path} is of no recording ('{left.recording}'): its events "
+                'cannot be saved; delete it'
+            )
+            return
         try:
             files = saving.recording_files(recording)
             for number, event in owed(left, saving.last_stamp(files), journal):

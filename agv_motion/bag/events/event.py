@@ -98,11 +98,12 @@ def from_entries(entries: Any) -> Event | None:
     """Return an event that JSON held; None where there is none."""
     try:
         moments = tuple(Moment(_stamp(stamp), str(reason)) for stamp, reason in entries['moments'])
-        span = _stamp(entries['begin']), _stamp(entries['end'])
+        begin, end = _stamp(entries['begin']), _stamp(entries['end'])
         more, cut_short = int(entries['more']), str(entries['cut_short'])
-    except (LookupError, TypeError, ValueError):
+    except (LookupError, TypeError, ValueError, OverflowError):
         return None
-    return Event(moments, *span, more, cut_short) if moments else None
+    sound = moments and begin <= moments[0].stamp and begin <= end
+    return Event(moments, begin, end, more, cut_short) if sound else None
 
 
 def events_of(bag: BagReader) -> list[Event]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 from agv_motion.bag.columns.condition import Condition, condition
+from agv_motion.bag.events.journal import LONGEST_BEFORE
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 
@@ -22,7 +23,9 @@ class EventParameters:
         tuple[str, ...],
         Spec("events: '/state ~ stopped', '/turrets/residual > 0.02'; as agv bag cut --around"),
     ] = ()
-    before: Annotated[float, Spec('an event begins so long before it', 's', (0.0, 86400.0))] = 120.0
+    before: Annotated[
+        float, Spec('an event begins so long before it', 's', (0.0, LONGEST_BEFORE))
+    ] = 120.0
     after: Annotated[float, Spec('... and ends so long after it', 's', (0.0, 86400.0))] = 60.0
     longest_event: Annotated[
         float, Spec('events on end are one bag, until so long after the first', 's', (1.0, 86400.0))

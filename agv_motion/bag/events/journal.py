@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 ENDING = '.events.jsonl'
+LONGEST_BEFORE = 86400.0
+"""[s] that a recorder keeps before an event, at most"""
 _MOST = 1 << 26
 """[bytes] that are read of a journal"""
 
@@ -121,6 +123,7 @@ def _parsed(data: bytes) -> LeftBehind:
         elif isinstance(number, int):
             events.pop(number, None)
     before = head.get('before')
-    seconds = float(before) if isinstance(before, (int, float)) and before >= 0 else 0.0
+    if not isinstance(before, (int, float)) or not 0 <= before <= LONGEST_BEFORE:
+        before = 0.0
     only_events = head.get('only_events') is True
-    return LeftBehind(head.get('recording', ''), only_events, seconds, events)
+    return LeftBehind(head.get('recording', ''), only_events, float(before), events)

@@ -9,7 +9,7 @@ from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.metadata import FILE_NAME, UNFINISHED
 from agv_motion.bag.notes import NAME as NOTES
-from agv_motion.bag.notes import Note, add_notes, carry
+from agv_motion.bag.notes import Note, add_notes, carry, one_line
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import SourceError
@@ -45,7 +45,7 @@ def save(event: Event, files: Sequence[Path], recording: Path, folder: Path) -> 
         with beside(target) as made, told(target):
             edit(bags, made, Edit(spans=(span,), latched=True, record=event.record()))
             carry([recording], made, [span])
-            add_notes(made / NOTES, [Note(*moment) for moment in event.moments])
+            add_notes(made / NOTES, [Note(m.stamp, _noted(m.reason)) for m in event.moments])
     return target
 
 
@@ -96,6 +96,11 @@ def last_stamp(files: Sequence[Path]) -> int:
         with suppress(SourceError), BagReader(path) as bag:
             latest = max(latest, bag.end)
     return latest
+
+
+def _noted(reason: str) -> str:
+    """Return a reason as a note can hold it: a trigger may be longer, a journal may hold none."""
+    return one_line(reason) or 'marked'
 
 
 def _overlaps(path: Path, event: Event) -> bool:

@@ -34,6 +34,10 @@ class ChunkCache:
                 self._size -= len(self._kept.popitem(last=False)[1])
         return unpacked
 
+    def forget(self, chunk: Chunk) -> None:
+        """Keep the content of a chunk no more: what comes next is unpacked into its memory."""
+        self._size -= len(self._kept.pop(chunk.offset, b''))
+
     def clear(self) -> None:
         """Keep none any more."""
         self._kept.clear()

@@ -236,6 +236,10 @@ class ChunkedFile:
         """
         return self._cache.content(chunk, self.unpacked)
 
+    def forget(self, chunk: Chunk) -> None:
+        """Keep the content of a chunk no more."""
+        self._cache.forget(chunk)
+
     def heads(
         self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
     ) -> NDArray[Any]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from agv_motion.bag.connection import Message
     from agv_motion.bag.mcap.chunk import Chunk
     from agv_motion.bag.mcap.chunked_file import ChunkedFile, Entries
     from agv_motion.bag.mcap.record_parsing import Buffer
@@ -106,7 +107,13 @@ def _alone(file: ChunkedFile, chunk: Chunk, wanted: frozenset[int], span: range)
     if found is None:
         return None
     stamps, places = found
-    return Run(stamps, lambda a, b: file.messages_at(file.content(chunk), places[a:b]))
+
+    def messages(first: int, last: int) -> Iterator[Message]:
+        yield from file.messages_at(file.content(chunk), places[first:last])
+        if last == len(places):
+            file.forget(chunk)
+
+    return Run(stamps, messages)
 
 
 class _Listed(NamedTuple):

@@ -42,7 +42,7 @@ class SqliteWriter:
         self._base = sqlite3.connect(path, isolation_level=None)
         self._types: set[str] = set()
         self._topics = 0
-        for setting in ('journal_mode = off', 'synchronous = off', 'page_size = 32768'):
+        for setting in ('journal_mode = off', 'synchronous = off', 'page_size = 65536'):
             self._base.execute(f'pragma {setting}')
         self._base.executescript(f'begin; {_TABLES}')
         self._base.execute('insert into schema values (4, ?)', (ros_distro,))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +12,7 @@ import typer
 from rich.progress import Progress
 from rich.table import Table
 
+from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.bag.options import moment
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
@@ -18,6 +20,7 @@ from agv_motion.errors import ConfigurationError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from agv_motion.bag.catalog.entry import BagEntry
     from agv_motion.bag.catalog.find import FoundBag
     from agv_motion.bag.catalog.index import BagIndex, IndexReport
     from agv_motion.bag.catalog.statistics import Amount, TopicAmount
@@ -30,19 +33,21 @@ End = Annotated[str, typer.Option('--until', help='... and begin before this mom
 Json = Annotated[bool, typer.Option('--json', help='As JSON, times in ns since 1970.')]
 
 
-def index(folder: Folder = Path()) -> None:
+def index(folder: Folder = Path(), *, workers: Workers = 1, scheduler: Scheduler = '') -> None:
     """Note what is in each bag of a folder, so that find and stats answer at once.
 
     Only bags that are new or have changed are read; find and stats do the same first. The index is
     one hidden file in the folder, .agv_bags.sqlite3, or in your cache where nothing can be written.
-    For example: agv bag index season
+    For example:
+
+    agv bag index season
+
+    agv bag index season --workers 4
     """
-    with _indexed(folder) as (found, report):
+    with _indexed(folder, workers, scheduler) as (found, report):
         done = f'{report.read} read, {report.gone} gone, {report.damaged} damaged'
         typer.echo(f'{report.bags} bags, {done}: {found.path}')
-        for path, fault in found.database.execute(
-            "SELECT path, fault FROM bag WHERE fault != '' ORDER BY path"
-        ):
+        for path, fault in found.ask("SELECT path, fault FROM bag WHERE fault != '' ORDER BY path"):
             typer.echo(f'damaged: {found.decoded(path)}: {fault}')
 
 
@@ -133,14 +138,28 @@ def _complain(text: str) -> None:
 
 
 @contextmanager
-def _indexed(folder: Path) -> Iterator[tuple[BagIndex, IndexReport]]:
+def _indexed(
+    folder: Path, workers: int = 1, scheduler: str = ''
+) -> Iterator[tuple[BagIndex, IndexReport]]:
     """Yield the index of a folder, brought up to date under a bar."""
     from agv_motion.bag.catalog.index import BagIndex
 
     with BagIndex(folder) as found:
         with _bar('Indexing') as show:
-            report = found.update(show)
+            report = found.update(show, partial(_read, workers=workers, scheduler=scheduler))
         yield found, report
+
+
+def _read(bags: list[Path], *, workers: int, scheduler: str) -> Iterator[tuple[Path, BagEntry]]:
+    """Yield what is in each bag, as soon as it is known."""
+    from agv_motion.bag.catalog.entry import EntryReading
+    from agv_motion.ros.many_bags import outcomes
+
+    pairs = [(path, path) for path in bags]
+    with closing(outcomes(pairs, EntryReading(), workers, scheduler)) as coming:
+        for one in coming:
+            if one.entry is not None:
+                yield Path(one.source), one.entry
 
 
 @contextmanager

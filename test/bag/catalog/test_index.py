@@ -6,6 +6,7 @@ import os
 import shutil
 import sqlite3
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,10 @@ import bags
 
 from agv_motion.bag.catalog import index as catalog
 from agv_motion.bag.catalog.discovery import bags_below
+from agv_motion.bag.catalog.entry import BagEntry, TopicEntry, entry_of
 from agv_motion.bag.catalog.find import Question, find
 from agv_motion.bag.catalog.index import NAME, BagIndex
+from agv_motion.bag.catalog.statistics import topic_amounts
 from agv_motion.errors import SourceError
 
 DAY = 86400
@@ -71,6 +74,31 @@ def test_an_index_that_is_none_is_made_anew(season, spoil):
     assert updated(season) == (4, 4, 0, 1)
 
 
+def test_an_index_with_other_kinds_of_values_is_made_anew(season):
+    """A disk that has changed a byte could leave that; SQLite itself refuses to write it."""
+    updated(season)
+    with sqlite3.connect(season / NAME) as database, pytest.raises(sqlite3.IntegrityError):
+        database.execute("UPDATE topic SET messages = 'many'")
+    loose = 'UPDATE sqlite_master SET sql = replace(sql, ?, ?)'
+    for change, words in (
+        ('UPDATE sqlite_master SET rootpage = rootpage', ('STRICT', '')),
+        ("UPDATE topic SET messages = 'many'", (', size REAL)', ', size REAL) STRICT')),
+    ):
+        with closing(sqlite3.connect(season / NAME, isolation_level=None)) as database:
+            database.execute('PRAGMA writable_schema = ON')
+            database.execute(change)
+            database.execute(loose, words)
+    assert updated(season) == (4, 4, 0, 1)
+
+
+def test_a_bag_that_tells_of_more_messages_than_a_disk_holds_is_indexed(season, monkeypatch):
+    hostile = BagEntry(0, 1, 2**64 - 1, 10, '', (TopicEntry('/a', 'a/msg/A', 2**64 - 1, None),))
+    monkeypatch.setattr(catalog, 'entry_of', lambda _: hostile)
+    with BagIndex(season) as index:
+        index.update()
+        assert topic_amounts(index, Question())[0].messages == 4 * catalog.MOST_MESSAGES
+
+
 def test_where_nothing_can_be_written_it_is_in_the_cache(season, tmp_path, monkeypatch):
     monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
     (season / NAME).mkdir()
@@ -99,6 +127,16 @@ def test_work_that_is_killed_goes_on_where_it_was(season, monkeypatch):
         with pytest.raises(KeyboardInterrupt):
             index.update(die)
     assert updated(season).read == 2
+
+
+def test_bags_may_be_read_in_any_order_and_what_is_left_out_is_read_later(season):
+    def read(paths):
+        assert len(paths) == 4
+        yield from ((path, entry_of(path)) for path in reversed(paths[1:]))
+
+    with BagIndex(season) as index:
+        index.update(read=read)
+    assert updated(season) == (4, 1, 0, 1)
 
 
 def test_names_that_are_no_text_are_names(season):

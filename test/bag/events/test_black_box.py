@@ -246,6 +246,31 @@ def test_a_recorder_that_lives_is_not_robbed(tmp_path):
     assert len(run.end(22)) == 1
 
 
+@pytest.mark.parametrize('head', ['', '{"recording": "walk", "only_events": true}',
+                                  r'{"recording": "/a\u0000b", "only_events": true}'])  # fmt: skip
+def test_a_journal_of_no_recording_is_told_and_costs_nobody_a_file(tmp_path, monkeypatch, head):
+    monkeypatch.chdir(tmp_path)
+    mine = tmp_path / 'walk' / 'mine.mcap', tmp_path / 'mine.mcap'
+    mine[0].parent.mkdir()
+    for path in mine:
+        path.touch()
+    (tmp_path / 'events').mkdir()
+    journal = tmp_path / 'events' / '.walk.events.jsonl'
+    journal.write_text(head)
+    run = Run(tmp_path / 'new')
+    run.end(1)
+    assert [str(journal) in complaint for complaint in run.complaints] == [True]
+    assert all(path.exists() for path in mine)
+
+
+def test_a_reason_that_is_longer_than_a_note_is_saved(tmp_path):
+    run = Run(tmp_path / 'walk')
+    run.live(0, 4, [(2, '/word ~ ' + 'x' * 5000)])
+    (path,) = run.end(4)
+    assert run.complaints == []
+    assert [note.text[:8] for note in notes_of(path)] == ['/word ~ ']
+
+
 def test_an_event_is_a_bag_like_any_other(tmp_path):
     run = Run(tmp_path / 'bag')
     run.live(0, 30, [(20, 'slip')])

@@ -57,6 +57,9 @@ def test_it_is_read_as_it_was_written():
 @pytest.mark.parametrize('entries', [
     None, {}, [], {'moments': [[1]], 'begin': 0, 'end': 1, 'more': 0, 'cut_short': ''},
     {'moments': [], 'begin': 0, 'end': 1, 'more': 0, 'cut_short': ''},
+    {'moments': [[1, 'a']], 'begin': 0, 'end': 1, 'more': float('inf'), 'cut_short': ''},
+    {'moments': [[1, 'a']], 'begin': 2, 'end': 3, 'more': 0, 'cut_short': ''},
+    {'moments': [[3, 'a']], 'begin': 2, 'end': 1, 'more': 0, 'cut_short': ''},
     {'moments': [[-1, 'a']], 'begin': 0, 'end': 1, 'more': 0, 'cut_short': ''},
     {'moments': [[1, 'a']], 'begin': True, 'end': 1, 'more': 0, 'cut_short': ''},
 ])  # fmt: skip

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from agv_motion.bag.events.event import Event, Moment
 from agv_motion.bag.events.journal import begin, left_behind
 
@@ -52,6 +54,13 @@ def test_a_journal_of_nonsense_owes_nothing(tmp_path):
     (tmp_path / '.x.events.jsonl').write_bytes(b'[1]\n{"number": {}}\n\xff\n{"before": "x"}\n')
     (left,) = owed(tmp_path)
     assert (left.recording, left.only_events, left.before, left.events) == ('', False, 0.0, {})
+
+
+@pytest.mark.parametrize('before', ['Infinity', 'NaN', '1e999', '1' + '0' * 400, '86401', '-1'])
+def test_a_time_that_no_recorder_keeps_is_none(tmp_path, before):
+    head = f'{{"recording": "/bags/walk", "only_events": true, "before": {before}}}'
+    (tmp_path / '.x.events.jsonl').write_text(head)
+    assert owed(tmp_path)[0][:3] == ('/bags/walk', True, 0.0)
 
 
 def test_journals_of_the_same_recording_are_others(tmp_path):

@@ -25,6 +25,10 @@ def test_a_content_is_unpacked_once_until_others_take_its_room(monkeypatch):
     assert made == [0, 1, 2]
     cache.content(first, unpack)
     assert made == [0, 1, 2, 0]
-    cache.clear()
+    cache.forget(first)
+    cache.forget(first)
     cache.content(first, unpack)
     assert made == [0, 1, 2, 0, 0]
+    cache.clear()
+    cache.content(first, unpack)
+    assert made == [0, 1, 2, 0, 0, 0]

@@ -11,6 +11,7 @@ import pytest
 
 from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.editing.recovery import Recovery
+from agv_motion.bag.editing.to_sqlite import edit_to_sqlite
 from agv_motion.bag.mcap import records
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.selection import Selection
@@ -122,6 +123,26 @@ def test_every_file_is_kept_by_filter_split_and_the_merge_of_its_halves(
             edit([one, other], folder / 'merge', Edit(compression='zstd'))
         for name in ('filter', 'split', 'merge'):
             assert _content(folder / name) == expected, (file.name, name)
+
+
+def _in_sqlite3(content):
+    """Return what sqlite3 can hold of a bag's content."""
+    messages, extras, connections = content
+    return [(m[0], *m[3:8]) for m in messages], extras, {c[:5] for c in connections}
+
+
+def test_every_file_is_kept_by_convert_there_and_back(suite, tmp_path, monkeypatch):
+    """Every eighth file, unless AGV_MOTION_LONG is set; all but what sqlite3 has no place for."""
+    monkeypatch.setattr(os, 'fsync', lambda _: None)
+    for number, file in enumerate(suite if 'AGV_MOTION_LONG' in os.environ else suite[::8]):
+        expected = _in_sqlite3(_content(file))
+        there, back = tmp_path / f'there_{number}', tmp_path / f'back_{number}'
+        with BagReader(file) as bag:
+            edit_to_sqlite([bag], there, Edit())
+        with BagReader(there) as bag:
+            edit([bag], back, Edit())
+        assert _in_sqlite3(_content(there)) == expected, file.name
+        assert _in_sqlite3(_content(back)) == expected, file.name
 
 
 def _whole(data, first):
