@@ -160,7 +160,7 @@ def edited(path: Path, new: Path, request: EditRequest) -> None:
 
 def indexed(path: Path) -> None:
     """Put the bag into an index, and ask that."""
-    folder = path.with_name('season')
+    folder = path.with_name(f'season of {path.name}')
     folder.mkdir(exist_ok=True)
     copy = folder / path.name
     copy.write_bytes(path.read_bytes())

@@ -110,7 +110,8 @@ def find(
             yield one._replace(spans=tuple((a, b - 1 - APART) for a, b in spans))
     if wanted is not None and rows and not fitting:
         msg = (
-            f"'{wanted}': {wanted.name} is in none of {len(rows)} bags: agv bag stats names topics"
+            f"'{wanted}': {wanted.name} is in none of {len(rows)} bags in {index.folder}: agv bag "
+            'stats names topics'
         )
         raise ConfigurationError(msg)
 
