@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Annotated
 
 from agv_motion.bag.columns.condition import Condition, condition
-from agv_motion.bag.events.journal import LONGEST_BEFORE
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
 
 MOST_TRIGGERS = 100
+LONGEST_BEFORE = 86400.0
+"""[s] that a recorder keeps before an event, at most"""
 FOLDER = 'events'
 
 

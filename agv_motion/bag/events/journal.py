@@ -15,6 +15,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.bag.events.event import Event, from_entries
+from agv_motion.bag.events.event_parameters import LONGEST_BEFORE
 from agv_motion.files.unfinished import told
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 ENDING = '.events.jsonl'
-LONGEST_BEFORE = 86400.0
-"""[s] that a recorder keeps before an event, at most"""
 _MOST = 1 << 26
 """[bytes] that are read of a journal"""
 
