@@ -5,7 +5,9 @@ from __future__ import annotations
 from math import dist
 
 import pytest
+from shapely import box
 
+from agv_motion.errors import GeometryError
 from agv_motion.motion.behavior.agent import Agent
 from agv_motion.motion.behavior.decision import Decision
 from agv_motion.motion.behavior.goals.strategies import GoalParameters
@@ -106,3 +108,51 @@ def test_who_goes_on_to_a_goal_while_its_sap_stands_does_not_hurry_for_others():
         guidance = Guidance((3.0, 4.0), gives_way=gives_way)
         assert motion_command(resting, guidance, Pose(0.0, 0.0, 0.0)).wanted.v == speed
     assert motion_command(resting, Guidance((3.0, 4.0)), Pose(0.0, 0.0, 0.0)).wanted.v == 0.0
+
+
+class Barred:
+    """A navigator of one whom others have kept from its goal for long, or not."""
+
+    patience = 60.0
+
+    def __init__(self):
+        self.blocked, self.asked, self.floor, self.failure = 0.0, 0, None, None
+
+    def navigate(self, goal, here, now, *, straight=False):
+        return Guidance(None, (here,), 'waits for ash', self.blocked, failure=self.failure)
+
+    def closed(self):
+        self.asked += 1
+        return self.floor
+
+
+@pytest.mark.parametrize('lasting', [False, True])
+def test_a_goal_of_its_own_choice_is_given_up_once_the_way_is_barred_for_long(lasting):
+    """One that was sent stays; where others are is asked for a new choice alone."""
+    chosen = {'goal': (2.0, 1.25)} if lasting else {'goals': GoalParameters(strategy='memory')}
+    agent, navigator = Agent(PathPlanner(CORRIDOR), AgentParameters(**chosen)), Barred()
+    pilot = Pilot(agent, navigator)
+
+    def goal(blocked):
+        navigator.blocked = blocked
+        flow = SapFlow(0.8, 0.5, 0.4)
+        return pilot.update(NIGHT + blocked, Pose(10.0, 1.25, 0.0), flow, blocked).goal
+
+    first = goal(0.0)
+    navigator.floor = box(first.x - 3.0, 0.0, first.x + 3.0, 2.5)
+    assert goal(60.0) == goal(60.1) == first
+    assert navigator.asked == 0
+    after = goal(0.0)
+    assert (after == first) is lasting
+    assert navigator.asked == (0 if lasting else 1)
+    assert lasting or abs(after.x - first.x) > 3.0
+    assert goal(0.0) == after
+
+
+@pytest.mark.parametrize('failure', [None, GeometryError('no path leads there')])
+def test_a_goal_to_which_no_path_leads_is_given_up_at_once(failure):
+    given = AgentParameters(goals=GoalParameters(strategy='memory'))
+    agent, navigator = Agent(PathPlanner(CORRIDOR), given), Barred()
+    navigator.failure = failure
+    Pilot(agent, navigator).update(NIGHT, Pose(10.0, 1.25, 0.0), SapFlow(0.8, 0.5, 0.4), 0.0)
+    assert (agent.goal is None) is (failure is not None)

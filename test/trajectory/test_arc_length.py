@@ -46,6 +46,17 @@ def test_the_length_is_that_of_mpmath(curve):
     assert length == pytest.approx(measured(curve), rel=1e-9)
 
 
+@given(CURVES)
+def test_the_hodograph_hardly_changes_in_a_cell(curve):
+    """By equation (1), with q = 5 %."""
+    try:
+        course = ArcLength([curve])
+    except GeometryError:
+        return
+    _, u, width = course._inverse._cells[:, :3].T  # noqa: SLF001 - the table itself
+    assert np.abs(curve.velocity(u + width) / curve.velocity(u) - 1.0).max() <= 0.05
+
+
 @given(CURVES, st.floats(0.0, 1.0))
 def test_the_inverse_gives_back_the_way(curve, share):
     try:

@@ -6,6 +6,7 @@ from math import cos, sin, sqrt
 
 import pytest
 
+from agv_motion.errors import ConfigurationError
 from agv_motion.trajectory.motion import Speeds
 from agv_motion.trajectory.ramsete import Ramsete, RamseteGains
 from agv_motion.trajectory.tracking import TrackingError
@@ -29,6 +30,12 @@ def test_small_headings_join_the_others():
         gain = sqrt(1.4**2 * 5.0 + 4.0)
         series = 5.0 * (1.0 - heading * heading / 6.0)
         assert twist.wz == pytest.approx(series + gain * heading, rel=1e-12)
+
+
+@pytest.mark.parametrize('zeta', [0.0, 1.0])
+def test_damping_is_between_0_and_1_and_neither(zeta):
+    with pytest.raises(ConfigurationError, match=f'zeta = {zeta}: must lie between 0 and 1'):
+        RamseteGains(zeta=zeta)
 
 
 def test_its_lyapunov_function_by_hand():

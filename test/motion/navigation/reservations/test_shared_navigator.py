@@ -67,6 +67,20 @@ def test_it_goes_round_one_that_stands_in_its_way():
     assert sum(dist(a, b) for a, b in pairwise(places)) < 11.0
 
 
+def test_the_first_path_leads_round_one_that_stands_there_but_not_round_one_that_walks():
+    """Whoever walks will be gone; a third tree, far away, changes nothing."""
+    start, goal, place = (2.0, 5.0), (10.0, 5.0), (6.0, 5.0)
+    elm = Reservation('elm', MessageId(2, 0), 0.9, ((25.0, 15.0),), margin=0.2)
+    for asked, is_straight in (((), False), ((place, (6.0, 8.0)), True)):
+        oak = tree('oak', *start)
+        oak.right.receive(other(0, place, requested=asked, journey=2), 0)
+        oak.right.receive(elm, 0)
+        path = oak.navigate(goal, start, 0).path
+        assert path[-1] == pytest.approx(goal)
+        length = sum(dist(a, b) for a, b in pairwise(path))
+        assert (length == pytest.approx(8.0)) is is_straight
+
+
 def test_in_a_corridor_it_waits_and_says_for_whom():
     oak = tree('oak', 2.0, 1.25, CORRIDOR)
     places = walk(oak, (20.0, 1.25), 300, ash=lambda now: other(now, (10.0, 1.25)))
