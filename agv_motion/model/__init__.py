@@ -2,14 +2,10 @@
 
 from agv_motion.model.graph_transforms import GraphTransforms
 from agv_motion.model.robot_model import RobotModel
-from agv_motion.model.robot_transforms import RobotTransforms
-from agv_motion.model.transform import Transform
 from agv_motion.model.urdf_reading import read_urdf
 
 __all__ = [
     'GraphTransforms',
     'RobotModel',
-    'RobotTransforms',
-    'Transform',
     'read_urdf',
 ]

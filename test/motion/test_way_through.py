@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from agv_motion.motion.behavior import Agent, AgentParameters, SapFlow
-from agv_motion.motion.behavior.goals import GoalParameters
+from agv_motion.motion.behavior import Agent, AgentParameters, GoalParameters, SapFlow
 from agv_motion.motion.command import CommandLimits, LimitParameters, to_twist
 from agv_motion.motion.navigation import PathFollower, PathPlanner, Zone
 from agv_motion.motion.navigation.reservations import (
