@@ -19,7 +19,8 @@ from agv_motion.probe.condition import ProbeConditions
 from agv_motion.probe.natural_gradient import without_natural_gradient
 from agv_motion.probe.parameters import ProbeParameters
 from agv_motion.probe.probe import Probe, ProbeReading
-from agv_motion.probe.signals import signals_of
+from agv_motion.probe.signals import Signals, signals_of
+from agv_motion.probe.sources.csv_file import CsvSource
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
 from agv_motion.probe.water import WaterParameters
@@ -55,11 +56,7 @@ class GranierProbeParameters(SourceParameters, FrameParameters):
     ] = ''
     max_age: Annotated[
         float,
-        Spec(
-            'a reading older than this counts no more; 0: three periods of the source',
-            's',
-            (0, 1e6),
-        ),
+        Spec('a reading older than this is lost; 0: three periods of the source', 's', (0, 1e6)),
     ] = 0.0
     state_file: Annotated[
         str, Spec('where to keep what was learnt over a restart; empty: nowhere')
@@ -180,15 +177,29 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         complaint = self._source.complaint()
         if complaint:
             self.port.refuse(complaint)
-        why = self._signals.doubt
-        silence = self._silence(seconds)
-        if silence > self._max_age and not why:
-            why = f'no reading for {silence:.0f} s (limit {self._max_age:.0f} s)'
+        silent = self._silence(seconds) > self._max_age
+        why = (self._without_source(seconds) if silent else self._signals).doubt
         if why != self._why_invalid:
             self._tell_validity(why)
         if not why:
             self.port.stamp(self._message)  # believed now, whenever it was read
             self._sap_flow.publish(self._message)
+
+    def _without_source(self, now: float) -> Signals:
+        """Return what the tree may move by while the source says nothing: no probe is measured."""
+        silence = self._silence(now)
+        nothing = f'no reading for {silence:.0f} s (limit {self._max_age:.0f} s)'
+        if self._signals.doubt:
+            return self._signals
+        if not self.parameters.probe.loss.stands_in:
+            return Signals((), nothing, '')
+        pace = self.parameters.csv.speed if isinstance(self._source, CsvSource) else 1.0
+        for i, reading in enumerate(self._readings):
+            if reading is not None:
+                self._readings[i] = self._probes[i].stand_in(reading, silence * pace)
+        self._conditions.update(now, self._readings)
+        signals = self._tell_signals()
+        return signals._replace(doubt=nothing if signals.doubt else '')
 
     def _silence(self, now: float) -> float:
         """Return how long the source has said nothing [s]."""
@@ -238,15 +249,19 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         self._conditions.update(now, self._readings)
         if self._water is not None:
             self._water.update(sample.time, self._heated(self._readings), tell=True)
-        enough = self.parameters.probe.loss.enough
-        self._signals = signals_of(self._chosen, self._readings, enough)
+        self._signals = self._tell_signals()
+
+    def _tell_signals(self) -> Signals:
+        """Return what the tree may move by, and tell by what it is known."""
+        signals = signals_of(self._chosen, self._readings, self.parameters.probe.loss.enough)
         vector = self._message.vector
-        if self._signals.values:
-            vector.x, vector.y, vector.z = self._signals.values
-        if self._signals.losses != self._losses:
-            self._losses = self._signals.losses
+        if signals.values:
+            vector.x, vector.y, vector.z = signals.values
+        if signals.losses != self._losses:
+            self._losses = signals.losses
             self._state.publish(String(data=self._losses))
             self.port.info(self._losses or 'no probe is lost any more')
+        return signals
 
     def _tell_validity(self, why: str) -> None:
         self._why_invalid = why

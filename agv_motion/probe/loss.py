@@ -52,6 +52,11 @@ class LossParameters:
         """Check every row."""
         check(self)
 
+    @property
+    def stands_in(self) -> bool:
+        """Whether anything stands in for what is lost."""
+        return self.hold + self.trend + self.climatology > 0.0
+
 
 class SapFlowEstimate(NamedTuple):
     """What is known of a sap flow, and by what."""

@@ -9,6 +9,9 @@ from typing import Any, Protocol
 
 from agv_motion.errors import ConfigurationError
 
+TINY = 1e-12
+"""A range that is none."""
+
 
 class Normaliser(Protocol):
     """Turns a stream of values into shares of their usual range; causal."""
@@ -92,8 +95,8 @@ class RunningQuantiles:
         Args:
             quantiles: The two quantiles that become 0 and 1.
             window_days: How far back to look [d].
-            smallest_range: A range below this counts as this, so that noise stays small
-                [unit of the value].
+            smallest_range: A range below this counts as this, and a share of it for the less the
+                smaller the range: noise moves nothing [unit of the value].
             learning_hours: How much history is needed before a share is given [h].
             bin_length: Length of one bin [s].
 
@@ -110,7 +113,9 @@ class RunningQuantiles:
         if len(means) < self._learning_bins:
             return None
         low, high = means.quantile(self._low), means.quantile(self._high)
-        return min(max((value - low) / max(high - low, self._smallest_range), 0.0), 1.0)
+        known = min((high - low) / self._smallest_range, 1.0) if self._smallest_range else 1.0
+        share = (value - low) / max(high - low, self._smallest_range, TINY)
+        return min(max(share * known, 0.0), 1.0)
 
     def state(self) -> dict[str, Any]:
         """Return the bins."""

@@ -57,7 +57,7 @@ class ProbeParameters:
     ] = 0.95
     smallest_range: Annotated[
         float, Spec('flux density below which a range is noise', 'm/s', (0.0, 1.0))
-    ] = 1e-6
+    ] = 2e-6
     learning_hours: Annotated[
         float, Spec('history needed before a sap flow is given', 'h', (0.0, 720.0))
     ] = 24.0
@@ -105,6 +105,10 @@ class ProbeParameters:
         float,
         Spec('distance from the line through its neighbours that is noise', '1', (1e-3, 1.0)),
     ] = 0.015
+    settling: Annotated[
+        float,
+        Spec('how long a heater that is on again warms up before it is believed', 's', (0, 86400)),
+    ] = 2700.0
     needle_in_sapwood: Annotated[
         float, Spec('share of the needles that is in sapwood; the rest in heartwood', '1', (0.1, 1))
     ] = 1.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
@@ -66,6 +67,7 @@ class Probe:
         )
         method = method_of(given.zero_flow_method, given.zero_flow_days, given.environment)
         self._zero_flow = ZeroFlow(given.night_start, given.night_end, method, given.solar_offset)
+        self._judge.level.settling = given.settling
         self._conversion = Conversion(
             given.calibration.chosen(), given.needle_in_sapwood, given.damping
         )
@@ -141,6 +143,12 @@ class Probe:
         """Learn from past readings, (time [s], dT [K]) in order of time."""
         for time, value in history:
             self.update(time, value)
+
+    def stand_in(self, last: ProbeReading, later: float) -> ProbeReading:
+        """Return what stands in for a reading that has not come ``later`` [s] than the last."""
+        estimate = self._ladder.update(last.time + later, None)
+        missing = self._unknown(last.time, nan, Quality.MISSING)
+        return missing._replace(estimate=estimate)
 
     def recalibrate(self) -> float:
         """Take the last usable reading as zero flow and return it [K].

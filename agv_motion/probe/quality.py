@@ -53,6 +53,10 @@ class ReadingLevel:
 
         """
         self._threshold = spike_threshold
+        self.settling = 0.0
+        """time that a heater needs once it is on again [s]"""
+        self._on_since: float | None = None
+        """when readings came back that were off [s]"""
         self._recent: deque[float] = deque(maxlen=RECENT)
         self._suspects: deque[float] = deque(maxlen=STEP)
         self._noise = NoiseWatch(noise_above)
@@ -69,7 +73,7 @@ class ReadingLevel:
     def go_off(self) -> None:
         """Forget the level; what comes next must stand still before it is believed."""
         self.forget()
-        self._was = Quality.OFF
+        self._was, self._on_since = Quality.OFF, None
 
     @property
     def noise_since(self) -> float:
@@ -78,9 +82,11 @@ class ReadingLevel:
 
     def judge(self, time: float, value: float) -> Quality:
         """Return whether ``value`` [K] at ``time`` [s] is a spike, noise, still off, or good."""
+        if self._on_since is None:
+            self._on_since = time
         if self._noise.add(time, value):
             self._was = Quality.NOISE
-        elif self._noise.is_quiet():
+        elif self._noise.is_quiet() and abs(time - self._on_since) >= self.settling:
             self._was = None
         quality = self._compared(value)
         return self._was or quality if quality is Quality.GOOD else quality

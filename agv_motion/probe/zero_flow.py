@@ -87,6 +87,8 @@ class ZeroFlow:
             self.value = self._level(self._nights)
         self._method.observe(time, temperature_difference, environment)
         day, second = divmod(time + self._offset, DAY)
+        if self._nights and day < max(self._nights):
+            self._set_back(int(day))
         night = self._hours[0] <= second < self._hours[1]
         if self._open is not None and (int(day) != self._open.day or not night):
             self._latch(self._open)
@@ -117,6 +119,17 @@ class ZeroFlow:
         """
         if self._nights and not self._is_of_this_probe(temperature_difference):
             self._aside, self._nights, self._open, self.value = self._nights, {}, None, None
+
+    def _set_back(self, day: int) -> None:
+        """Count the nights from ``day`` on, which a clock shows that was set back.
+
+        They are as long ago as before; by the old clock they would be of days to come, and the
+        last of them would be zero flow until those days are over.
+        """
+        later = max(self._nights) - day
+        self._nights = {night - later: value for night, value in self._nights.items()}
+        if self._open is not None and self._open.day > day:
+            self._open = None
 
     def _is_of_this_probe(self, temperature_difference: float) -> bool:
         known = self.last_known

@@ -153,6 +153,23 @@ def test_a_gap_ends_the_sap_flow(tester, tmp_path):
     assert 'no reading for' in node.plain.diagnose().message
 
 
+def test_a_logger_that_falls_silent_goes_down_the_ladder_too(tester, tmp_path):
+    """The gap is known for one after 0.3 s; what was last read is held for 3 s, then it rests."""
+    states = tester.listen(String, 'granier/state', LATCHED)
+    valid = tester.listen(Bool, 'granier/valid', LATCHED)
+    file = clear_week(tmp_path, f'{DAWN + 864000},0.8,0.8,0.8\n')
+    node = tester.start(
+        GranierProbe, source='csv', rate=20.0, csv__file=file, csv__speed=9000.0,
+        csv__start='2013-06-12T23:00:00', probe__loss__hold=27000.0,
+    )  # fmt: skip
+    held = '; '.join(f'probe_{i} is missing: held' for i in (1, 2, 3))
+    assert tester.wait(states, lambda m: m.data == held)
+    assert [m.data for m in valid] == [True]
+    tester.wait(valid, lambda m: not m.data)
+    assert 'no reading for' in node.plain.diagnose().message
+    assert node.plain.diagnose().values['probe_1 known by'] == 'lost'
+
+
 def test_recalibration_is_a_service(tester):
     flows = tester.listen(Vector3Stamped, 'granier/sap_flow', SENSOR)
     tester.start(GranierProbe, **QUICK)

@@ -57,7 +57,14 @@ def test_a_range_below_noise_is_not_blown_up():
     normaliser = quantiles(smallest_range=1.0)
     for i in range(20):
         normaliser.update(i * QUARTER, 0.001 * (i % 2))
-    assert normaliser.update(20 * QUARTER, 0.001) == pytest.approx(0.001)
+    assert normaliser.update(20 * QUARTER, 0.001) == pytest.approx(0.001 * 0.001)
+
+
+def test_a_range_of_half_the_noise_tells_half_of_half():
+    normaliser = quantiles(smallest_range=2.0)
+    for i in range(20):
+        normaliser.update(i * QUARTER, float(i % 2))
+    assert normaliser.update(20 * QUARTER, 1.0) == pytest.approx(0.25)
 
 
 @given(st.lists(st.floats(0.0, 1e-4), min_size=10, max_size=60), st.integers(5, 9))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
     from agv_motion.probe.sources.csv_parameters import CsvParameters
     from agv_motion.probe.sources.csv_recording import CsvRecording
+
+
+AHEAD = DAY
+"""[s] by which a logger's clock may be ahead of the one here"""
 
 
 class CsvSource:
@@ -97,13 +101,22 @@ class GrowingSource:
         self._problem = self._past.problem
         self.period = self._past.step
 
-    def history(self, now: float) -> Iterator[ProbeSample]:  # noqa: ARG002 - rows have their own time
+    def history(self, now: float) -> Iterator[ProbeSample]:
         """Yield the rows that were there at the start, as far back as the warm-up reaches."""
-        first = bisect_left(self._past.times, self._last - self._warm_up)
-        yield from _samples(self._past, first)
+        times = self._past.times
+        end = bisect_right(times, now + AHEAD)
+        if 0 < end < len(times) and times[end] - times[end - 1] > AHEAD:
+            self._tell_ahead(len(times) - end)
+            self._last = times[end - 1]
+        first = bisect_left(times, self._last - self._warm_up)
+        yield from _samples(self._past, first, bisect_right(times, self._last))
 
-    def read(self, now: float) -> list[ProbeSample]:  # noqa: ARG002 - a row is due once it is written
-        """Return the rows that were added since the last call."""
+    def read(self, now: float) -> list[ProbeSample]:
+        """Return the rows that were added since the last call.
+
+        A clock that was right and leaps days ahead would make all later rows old: such rows are
+        left out.
+        """
         try:
             new = in_kelvin(self._tables.read(growing=True), self._given)
         except (AgvMotionError, OSError) as error:
@@ -114,10 +127,19 @@ class GrowingSource:
             late = f'{first} rows are older than what was read before: left out'
             self._problem = '; '.join(filter(None, (self._problem, late)))
         self._problem = '; '.join(filter(None, (self._problem, new.problem)))
-        samples = list(_samples(new, first))
+        end = len(new.times)
+        if -inf < self._last <= now + AHEAD:
+            end = bisect_right(new.times, max(now, self._last) + AHEAD)
+            self._tell_ahead(len(new.times) - end)
+        samples = list(_samples(new, first, end))
         if samples:
             self._last = samples[-1].time
         return samples
+
+    def _tell_ahead(self, rows: int) -> None:
+        if rows:
+            told = f'{rows} rows are days ahead of the clock here: left out; set the logger'
+            self._problem = '; '.join(filter(None, (self._problem, told)))
 
     def complaint(self) -> str:
         """Return what was wrong with rows or files since the last call."""
@@ -128,8 +150,8 @@ class GrowingSource:
         """Hold nothing: each look opens and closes the files."""
 
 
-def _samples(recording: CsvRecording, first: int) -> Iterator[ProbeSample]:
-    for row in range(first, len(recording.times)):
+def _samples(recording: CsvRecording, first: int, end: int) -> Iterator[ProbeSample]:
+    for row in range(first, end):
         yield _sample(recording, row)
 
 

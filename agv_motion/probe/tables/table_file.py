@@ -11,6 +11,7 @@ from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.files import text
 from agv_motion.probe.tables import file_text
 from agv_motion.probe.tables.cell_numbers import CellNumbers
+from agv_motion.probe.tables.clock_resets import REASON, after_reset
 from agv_motion.probe.tables.left_out import LeftOut
 from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, zone_of
 from agv_motion.probe.tables.table_form import find_form
@@ -89,7 +90,7 @@ class TableFile:
         rows = rows_of(lines, form, self._given.comment, left_out)
         if self.form is None:
             self.form = FileForm(form, self._time_format(rows, form), self._numbers(rows, form))
-        instants, kept = _timed(rows, self.form, left_out)
+        instants, kept = _without_resets(*_timed(rows, self.form, left_out), left_out)
         if not kept and not growing:
             raise left_out.error()
         self._require_one_reading(instants, kept)
@@ -148,9 +149,8 @@ class TableFile:
             raise self._error(rows[0], column, f'the times may be {other}')
 
     def _in_utc(self, instants: Sequence[Instant], rows: Sequence[Row]) -> list[float]:
-        """Return the times in UTC [s since 1970]; a file may have its newest row on top."""
-        falls = sum(b.seconds < a.seconds for a, b in pairwise(instants))
-        order = slice(None, None, -1 if falls > len(rows) / 2 else 1)
+        """Return the times in UTC [s since 1970]."""
+        order = _as_written(instants)
         times: list[float] = []
         try:
             times.extend(map(self._clock.utc, instants[order]))
@@ -164,6 +164,25 @@ class TableFile:
 
 def _nothing(columns: int) -> FileRows:
     return FileRows(np.empty(0), np.empty(0, np.int64), np.empty((0, columns)), '')
+
+
+def _as_written(instants: Sequence[Instant]) -> slice:
+    """Return the order in which rows were written: a file may have its newest row on top."""
+    falls = sum(b.seconds < a.seconds for a, b in pairwise(instants))
+    return slice(None, None, -1 if falls > len(instants) / 2 else 1)
+
+
+def _without_resets(
+    instants: list[Instant], rows: list[Row], left_out: LeftOut
+) -> tuple[list[Instant], list[Row]]:
+    """Return the rows whose clock was set; note the others."""
+    order = _as_written(instants)
+    lost = after_reset([instant.seconds for instant in instants[order]])[order]
+    for row, is_lost in zip(rows, lost, strict=True):
+        if is_lost:
+            left_out.add(row.line, 1, REASON)
+    kept = [i for i, is_lost in enumerate(lost) if not is_lost]
+    return [instants[i] for i in kept], [rows[i] for i in kept]
 
 
 def _timed(
