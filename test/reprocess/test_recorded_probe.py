@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+
 import pytest
 
 pytest.importorskip('rclpy')
 
+from geometry_msgs.msg import Vector3Stamped
 from sensor_msgs.msg import Temperature
 
+from agv_motion.bag.reader import BagReader
+from agv_motion.bag.writer import BagWriter
+from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.reprocess import Plan, reprocess
+from agv_motion.reprocess.recorded import parameters
 from agv_motion.reprocess.recorded_probe import RecordedProbe
+from agv_motion.reprocess.transcript import Transcript
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
@@ -41,3 +50,77 @@ def test_a_recorded_reading_is_said_again_with_its_value():
     ours = [value for name, value in said if name == topic]
     assert ours
     assert set(ours) <= {7.25, 7.5}
+
+
+DAWN = 1_370_822_400
+"""[s] since 1970: the tenth of June 2013; the third night is the first without a wind"""
+BEGIN, END = DAWN + 47 * 3600, DAWN + 62 * 3600
+CONFIG = """
+/**/granier_probe:
+  ros__parameters:
+    source: csv
+    rate: 0.01
+    water: {{sapwood_area: 0.012}}
+    probe: {{zero_flow_method: environment, learning_hours: 1.0}}
+    csv: {{file: {file}, start: '2013-06-11T23:00:00', radiation_column: sun, vpd_column: vpd}}
+"""
+
+
+@pytest.fixture(scope='module')
+def by_the_air(tmp_path_factory):
+    """Return a bag of a probe node whose zero flow is known by the air, and its parameters."""
+    folder = tmp_path_factory.mktemp('air')
+    rows = (
+        f'{DAWN + 900 * k},{v},{v},{v},{max(0, 800 - abs(k % 96 - 50) * 30)},'
+        f'{0.05 if k > 191 else 0.5}\n'
+        for k in range(300)
+        for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
+    )
+    (folder / 'probes.csv').write_text('time,probe_1,probe_2,probe_3,sun,vpd\n' + ''.join(rows))
+    config = folder / 'mine.yaml'
+    config.write_text(CONFIG.format(file=folder / 'probes.csv'))
+    with BagWriter(folder / 'bag') as writer:
+        transcript = Transcript(writer)
+        graph = InProcessGraph(transcript.record, BEGIN * SECOND)
+        InProcessNode(graph, GranierProbe, parameters(str(config), 'granier_probe'))
+        graph.start()
+        graph.run(END * SECOND)
+        graph.stop()
+        transcript.flush()
+    return folder / 'bag', Plan(str(config), ('granier_probe',), (), 'none')
+
+
+def told(path, topic):
+    """Return the values of a topic of vectors, one after the other, each once."""
+    reader = codec(Vector3Stamped)
+    with BagReader(path) as bag:
+        if topic not in bag.topics:
+            return []
+        vectors = [reader.decode(m.data).vector for m in bag.messages([topic])]
+    return [values for values, _ in groupby((v.x, v.y, v.z) for v in vectors)]
+
+
+def test_zero_flow_is_known_by_the_air_that_was_recorded(by_the_air, tmp_path):
+    """A reading is taken at the tick after it was said, so the last one may be missing."""
+    bag, plan = by_the_air
+    outcome = reprocess(bag, tmp_path / 'out', plan)
+    assert not outcome.failure
+    for topic in ('/granier/environment', '/granier/sap_flow', '/granier/water_use_today'):
+        before, after = told(bag, topic), told(tmp_path / 'out', topic)
+        assert len(before) > 5
+        assert len(after) >= len(before) - 1
+        assert after == before[: len(after)]
+
+
+def test_without_the_recorded_air_zero_flow_is_unknown(by_the_air, copied, tmp_path):
+    bag, plan = by_the_air
+
+    def airless(message):
+        kind = message.connection
+        if kind.topic != '/granier/environment':
+            yield kind.topic, message.stamp, message.data, kind.type
+
+    airless_bag = copied(bag, tmp_path / 'airless', airless)
+    outcome = reprocess(airless_bag, tmp_path / 'out', plan)
+    assert outcome.missing == ('/granier/environment',)
+    assert told(tmp_path / 'out', '/granier/sap_flow') == []
