@@ -229,7 +229,7 @@ def _draw_water(axes: Any, run: WalkRun, days: float) -> None:
     midnights = np.flatnonzero(np.diff(water[:, 1]) < 0.0) + 1
     time, *litres = np.insert(water, midnights, np.nan, axis=0).T
     value, low, high = litres
-    axes.fill_between(scaled(time), low, high, color=style.WAITING, alpha=0.3, lw=0)
+    axes.fill_between(scaled(time), low, high, color=style.WAITING, alpha=0.2, lw=0)
     axes.plot(*style.thinned(scaled(time), value), color=style.ROBOT)
     style.line_label(axes, high[-1], '95 %', style.ink())
     last = run.drunk().since_midnight()
