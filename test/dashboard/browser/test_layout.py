@@ -52,6 +52,14 @@ def test_nothing_is_cut_off_or_covers_another(park, serve, open_page, size):
     assert stop['height'] >= 70
 
 
+def test_a_tablet_shows_three_robots_whole(park, serve, open_page):
+    page = open_page(serve(park).url, TABLET)
+    page.wait_for_selector('[data-act=drive]')
+    page.wait_for_selector('text=Drank today')
+    last, room = (page.locator(each).bounding_box() for each in ('[data-robot=elm]', '.robots'))
+    assert last['y'] + last['height'] <= room['y'] + room['height']
+
+
 IN_SIGHT = """() => {
   const stop = document.querySelector('#stop-button');
   const box = stop.getBoundingClientRect();
