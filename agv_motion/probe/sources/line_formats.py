@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 COMMA = 'array,year,day of the year,HHMM,v1,v2,...'
 PRINTABLE = '01+0110. 02+0161. 03+1230. 04+v1 05+v2 ...'
 DATATAKER = 'D,serial,"job",YYYY/MM/DD,HH:MM:SS,fraction,n;A,0,v1,v2,...;length;CRC'
-_LABEL = re.compile(r'[A-Za-z_]\w*\s*[:=]\s*')
+_LABEL = re.compile(r'[A-Za-z_]\w{0,40}\s{0,9}[:=]\s*')  # bounded: long words cost no square
 _PRINTABLE = re.compile(r'(\d{2})([+-]\d*\.?\d*)')
 
 

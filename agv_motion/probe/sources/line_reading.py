@@ -13,7 +13,7 @@ from agv_motion.probe.sources.checksum import Checksum, checked
 from agv_motion.probe.sources.json_line import read_json
 from agv_motion.probe.sources.line_formats import Arrival, instant_of, line_reader
 from agv_motion.probe.sources.line_listener import LineListener, Origin
-from agv_motion.probe.sources.logger_line import LoggerLine
+from agv_motion.probe.sources.logger_line import LONGEST_LINE, LoggerLine
 from agv_motion.probe.sources.source import (
     KELVIN_PER_MILLIVOLT,
     UNITS,
@@ -146,7 +146,7 @@ def read_line_of(text: str, given: LineParameters, now: float) -> LoggerLine:
 
     """
     try:
-        line = checked(text, Checksum(given.checksum))
+        line = _proved(text, given)
         arrival = Arrival(now, given.utc_offset)
         if given.format == JSON:
             return _of_json(line, given, arrival)
@@ -154,6 +154,19 @@ def read_line_of(text: str, given: LineParameters, now: float) -> LoggerLine:
     except SignalError as error:
         msg = f"unreadable line '{text:.80}': {error}"
         raise SignalError(msg) from error
+
+
+def _proved(text: str, given: LineParameters) -> str:
+    """Return the line without its checksum.
+
+    Raises:
+        SignalError: The sum is another, or it is longer than any line of a logger.
+
+    """
+    if len(text) > LONGEST_LINE and given.format != JSON:
+        msg = f'it has {len(text)} letters, and no line more than {LONGEST_LINE}: check the logger'
+        raise SignalError(msg)
+    return checked(text, Checksum(given.checksum))
 
 
 def _of_json(text: str, given: LineParameters, arrival: Arrival) -> LoggerLine:

@@ -23,6 +23,9 @@ YEARS = (2001, 2069)
 EPOCHS = (1e9, 3.1e9)
 """[s] since 1970 of those years; a smaller number counts from when the logger was switched on."""
 
+LONGEST_LINE = 1024
+"""Letters; what is longer is rubbish, and costs seconds to search."""
+
 MISSING = {-9999.0, -99999.0, -6999.0, -7999.0}
 """What loggers write where there is no value."""
 

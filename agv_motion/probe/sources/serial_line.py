@@ -16,15 +16,12 @@ from agv_motion.parameters import Spec
 from agv_motion.probe.sources.attempts import Attempts
 from agv_motion.probe.sources.line_listener import Origin
 from agv_motion.probe.sources.line_reading import LineParameters, LineReader
-from agv_motion.probe.sources.logger_line import cleaned
+from agv_motion.probe.sources.logger_line import LONGEST_LINE, cleaned
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from agv_motion.probe.sources.source import ProbeSample
-
-LONGEST_LINE = 1024
-"""[bytes] Anything longer without a line end is rubbish and dropped."""
 
 
 @dataclass(frozen=True)

@@ -128,6 +128,15 @@ def test_what_is_not_of_the_form_is_refused_and_quoted(text, format_, match):
     assert text in str(caught.value)
 
 
+@pytest.mark.parametrize('format_', [*LINE_FORMATS, r'(?P<v1>\d+)'])
+@pytest.mark.parametrize('rubbish', ['7' * 10_000, '0.41 ' * 2000, 'a' * 1025])
+def test_a_line_that_is_longer_than_any_is_refused_unread(format_, rubbish):
+    with pytest.raises(SignalError, match=f'it has {len(rubbish)} letters') as caught:
+        read(rubbish, format_)
+    assert len(str(caught.value)) < 300
+    assert read('0.41 ' * 204, 'arrival').values == (0.41, 0.41, 0.41)  # as long as may be
+
+
 @pytest.mark.parametrize(
     ('format_', 'match'),
     [
