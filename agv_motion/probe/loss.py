@@ -14,10 +14,11 @@ from typing import Annotated, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
+from agv_motion.probe.noise import DOUBTFUL
 
 HOUR = 3600.0
 KEPT = 6.0 * HOUR
-"""[s] Readings that are remembered: the last of them may turn out to be noise."""
+"""[s] Readings that are remembered, and at least one more than may turn out to be noise."""
 
 
 class LossStep(Enum):
@@ -126,6 +127,7 @@ class LossLadder:
         """Know of no sap flow."""
         self._given = parameters
         self._past: deque[tuple[float, float]] = deque()
+        """what the course of the day has not learnt yet, since it may be taken back"""
         self.course = DayCourse(parameters.climatology_days)
 
     def update(self, time: float, measured: float | None) -> SapFlowEstimate:
@@ -156,9 +158,8 @@ class LossLadder:
         if self._past and time < self._past[-1][0]:
             self._past.clear()
         self._past.append((time, value))
-        while time - self._past[0][0] > KEPT:
-            self._past.popleft()
-        self.course.add(time, value)
+        while len(self._past) > DOUBTFUL + 1 and time - self._past[0][0] > KEPT:
+            self.course.add(*self._past.popleft())
         return SapFlowEstimate(value, LossStep.MEASURED)
 
     def _slope(self) -> float:

@@ -19,6 +19,9 @@ class Normaliser(Protocol):
     def update(self, time: float, value: float) -> float | None:
         """Take in ``value`` at ``time`` [s]; return its share in [0, 1], None while learning."""
 
+    def distrust(self, since: float) -> None:
+        """Take back what came from ``since`` [s] on."""
+
     def state(self) -> dict[str, Any]:
         """Return what must survive a restart, ready for JSON."""
 
@@ -60,6 +63,13 @@ class RecentMeans:
         while self._bins and abs(time - self._bins[0][0]) > self._window:
             _, old = self._bins.popleft()
             del self._sorted[bisect_left(self._sorted, old)]
+
+    def distrust(self, since: float) -> None:
+        """Forget the bins in which anything lies that came from ``since`` [s] on."""
+        self._open = 0, 0.0, 0
+        while self._bins and self._bins[-1][0] + self._bin_length > since:
+            _, mean = self._bins.pop()
+            del self._sorted[bisect_left(self._sorted, mean)]
 
     def quantile(self, share: float) -> float:
         """Return the mean below which ``share`` of all finished ones lie."""
@@ -117,6 +127,10 @@ class RunningQuantiles:
         share = (value - low) / max(high - low, self._smallest_range, TINY)
         return min(max(share * known, 0.0), 1.0)
 
+    def distrust(self, since: float) -> None:
+        """Forget what came from ``since`` [s] on."""
+        self._means.distrust(since)
+
     def state(self) -> dict[str, Any]:
         """Return the bins."""
         return {'bins': self._means.finished()}
@@ -149,6 +163,9 @@ class RunningRange:
         self._largest = value if self._largest is None else max(self._largest, value)
         span = self._largest - self._smallest
         return 1.0 if span <= self._opening_range else (value - self._smallest) / span
+
+    def distrust(self, since: float) -> None:
+        """Forget nothing, as the original did."""
 
     def state(self) -> dict[str, Any]:
         """Return both ends of the range."""

@@ -97,7 +97,7 @@ class Probe:
         """
         reading = self._read(time, temperature_difference, environment)
         if reading.quality is Quality.NOISE:
-            self._ladder.distrust(self._judge.level.noise_since)
+            self._distrust(self._judge.level.noise_since)
         return reading._replace(estimate=self._ladder.update(time, reading.sap_flow))
 
     def _read(
@@ -124,6 +124,11 @@ class Probe:
         if index < 0.0:
             quality = Quality.NEGATIVE_FLOW
         return ProbeReading(time, temperature_difference, quality, zero_flow, index, flux, share)
+
+    def _distrust(self, since: float) -> None:
+        """Take back all that was learnt from ``since`` [s] on: it was noise before it was known."""
+        for learner in (self._zero_flow, self._normaliser, self._ladder):
+            learner.distrust(since)
 
     def _share(self, time: float, temperature_difference: float, flux: float) -> float | None:
         """Normalise; the raw value of the original falls when flow rises, hence its turn."""

@@ -30,18 +30,34 @@ class _Night:
 
     def __init__(self, day: int) -> None:
         self.day = day
-        self.highest = 0.0
-        """[K] of the medians of three"""
-        self.counts = False
-        """whether that told zero flow"""
+        self._records: list[tuple[float, float, bool]] = []
+        """each median of three that was above all before: time [s], the median [K], and whether
+        it told zero flow"""
         self._last_three: list[float] = []
 
-    def add(self, temperature_difference: float, method: ZeroFlowMethod) -> None:
+    @property
+    def highest(self) -> float:
+        """[K] of the medians of three; 0 where there is none"""
+        return self._records[-1][1] if self._records else 0.0
+
+    @property
+    def counts(self) -> bool:
+        """Whether that told zero flow."""
+        return bool(self._records) and self._records[-1][2]
+
+    def add(self, time: float, temperature_difference: float, method: ZeroFlowMethod) -> None:
         self._last_three = [*self._last_three[-2:], temperature_difference]
         if len(self._last_three) == 3:
             highest = median(self._last_three)
             if highest > self.highest:
-                self.highest, self.counts = highest, method.counts()
+                self._records.append((time, highest, method.counts()))
+
+    def distrust(self, since: float) -> bool:
+        """Forget what came from ``since`` [s] on; return whether that changes what it told."""
+        self._last_three, before = [], self.highest
+        while self._records and self._records[-1][0] >= since:
+            self._records.pop()
+        return self.highest < before
 
 
 class ZeroFlow:
@@ -66,6 +82,8 @@ class ZeroFlow:
         self._aside: dict[int, float] = {}
         """nights before dT stepped away"""
         self._open: _Night | None = None
+        self._latched: _Night | None = None
+        """the last one that is over"""
         self.value: float | None = None
 
     def update(
@@ -94,7 +112,7 @@ class ZeroFlow:
             self._latch(self._open)
         if night:
             self._open = self._open or _Night(int(day))
-            self._open.add(temperature_difference, self._method)
+            self._open.add(time, temperature_difference, self._method)
         if self._nights and int(day) - max(self._nights) > self._method.days:
             self._nights, self.value = {}, None
         return self.value
@@ -103,7 +121,7 @@ class ZeroFlow:
         """Forget all nights and take ``temperature_difference`` as zero flow from now on."""
         self._nights = {int((time + self._offset) // DAY): temperature_difference}
         self._aside = {}
-        self._open = None
+        self._open = self._latched = None
         self.value = temperature_difference
 
     @property
@@ -118,7 +136,8 @@ class ZeroFlow:
         that can be of it, if no night has told a new zero flow before.
         """
         if self._nights and not self._is_of_this_probe(temperature_difference):
-            self._aside, self._nights, self._open, self.value = self._nights, {}, None, None
+            self._aside, self._nights, self.value = self._nights, {}, None
+            self._open = self._latched = None
 
     def _set_back(self, day: int) -> None:
         """Count the nights from ``day`` on, which a clock shows that was set back.
@@ -128,8 +147,20 @@ class ZeroFlow:
         """
         later = max(self._nights) - day
         self._nights = {night - later: value for night, value in self._nights.items()}
+        self._latched = None
         if self._open is not None and self._open.day > day:
             self._open = None
+
+    def distrust(self, since: float) -> None:
+        """Take back what a night told by readings from ``since`` [s] on, which were noise."""
+        if self._open is not None:
+            self._open.distrust(since)
+        night = self._latched
+        if night is not None and night.distrust(since) and night.day in self._nights:
+            del self._nights[night.day]
+            if night.counts:
+                self._nights[night.day] = night.highest
+            self.value = self._level(self._nights) if self._nights else None
 
     def _is_of_this_probe(self, temperature_difference: float) -> bool:
         known = self.last_known
@@ -142,7 +173,7 @@ class ZeroFlow:
             oldest = night.day - self._method.days
             self._nights = {d: value for d, value in self._nights.items() if d > oldest}
             self.value = self._level(self._nights)
-        self._open = None
+        self._open, self._latched = None, night
 
     def state(self) -> dict[str, Any]:
         """Return what must survive a restart, ready for JSON."""

@@ -52,7 +52,8 @@ class Chain:
         self.stood = self._stood()
         self.zero_flow = np.full(len(time), np.nan)
         self.nights, self.dt_max, self.flowing = {}, np.nan, False
-        self.level, self.suspects, self.line, self.back = [], [], [], ''
+        self.level, self.suspects, self.line, self.back, self.doubt = [], [], [], '', []
+        self.night, self.of_day, self.pending = [[]], -1, (np.nan, 0)
         first = np.flatnonzero(np.diff(self.day, prepend=-1.0))
         for rows in np.split(np.arange(len(time)), first[1:]):
             self._of_one_day(rows)
@@ -90,23 +91,23 @@ class Chain:
         before = rows[self.second[rows] < NIGHT[0]]
         after = rows[self.second[rows] >= NIGHT[1]]
         self._believe(before)
-        believed = self._believe(rows[dark])
-        self.pending = self._night(believed), int(self.day[rows[0]])
+        self._believe(rows[dark])
+        told = int(self.day[rows[0]]) == self.of_day
+        self.pending = self._night() if told else np.nan, self.of_day
         self._believe(after)
         self._latch()
 
     def _believe(self, rows):
-        """Flag rows by what was before them, and return those that can be used."""
-        used = []
+        """Flag rows by what was before them, and keep those of a night that can be used."""
         columns = self.difference[rows], self.flags[rows], self.stood[rows], self.second[rows]
         table = zip(rows.tolist(), *(column.tolist() for column in columns), strict=True)
         for row, value, flag, stood, second in table:
             if flag == 'off':
-                self.level, self.line, self.back = [], [], 'off'
+                self.level, self.line, self.back, self.doubt = [], [], 'off', []
             if flag != 'good':
                 continue
             if row in self.gaps:
-                self.level, self.line = [], []
+                self.level, self.line, self.doubt = [], [], []
             if stood >= (4 if self.flowing else 18) * HOUR:
                 self.flags[row] = 'stuck'
                 continue
@@ -114,18 +115,20 @@ class Chain:
                 self.flags[row] = 'spike'
             if not self._stands_still(row, value):
                 continue
-            if not NIGHT[0] <= second < NIGHT[1]:
+            if NIGHT[0] <= second < NIGHT[1]:
+                if self.day[row] != self.of_day:
+                    self.night, self.of_day = [[]], int(self.day[row])
+                self.night[-1].append(row)
+            else:
                 self._latch()
             self._forget(int(self.day[row]))
-            used.append(row)
             self.zero_flow[row] = self.dt_max
             if np.isfinite(self.dt_max):
                 self.flowing = (self.dt_max - value) / value > 0.02
-        return np.array(used, int)
 
     def _stands_still(self, row, value):
         """Flag noise, what was off until all stand still, and too much flow."""
-        self.line = [*self.line[-6:], value]
+        self.line, self.doubt = [*self.line[-6:], value], [*self.doubt[-13:], row]
         off = np.abs(np.diff(self.line, 2)) / 2.0 > 0.015 * np.array(self.line[1:-1])
         if off.sum() >= 4:
             self.back = 'noise'
@@ -133,6 +136,8 @@ class Chain:
             self.back = ''
         if self.flags[row] == 'good' and self.back:
             self.flags[row] = self.back
+            if self.back == 'noise':
+                self._take_back(self.doubt[0])
         elif self.flags[row] == 'good' and (self.dt_max - value) / value > TOO_MUCH:
             self.flags[row] = 'out of range'
         return self.flags[row] == 'good'
@@ -149,14 +154,29 @@ class Chain:
             return True
         return False
 
-    def _night(self, rows):
+    def _take_back(self, since):
+        """Let the last night tell what it told before the row ``since``."""
+        self.night = [[row for row in rows if row < since] for rows in self.night] + [[]]
+        told = self._night()
+        if np.isfinite(self.pending[0]):
+            self.pending = told, self.of_day
+        elif self.of_day in self.nights and self.nights[self.of_day] != told:
+            del self.nights[self.of_day]
+            if np.isfinite(told):
+                self.nights[self.of_day] = told
+            level = METHODS[self.method]
+            self.dt_max = level(self.nights, self.of_day, self.days) if self.nights else np.nan
+
+    def _night(self):
         """Return the highest median of three readings of a night, NaN where it tells nothing."""
-        if len(rows) < 3:
+        values = [self.difference[rows] for rows in self.night if len(rows) > 2]
+        if not values:
             return np.nan
-        values = self.difference[rows]
-        middles = np.median(np.column_stack([values[:-2], values[1:-1], values[2:]]), axis=1)
-        at = rows[2 + np.argmax(middles)]
-        return np.max(middles) if self.method != 'environment' or self._quiet(at) else np.nan
+        middles = [np.median([v[:-2], v[1:-1], v[2:]], axis=0) for v in values]
+        last = np.concatenate([rows[2:] for rows in self.night if len(rows) > 2])
+        at = last[np.argmax(np.concatenate(middles))]
+        highest = np.max(np.concatenate(middles))
+        return highest if self.method != 'environment' or self._quiet(at) else np.nan
 
     def _quiet(self, at):
         near = np.flatnonzero(
@@ -188,7 +208,7 @@ SUN_ALONE = EnvironmentParameters(vpd_below=0.0)
 
 
 def own_series(days=24):
-    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off and stuck."""
+    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off, stuck, noise."""
     rng = np.random.default_rng(5)
     time = 1.37e9 // DAY * DAY + np.arange(0.0, days * DAY, 900.0)
     hour, day = time % DAY / 3600.0, (time - time[0]) // DAY
@@ -201,6 +221,9 @@ def own_series(days=24):
     value[rng.random(len(time)) < 0.01] = np.nan
     value[rng.random(len(time)) < 0.01] *= 1.4
     value[300:340], value[700:720], value[900:990] = 0.3, value[700], value[900]
+    for day_of_noise, first in ((4, 12), (6, 24), (19, 17), (21, 22)):  # before dawn, and over it
+        begin = 96 * day_of_noise + first
+        value[begin : begin + 12] = rng.normal(20.5, 0.6, 12)
     keep = (np.arange(len(time)) < 1200) | (np.arange(len(time)) > 1700)
     return time[keep], value[keep], sun[keep]
 
@@ -244,7 +267,8 @@ def compare(series, method, days):
 @pytest.mark.parametrize('method', METHODS)
 def test_a_month_by_each_method(method):
     told, chain = compare(own_series(), method, 5)
-    assert {'good', 'negative flow', 'off', 'spike', 'stuck', 'missing'} <= set(chain.flags)
+    found = {'good', 'negative flow', 'off', 'spike', 'stuck', 'missing', 'noise'}
+    assert found <= set(chain.flags)
     assert np.isfinite(told.flux_density).sum() > 500
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from math import nan
+
 import numpy as np
 import pytest
 
 from agv_motion.probe import Probe, ProbeParameters
-from agv_motion.probe.noise import NoiseWatch
+from agv_motion.probe.noise import DOUBTFUL, NoiseWatch
 from agv_motion.probe.quality import Quality
 
 DAY = 86400.0
@@ -36,13 +38,18 @@ def test_a_step_or_a_spike_is_none():
     assert not any(watch.add(float(k), value) for k, value in enumerate(values))
 
 
+def of_a_tree(k, step=900.0):
+    """Return the reading ``k`` of a tree [K]."""
+    hour = k * step % DAY / 3600.0
+    flow = max(np.sin(np.pi * (hour - 8.0) / 12.0), 0.0)
+    return 20.0 - 1.5 * float(flow) + 0.001 * (k % 7)
+
+
 def believed(values, step=900.0):
     """Return what a probe says that has known three days of a tree, and then gets these values."""
     probe = Probe(ProbeParameters())
     for k in range(int(3.5 * DAY / step)):
-        hour = k * step % DAY / 3600.0
-        flow = max(np.sin(np.pi * (hour - 8.0) / 12.0), 0.0)
-        probe.update(k * step, 20.0 - 1.5 * float(flow) + 0.001 * (k % 7))
+        probe.update(k * step, of_a_tree(k, step))
     return [probe.update(3.5 * DAY + k * step, float(v)) for k, v in enumerate(values)]
 
 
@@ -67,3 +74,24 @@ def test_a_level_that_steps_away_tells_no_flow_and_counts_again_when_it_is_back(
     back = told[-1]
     assert back.zero_flow == pytest.approx(20.0, abs=0.01)
     assert back.sap_flow is not None
+
+
+@pytest.mark.parametrize('hour', [1.0, 3.0, 5.5, 9.0, 13.0, 22.0])
+@pytest.mark.parametrize('method', ['predawn', 'moving_window', 'double_regression'])
+def test_noise_on_the_level_of_the_tree_leaves_nothing_behind(hour, method):
+    """The same has been learnt a day later as by who never saw what was taken back."""
+    rng, begin = np.random.default_rng(3), round((4.0 + hour / 24.0) * 96)
+    values = [of_a_tree(k) for k in range(6 * 96)]
+    values[begin : begin + 14] = rng.normal(20.5, 0.6, 14)
+    told, twin = (Probe(ProbeParameters(zero_flow_method=method)) for _ in range(2))
+    found = [told.update(900.0 * k, value).quality for k, value in enumerate(values)]
+    noise = [k for k, quality in enumerate(found) if quality is Quality.NOISE]
+    assert begin < noise[0] < begin + 14 <= noise[-1]
+    for k, value in enumerate(values):
+        doubtful = noise[0] - DOUBTFUL < k <= noise[-1]
+        twin.update(900.0 * k, nan if doubtful else value)
+    ours, theirs = told.state(), twin.state()
+    assert ours['normaliser'] == theirs['normaliser']
+    assert ours['course'] == theirs['course']
+    nights, others = (dict(each['zero_flow']['nights']) for each in (ours, theirs))
+    assert nights == pytest.approx(others, abs=0.01)
