@@ -37,7 +37,7 @@ class _Night:
 
     @property
     def highest(self) -> float:
-        """[K] of the medians of three; 0 where there is none"""
+        """Highest of the medians of three [K]; 0 where there is none."""
         return self._records[-1][1] if self._records else 0.0
 
     @property

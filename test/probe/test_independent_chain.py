@@ -115,16 +115,20 @@ class Chain:
                 self.flags[row] = 'spike'
             if not self._stands_still(row, value):
                 continue
-            if NIGHT[0] <= second < NIGHT[1]:
-                if self.day[row] != self.of_day:
-                    self.night, self.of_day = [[]], int(self.day[row])
-                self.night[-1].append(row)
-            else:
-                self._latch()
+            self._use(row, dark=NIGHT[0] <= second < NIGHT[1])
             self._forget(int(self.day[row]))
             self.zero_flow[row] = self.dt_max
             if np.isfinite(self.dt_max):
                 self.flowing = (self.dt_max - value) / value > 0.02
+
+    def _use(self, row, *, dark):
+        """Keep a row of a night; the first after it ends it."""
+        if not dark:
+            self._latch()
+            return
+        if self.day[row] != self.of_day:
+            self.night, self.of_day = [[]], int(self.day[row])
+        self.night[-1].append(row)
 
     def _stands_still(self, row, value):
         """Flag noise, what was off until all stand still, and too much flow."""
@@ -208,7 +212,7 @@ SUN_ALONE = EnvironmentParameters(vpd_below=0.0)
 
 
 def own_series(days=24):
-    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off, stuck, noise."""
+    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off and of noise."""
     rng = np.random.default_rng(5)
     time = 1.37e9 // DAY * DAY + np.arange(0.0, days * DAY, 900.0)
     hour, day = time % DAY / 3600.0, (time - time[0]) // DAY
