@@ -212,7 +212,7 @@ SUN_ALONE = EnvironmentParameters(vpd_below=0.0)
 
 
 def own_series(days=24):
-    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off and of noise."""
+    """Return time, dT [K] and sun of a tree with dull days, spikes, gaps, hours off, of noise."""
     rng = np.random.default_rng(5)
     time = 1.37e9 // DAY * DAY + np.arange(0.0, days * DAY, 900.0)
     hour, day = time % DAY / 3600.0, (time - time[0]) // DAY
