@@ -19,12 +19,41 @@ newest_python() {
     exit 1
 }
 
+# Without a pip of its own an environment is made in a moment: the one that Python brings takes eight
+# seconds to unpack, and is old and slow. It comes from the pip of the base, where that is new enough.
+bring_pip() {
+    [ ! -e "$venv/agv_motion.pip" ] || return 0
+    "$(newest_python)" -m pip --python "$venv/bin/python" install --quiet --no-compile \
+        --disable-pip-version-check pip setuptools 2>/dev/null || {
+        "$venv/bin/python" -m ensurepip >/dev/null &&
+            "$venv/bin/python" -m pip install --quiet --upgrade --disable-pip-version-check \
+                pip setuptools
+    } || {
+        echo 'error: this Python has no pip, or no way to its packages: see above;' \
+            'on Debian and Ubuntu: apt install python3-pip python3-venv' >&2
+        exit 1
+    }
+    touch "$venv/agv_motion.pip"
+}
+
+# What is imported is compiled as it is: that of all that is installed takes twice as long. Of the
+# build nothing is fetched for it alone, since setuptools is there. uv, where it is, is the quickest.
+install() {
+    if command -v uv >/dev/null; then
+        uv pip install --quiet --python "$venv/bin/python" pip setuptools "$1" && return
+        echo 'uv could not (see above): once more, by pip' >&2
+    fi
+    bring_pip
+    "$venv/bin/python" -m pip install --quiet --no-compile --no-build-isolation \
+        --disable-pip-version-check "$1"
+}
+
 use_environment() {
     stamp="$venv/agv_motion.$1"
     if [ ! -x "$venv/bin/python" ]; then
         python=$(newest_python)
         echo "Making an environment in $venv with $($python --version)" >&2
-        "$python" -m venv "$venv" || {
+        "$python" -m venv --without-pip "$venv" || {
             rm -rf "$venv"
             echo 'error: this Python cannot make environments: apt install python3-venv' >&2
             exit 1
@@ -34,9 +63,7 @@ use_environment() {
         "$root/setup.py" "$root/package.xml" -newer "$stamp" -print -quit)" ]; then
         echo "Installing agv_motion[$1]; the first time this takes a minute" >&2
         rm -rf "$root/build"
-        # what is imported is compiled as it is: that of all that is installed takes twice as long
-        "$venv/bin/python" -m pip install --quiet --no-compile --disable-pip-version-check \
-            "$root[$1]"
+        install "$root[$1]"
         touch "$stamp"
     fi
     PATH="$venv/bin:$PATH"
