@@ -165,6 +165,10 @@ def test_aborted_on_an_arc_it_brakes_on_its_circle():
         ((1.0, 1.0, 0.3, 0.0, 0.5), 'speed'),
         ((1.0, 1.0, 0.3, nan, 0.5), 'speed'),
         ((1.0, 1.0, 0.3, 0.4, -0.5), r'ramp = -0\.5'),
+        ((1.5e9, 1.0, 0.3, 0.4, 0.5), 'angle = 1500000000'),
+        ((1.0, 1.5e9, 0.3, 0.4, 0.5), 'diameter = 1500000000'),
+        ((1.0, 1.0, 1.5e9, 0.4, 0.5), 'track = 1500000000'),
+        ((1.0, 1.0, 0.9e-6, 0.4, 0.5), 'track = 9e-07'),
     ],
 )
 def test_an_impossible_arc_is_refused(values, word):

@@ -122,10 +122,10 @@ class TopicDecoder:
             fixed = self._learnt(batch, key, int(rows[0]))
             before = len(rows)
             rows = self._by_layout(batch, fixed, rows, parts)
-            if before - len(rows) >= FEW and len(layouts) < _MOST_LAYOUTS:
-                layouts.append(fixed)
-            elif before - len(rows) < FEW:
+            if before - len(rows) < FEW:
                 break
+            if len(layouts) < _MOST_LAYOUTS:
+                layouts.append(fixed)
         return rows
 
     def _learnt(self, batch: Batch, key: tuple[int, int], row: int) -> FixedLayout:

@@ -94,6 +94,37 @@ def test_parts_that_fit_into_the_cache_give_the_same(monkeypatch):
     assert parts.stamps.finish().tolist() == list(range(30))
 
 
+def learnt(monkeypatch, *batches):
+    """Return how many layouts are learnt from each of some batches of names."""
+    counts, decoder = [], TopicDecoder(TOPIC, None, 99, 1 << 16)
+    whole = topic_decoder.FixedLayout
+    monkeypatch.setattr(
+        topic_decoder, 'FixedLayout', lambda *given: counts.append(1) or whole(*given)
+    )
+    for names in batches:
+        before = len(counts)
+        decoder.put(batch([message(name, 1.0, [1]) for name in names]))
+        yield len(counts) - before
+
+
+def test_a_layout_that_many_messages_share_is_learnt_once(monkeypatch):
+    """The names are of one size in CDR, with their padding."""
+    names = ['', 'abc'] * topic_decoder.FEW
+    assert list(learnt(monkeypatch, names, names)) == [2, 0]
+
+
+def test_what_few_share_is_not_worth_a_layout(monkeypatch):
+    few = topic_decoder.FEW - 1
+    names = ['', 'a', 'abc'] * few
+    assert list(learnt(monkeypatch, names, names)) == [1, 1]
+
+
+def test_layouts_that_are_kept_have_an_end(monkeypatch):
+    monkeypatch.setattr(topic_decoder, '_MOST_LAYOUTS', 1)
+    names = ['', 'abc'] * topic_decoder.FEW
+    assert list(learnt(monkeypatch, names, names)) == [2, 1]
+
+
 def test_only_wanted_fields_are_read_with_the_lengths_around_them():
     decoder = TopicDecoder(TOPIC, ['v'], 1, 100)
     assert [(leaf.path, leaf.type) for leaf in decoder.leaves] == [('v', 'length'), ('v', 'uint16')]
