@@ -16,8 +16,8 @@ from agv_motion.dashboard.foxglove.protocol import NO_GRAPH
 from agv_motion.dashboard.foxglove.transforms import HOLD, DerivedTransforms
 from agv_motion.nodes.foxglove_acts import FoxgloveActs
 from agv_motion.nodes.foxglove_connections import connections
-from agv_motion.nodes.foxglove_subscriptions import GraphSubscriptions
-from agv_motion.nodes.foxglove_topics import CLOCK, EVENTS, ServedTopics
+from agv_motion.nodes.foxglove_subscriptions import CLOCK, EVENTS, TYPES, GraphSubscriptions
+from agv_motion.nodes.foxglove_topics import ServedTopics
 from agv_motion.nodes.promise import guarded, promise
 from agv_motion.ros.raw_subscription import ListenerNodes
 
@@ -88,7 +88,8 @@ class FoxgloveGraph:
     @property
     def simulated(self) -> bool:
         """Whether the time of the robots is a simulation's."""
-        return self._served.simulated
+        clock = self.topics.get(CLOCK)
+        return clock is not None and clock.type == TYPES[CLOCK]
 
     def take(self) -> Iterator[tuple[str, int, bytes]]:
         """Yield topic, time of arrival [ns] and data of each message since the last time."""
@@ -186,7 +187,7 @@ class FoxgloveGraph:
         watched, served = self._watched, self._served
         needed = self._transforms.needed(watched.topics)
         wanted = set((watched.topics | needed) & served.found.keys()) - served.derived.keys()
-        if watched.clients and served.simulated:
+        if watched.clients and self.simulated:
             wanted.add(CLOCK)
         else:
             self._heard.now = None

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from rclpy.parameter import parameter_value_to_python
 
 from agv_motion.errors import AgvMotionError
-from agv_motion.nodes.foxglove_topics import CLOCK, TYPES
 from agv_motion.ros.cdr import codec
 from agv_motion.ros.channel_subscription import ChannelSubscription
 from agv_motion.ros.endpoints import message_class
@@ -20,6 +19,8 @@ if TYPE_CHECKING:
     from agv_motion.nodes.foxglove_topics import ServedTopics
     from agv_motion.ros.raw_subscription import ListenerNodes
 
+CLOCK, EVENTS = '/clock', '/parameter_events'
+TYPES = {CLOCK: 'rosgraph_msgs/msg/Clock', EVENTS: 'rcl_interfaces/msg/ParameterEvent'}
 SECOND = 1_000_000_000
 
 

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 IN_TURN = 5
 """topics of each look that are asked for though the number of their publishers is the same"""
-CLOCK, EVENTS = '/clock', '/parameter_events'
-TYPES = {CLOCK: 'rosgraph_msgs/msg/Clock', EVENTS: 'rcl_interfaces/msg/ParameterEvent'}
 
 
 class ServedTopics:
@@ -41,12 +39,6 @@ class ServedTopics:
         self.complaints: Mapping[str, str] = {}
         self._publishers: dict[str, list[Any]] = {}
         self._turn = 0
-
-    @property
-    def simulated(self) -> bool:
-        """Whether somebody tells a simulated time."""
-        clock = self.found.get(CLOCK)
-        return clock is not None and clock.type == TYPES[CLOCK]
 
     def look(self, names: Sequence[tuple[str, list[str]]]) -> None:
         """Look which of some topics can be served.

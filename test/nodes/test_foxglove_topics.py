@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from agv_motion.dashboard.foxglove.transforms import HOLD, DerivedTransforms
-from agv_motion.nodes.foxglove_topics import CLOCK, IN_TURN, TYPES, ServedTopics
+from agv_motion.nodes.foxglove_topics import IN_TURN, ServedTopics
 from agv_motion.ros.qos import COMMAND, LATCHED
 
 TEXT, NUMBER = 'std_msgs/msg/String', 'std_msgs/msg/Float64'
@@ -90,10 +90,3 @@ def test_transforms_are_offered_where_nobody_tells_them():
     topics = served(graph)
     assert topics.derived.keys() == {'/tf', '/tf_static'}
     assert topics.derived.keys() < topics.found.keys()
-
-
-@pytest.mark.parametrize(('kind', 'simulated'), [(TYPES[CLOCK], True), (TEXT, False)])
-def test_time_is_simulated_where_somebody_tells_a_clock(kind, simulated):
-    graph = Graph(clock=[end(kind)])
-    assert served(graph).simulated is simulated
-    assert not served(Graph()).simulated

@@ -77,6 +77,19 @@ def test_an_outlier_that_passed_a_wide_gate_is_outvoted():
     assert fooled.belief == spared.belief
 
 
+def test_an_outlier_is_outvoted_however_many_fixes_came_before_it():
+    """Ten sound ones, a silence of half an hour, one 4 m off, and sound ones again."""
+    buffer = started()
+    for stamp in (*range(1, 11), 2000):
+        off = 4.0 if stamp == 2000 else 0.0
+        assert buffer.take(FixAtPose(position_fix(stamp, stamp + off, 0.0, 0.15), at(stamp)))
+    passed = [
+        buffer.take(FixAtPose(position_fix(stamp, stamp, 0.0, 0.15), at(stamp)))
+        for stamp in range(2001, 2005)
+    ]
+    assert passed == [False, False, True, True]
+
+
 def test_a_sound_fix_is_not_outvoted_by_outliers():
     buffer = started()
     sound = FixAtPose(position_fix(1.0, 1.0, 0.0, 0.15), at(1.0))

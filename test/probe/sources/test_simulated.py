@@ -20,6 +20,13 @@ DAY = 86400.0
 JUNE = 16600 * DAY
 
 
+def test_chance_is_splitmix64_as_it_was_published():
+    """The first numbers of its state 1234567; a seed and a place in its row are one state."""
+    seed = (1234567 - 0x632BE59BD9B4E019) * pow(0xD1B54A32D192ED03, -1, 2**64) % 2**64
+    published = 6457827717110365317, 3203168211198807973, 9817491932198370423
+    assert [uniform(seed, i) for i in (1, 2, 3)] == [number / 2.0**64 for number in published]
+
+
 def test_the_same_seed_says_the_same_whatever_was_asked_before():
     one, other = (SimulatedSource(SimulatedSourceParameters(), 1.0) for _ in range(2))
     list(other.history(JUNE))
