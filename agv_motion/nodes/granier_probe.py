@@ -6,12 +6,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry_msgs.msg import Vector3Stamped
-from sensor_msgs.msg import Illuminance, Temperature
+from sensor_msgs.msg import Illuminance
 from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.model.frames import FrameParameters
+from agv_motion.nodes.probe_readings import ProbeReadings
 from agv_motion.nodes.water_report import WaterReport
 from agv_motion.parameters import Spec, check
 from agv_motion.probe import state_file
@@ -20,7 +21,6 @@ from agv_motion.probe.natural_gradient import without_natural_gradient
 from agv_motion.probe.parameters import ProbeParameters
 from agv_motion.probe.probe import Probe, ProbeReading
 from agv_motion.probe.signals import Signals, signals_of
-from agv_motion.probe.sources.csv_file import CsvSource
 from agv_motion.probe.sources.simulated import SimulatedSource
 from agv_motion.probe.sources.sources import SourceParameters
 from agv_motion.probe.water import WaterParameters
@@ -110,14 +110,11 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         self._why_invalid: str | None = None
         self._message = Vector3Stamped()
         self._message.header.frame_id = given.base_frame
-        self._raw = [
-            port.publisher(Temperature, f'granier/probe_{i + 1}/temperature_difference', SENSOR)
-            for i in range(len(self._probes))
-        ]
-        self._air = (
-            port.publisher(Vector3Stamped, 'granier/environment', SENSOR)
-            if given.probe.needs_environment
-            else None
+        self._told = ProbeReadings(
+            port,
+            [given.own(f'probe_{i + 1}') for i in range(len(self._probes))],
+            air=given.probe.needs_environment,
+            logger=given.has_logger,
         )
         self._water = (
             WaterReport(port, given.water, given.probe, given.base_frame)
@@ -193,10 +190,10 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
             return self._signals
         if not self.parameters.probe.loss.stands_in:
             return Signals((), nothing, '')
-        pace = self.parameters.csv.speed if isinstance(self._source, CsvSource) else 1.0
+        later = silence * self.parameters.pace
         for i, reading in enumerate(self._readings):
             if reading is not None:
-                self._readings[i] = self._probes[i].stand_in(reading, silence * pace)
+                self._readings[i] = self._probes[i].stand_in(reading, later)
         self._conditions.update(now, self._readings)
         signals = self._tell_signals()
         return signals._replace(doubt=nothing if signals.doubt else '')
@@ -231,21 +228,9 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
     def _take(self, sample: ProbeSample, now: float) -> None:
         """Let the probes see one sample, and publish what was read."""
         self._read_at = now
-        self.port.stamp(self._message)
-        if self._air is not None:
-            air = Vector3Stamped(header=self._message.header)
-            air.vector.x, air.vector.y = sample.environment
-            self._air.publish(air)  # before the readings, for who reads a recording
-        corrected = self._corrected(sample)
-        for i, value in enumerate(sample.values):
-            self._readings[i] = self._probes[i].update(
-                sample.time, corrected[i], sample.environment
-            )
-            if value == value:  # noqa: PLR0124 - not NaN
-                message = Temperature(temperature=value)
-                message.header.stamp = self._message.header.stamp
-                message.header.frame_id = self.parameters.own(f'probe_{i + 1}')
-                self._raw[i].publish(message)
+        self._told.publish(sample)
+        for i, value in enumerate(self._corrected(sample)):
+            self._readings[i] = self._probes[i].update(sample.time, value, sample.environment)
         self._conditions.update(now, self._readings)
         if self._water is not None:
             self._water.update(sample.time, self._heated(self._readings), tell=True)

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geometry_msgs.msg import Vector3Stamped
-from sensor_msgs.msg import Temperature
+from sensor_msgs.msg import Temperature, TimeReference
 
 from agv_motion.nodes.granier_probe import GranierProbe
 from agv_motion.probe.environment import Environment
@@ -28,6 +28,8 @@ class RecordedProbe(GranierProbe):
         super().__init__(port, parameters, recorded)
         if parameters.probe.needs_environment:
             port.listen(Vector3Stamped, 'granier/environment', partial(_take_air, recorded), SENSOR)
+        if parameters.has_logger:
+            port.listen(TimeReference, 'granier/logger_time', partial(_take_time, recorded), SENSOR)
         for i in range(parameters.probes()):
             port.listen(
                 Temperature, f'granier/probe_{i + 1}/temperature_difference',
@@ -38,6 +40,10 @@ class RecordedProbe(GranierProbe):
 def _take_air(recorded: RecordedSource, message: Vector3Stamped) -> None:
     air = Environment(message.vector.x, message.vector.y)
     recorded.take_environment(seconds_of(message.header.stamp), air)
+
+
+def _take_time(recorded: RecordedSource, message: TimeReference) -> None:
+    recorded.take_time(seconds_of(message.header.stamp), seconds_of(message.time_ref))
 
 
 def _take(recorded: RecordedSource, probe: int, message: Temperature) -> None:

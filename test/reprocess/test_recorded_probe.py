@@ -64,6 +64,15 @@ CONFIG = """
     probe: {{zero_flow_method: environment, learning_hours: 1.0}}
     csv: {{file: {file}, start: '2013-06-11T23:00:00', radiation_column: sun, vpd_column: vpd}}
 """
+FAST = """
+/**/granier_probe:
+  ros__parameters:
+    source: csv
+    rate: 0.5
+    assign: [probe_1, probe_2, probe_1]
+    probe: {{zero_flow_method: predawn, learning_hours: 1.0}}
+    csv: {{file: {file}, start: '2013-06-10T12:00:00', speed: 3600.0}}
+"""
 
 
 @pytest.fixture(scope='module')
@@ -77,14 +86,20 @@ def by_the_air(tmp_path_factory):
         for v in [0.8 - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0) + 1e-4 * (k % 3)]
     )
     (folder / 'probes.csv').write_text('time,probe_1,probe_2,probe_3,sun,vpd\n' + ''.join(rows))
+    return recorded(folder, CONFIG, (BEGIN, END))
+
+
+def recorded(folder, text, between):
+    """Return a bag of a probe node, and how to reprocess it."""
     config = folder / 'mine.yaml'
-    config.write_text(CONFIG.format(file=folder / 'probes.csv'))
+    config.write_text(text.format(file=folder / 'probes.csv'))
+    begin, end = between
     with BagWriter(folder / 'bag') as writer:
         transcript = Transcript(writer)
-        graph = InProcessGraph(transcript.record, BEGIN * SECOND)
+        graph = InProcessGraph(transcript.record, begin * SECOND)
         InProcessNode(graph, GranierProbe, parameters(str(config), 'granier_probe'))
         graph.start()
-        graph.run(END * SECOND)
+        graph.run(end * SECOND)
         graph.stop()
         transcript.flush()
     return folder / 'bag', Plan(str(config), ('granier_probe',), (), 'none')
@@ -124,3 +139,19 @@ def test_without_the_recorded_air_zero_flow_is_unknown(by_the_air, copied, tmp_p
     outcome = reprocess(airless_bag, tmp_path / 'out', plan)
     assert outcome.missing == ('/granier/environment',)
     assert told(tmp_path / 'out', '/granier/sap_flow') == []
+
+
+def test_nights_are_those_of_the_file_however_fast_it_was_played(tmp_path):
+    """Two days in two times 24 s, eight rows at each tick: all of one stamp, at noon."""
+    rows = (
+        f'{DAWN + 900 * k},{v},{v},\n'
+        for k in range(300)
+        for v in [0.8 + 2e-3 * (k // 96) - 0.05 * max(0.0, 1.0 - abs(k % 96 - 56) / 24.0)]
+    )
+    (tmp_path / 'probes.csv').write_text('time,probe_1,probe_2,probe_3\n' + ''.join(rows))
+    bag, plan = recorded(tmp_path, FAST, (NOON // SECOND, NOON // SECOND + 50))
+    assert not reprocess(bag, tmp_path / 'out', plan).failure
+    before, after = (told(each, '/granier/sap_flow') for each in (bag, tmp_path / 'out'))
+    assert len(before) > 5
+    assert len(after) >= len(before) - 1
+    assert after == before[: len(after)]

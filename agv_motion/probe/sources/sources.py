@@ -30,14 +30,21 @@ class SourceKind(NamedTuple):
     """number of probes that the group speaks of"""
     tells: Callable[[Any], tuple[bool, bool]]
     """whether it tells solar radiation, and the vapour pressure deficit of the air"""
+    pace: Callable[[Any], float] = lambda _: 1.0
+    """seconds of its own time per second"""
+    has_logger: bool = True
+    """whether a logger with a clock of its own reads the probes"""
 
 
 SOURCES = {
-    'simulated': SourceKind(SimulatedSource, lambda given: given.probes, lambda _: (True, True)),
+    'simulated': SourceKind(
+        SimulatedSource, lambda given: given.probes, lambda _: (True, True), has_logger=False
+    ),
     'csv': SourceKind(
         lambda given, days: (GrowingSource if given.follow else CsvSource)(given, days),
         lambda given: len(given.columns),
         lambda given: (bool(given.radiation_column), bool(given.vpd_column)),
+        lambda given: given.speed,
     ),
     'serial': SourceKind(
         lambda given, _: SerialSource(given),
@@ -75,6 +82,16 @@ class SourceParameters:
     def open_source(self) -> ProbeSource:
         """Open the source that was chosen."""
         return SOURCES[self.source].open(getattr(self, self.source), self.warm_up_days)
+
+    @property
+    def pace(self) -> float:
+        """Seconds of the source's own time per second: how fast a file is played."""
+        return SOURCES[self.source].pace(getattr(self, self.source))
+
+    @property
+    def has_logger(self) -> bool:
+        """Whether a logger with a clock of its own reads the probes."""
+        return SOURCES[self.source].has_logger
 
     def require(self, environment: EnvironmentParameters) -> None:
         """Refuse a source that does not tell what zero flow is to be known by.
