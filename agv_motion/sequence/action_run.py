@@ -71,7 +71,7 @@ class GhostRun:
     @property
     def done(self) -> bool:
         """Whether the robot has come to its end."""
-        return self._follower.state is FollowerState.ARRIVED
+        return self._follower.state is FollowerState.ARRIVED and not self.failure
 
     @property
     def at_rest(self) -> bool:
@@ -99,7 +99,9 @@ class GhostRun:
             self.failure = str(error)
 
     def step(self, pose: Pose, dt: float) -> Twist:
-        """Follow the Ghost."""
+        """Follow the Ghost; where it was refused to set out, nothing is behind which to drive."""
+        if self.failure:
+            return REST
         twist = self._follower.step(pose, dt)
         self.failure = self._follower.failure
         return twist

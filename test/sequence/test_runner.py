@@ -309,3 +309,19 @@ def test_after_a_failure_that_is_skipped_the_next_action_leaves_from_where_the_r
     drive.tick()
     leader = drive.runner._follower.leader.pose  # noqa: SLF001 - before anything has moved
     assert hypot(leader.x - begun.x, leader.y - begun.y) < 0.001
+
+
+@pytest.mark.parametrize(
+    ('on_failure', 'state', 'end'),
+    [(STOP, SequenceState.FAILED, 1.0), (OnFailure(retries=2), SequenceState.FAILED, 1.0),
+     (SKIP, SequenceState.DONE, 2.0)],
+)  # fmt: skip
+def test_an_action_that_is_refused_on_the_way_has_failed(on_failure, state, end):
+    """The Ghost of the action before has arrived: that must not count for the one refused."""
+    drive = Drive(
+        GoTo(1.0, 0.0, 0.0), GoTo(5000.0, 0.0, 0.0), GoTo(2.0, 0.0, 0.0), on_failure=on_failure
+    )
+    assert drive.run() is state
+    assert drive.pose.x == pytest.approx(end, abs=0.03)
+    assert 'm.yaml:1:1: GoTo: a way of' in drive.runner.status.reason
+    assert drive.time < 30.0  # at once, not by its time-out
