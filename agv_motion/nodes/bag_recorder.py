@@ -13,7 +13,7 @@ from agv_motion.bag.recording.recorded_transforms import RecordedTransforms
 from agv_motion.bag.recording.recording import Recording, TopicReport
 from agv_motion.bag.selection import Selection
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.model.transform_message import TF
+from agv_motion.model.transform_message import TF, TF_STATIC, TYPE
 from agv_motion.nodes.bag_recorder_parameters import BagRecorderParameters
 from agv_motion.nodes.recorded_events import RecordedEvents
 from agv_motion.ros.arrivals import TICK, Arrivals
@@ -23,7 +23,6 @@ from agv_motion.ros.endpoints import message_class, offered
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.raw_subscription import ListenerNodes, RawSubscription
 from agv_motion.ros.run import run
-from agv_motion.ros.transforms import PUBLISHED
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,7 +73,7 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         self._arrivals: Arrivals | None = None
         """where time is simulated"""
         self._transforms: RecordedTransforms | None = None
-        """that nobody publishes; None where tf2_msgs is installed, or none are wanted"""
+        """that nobody publishes; None while nothing is recorded"""
         self._listeners = ListenerNodes(port.name, port.node.context)
         port.close_later(self._listeners.close)
         port.every(given.polling_interval, self._watch, steady=True)
@@ -98,8 +97,10 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
         self.report, self.failure = [], ''
         self.paused = self.parameters.start_paused
         self.recording = Recording(self.parameters.folder(), self.parameters.ring())
-        makes = not PUBLISHED and self._selection.takes(TF)
-        self._transforms = RecordedTransforms(self.recording.add_topic) if makes else None
+        self._transforms = RecordedTransforms(self.recording.add_topic)
+        for topic in (TF, TF_STATIC):
+            if not self._selection.takes(topic):
+                self._transforms.leave(topic)
         self.port.info(f'recording into {self.recording.path}')
         self.events.begin(self.recording)
         self._watch()
@@ -220,7 +221,8 @@ class BagRecorder(PlainNode[BagRecorderParameters]):
                 'what reads the bag may expect one type: give each a topic of its own'
             )
         message = message_class(kind)
-        handle = recording.add_topic(name, kind, offers)
+        made = self._transforms.leave(name) if self._transforms and kind == TYPE else None
+        handle = recording.add_topic(name, kind, offers) if made is None else made
         self.events.meet(handle, name, kind)
         put, arrivals, transforms = self._put, self._arrivals, self._transforms
         moves = transforms if transforms and transforms.wants(name, kind) else None

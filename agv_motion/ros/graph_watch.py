@@ -97,7 +97,8 @@ class GraphWatch:
         own = [end for end in self._ends if end.publishes]
         drives = [end for end in own if end.topic == 'cmd_vel']
         made = self._listed([e.topic for e in drives or [e for e in own if e.sole] or own])
-        return f'active: {needed} -> {made}' if needed and made else f'active: {needed or made}'
+        ends = f'{needed} -> {made}' if needed and made else needed or made
+        return f'active: {ends}' if ends else 'active'
 
     def _listed(self, topics: Sequence[str]) -> str:
         """Return names of topics, those in the node's own namespace as short as they are there."""

@@ -8,6 +8,8 @@ from rosbags.rosbag2 import Reader
 rclpy = pytest.importorskip('rclpy')
 
 from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock
@@ -16,6 +18,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from agv_motion.bag.columns.columns import read_topic
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.recording import recorded_transforms
+from agv_motion.nodes import bag_recorder
 from agv_motion.nodes.bag_recorder import BagRecorder
 from agv_motion.ros.run import StartError
 
@@ -149,6 +153,31 @@ def test_what_is_excluded_stays_out(tester, record, tmp_path):
     recorded(tester, node, 1)
     node.trigger_deactivate()
     assert read(tmp_path / 'bag') == {'/n1': [1]}
+
+
+def test_transforms_are_made_until_somebody_publishes_them(tester, tmp_path, monkeypatch):
+    """Whether tf2_msgs is installed tells nothing of that; here another type stands for it."""
+    for module in (bag_recorder, recorded_transforms):
+        monkeypatch.setattr(module, 'TYPE', 'geometry_msgs/msg/TransformStamped')
+    odometry = tester.node.create_publisher(Odometry, 'odom', RELIABLE)
+    given = {'output': str(tmp_path / 'bag'), 'topics': ['odom', '/tf']}
+    node = tester.start(BagRecorder, **given, storage__keep_free=0.0)
+
+    def say():
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id, message.pose.pose.orientation.w = 'odom', 1.0
+        odometry.publish(message)
+
+    heard(tester, odometry)
+    say()
+    recorded(tester, node, 2)  # odom, and tf of it
+    published = tester.node.create_publisher(TransformStamped, '/tf', RELIABLE)
+    heard(tester, published)
+    say()
+    published.publish(TransformStamped(child_frame_id='base_link'))
+    recorded(tester, node, 4)
+    node.trigger_deactivate()
+    assert sorted(topic for topic, _ in texts(tmp_path / 'bag')) == [*['/odom'] * 2, *['/tf'] * 2]
 
 
 def test_a_disk_at_its_floor_ends_the_recording_with_an_error(tester, record, tmp_path):

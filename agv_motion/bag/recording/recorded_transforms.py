@@ -1,4 +1,4 @@
-"""`/tf` and `/tf_static` in a bag, where tf2_msgs is not installed and nobody can publish them."""
+"""`/tf` and `/tf_static` in a bag, where nobody publishes them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,13 @@ class RecordedTransforms:
         """
         self._add_topic = add_topic
         self._handles: dict[str, int] = {}
+        self._left: set[str] = set()
         self._transforms = GraphTransforms()
+
+    def leave(self, topic: str) -> int | None:
+        """Make a topic no more: it has a publisher, or is not wanted; return its handle if any."""
+        self._left.add(topic)
+        return self._handles.get(topic)
 
     def wants(self, topic: str, message_type: str) -> bool:
         """Return whether transforms follow from a topic; one that is recorded, from now on."""
@@ -43,6 +49,8 @@ class RecordedTransforms:
 
     def take(self, topic: str, data: bytes) -> list[tuple[int, bytes]]:
         """Return handle and bytes of each message that follows from one on a topic."""
+        if len(self._left) == len(QOS):
+            return []
         return self._handled(self._transforms.take(topic, data))
 
     def last(self) -> list[tuple[int, bytes]]:
@@ -51,7 +59,7 @@ class RecordedTransforms:
 
     def _handled(self, told: Iterable[tuple[str, bytes]]) -> list[tuple[int, bytes]]:
         try:
-            return [(self._handle(topic), data) for topic, data in told]
+            return [(self._handle(topic), data) for topic, data in told if topic not in self._left]
         except SourceError:  # the disk is full, and the recording has told so
             return []
 

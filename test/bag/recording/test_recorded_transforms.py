@@ -88,3 +88,14 @@ def test_each_file_begins_with_what_holds_for_good(tmp_path):
                 for t in reader.deserialize(data, c.msgtype).transforms
             }
         assert children == {'trunk', 'probe_1', 'probe_2', 'probe_3'}
+
+
+def test_what_has_a_publisher_is_made_no_more(tmp_path):
+    """The bag goes on with it under the handle that there is."""
+    handles = {'/tf': 1, '/tf_static': 2}
+    transforms = RecordedTransforms(lambda name, *_: handles[name])
+    assert transforms.leave('/tf') is None
+    transforms.take('/robot_description', description())
+    assert [handle for handle, _ in transforms.take('/joint_states', joints(1))] == [2]
+    assert transforms.leave('/tf_static') == 2
+    assert transforms.take('/joint_states', joints(2)) == []
