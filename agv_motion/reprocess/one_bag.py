@@ -20,7 +20,7 @@ from agv_motion.reprocess.transcript import TOGETHER, Transcript
 from agv_motion.ros.config import find_config
 from agv_motion.ros.in_process_graph import InProcessGraph
 from agv_motion.ros.in_process_node import InProcessNode
-from agv_motion.ros.in_process_port import full_name
+from agv_motion.ros.in_process_port import SERVICE_EVENT, full_name
 from agv_motion.ros.messages import type_name
 
 if TYPE_CHECKING:
@@ -172,7 +172,9 @@ def _played(
         graph.run(clock.end())
         graph.stop()
         transcript.end(clock.end())
-    missing = tuple(sorted(inputs - set(bag.topics)))
+    missing = tuple(
+        sorted(one for one in inputs - set(bag.topics) if not one.endswith(SERVICE_EVENT))
+    )
     span = (clock.end() - clock.start) * 1e-9
     counts = heard, transcript.messages
     return ReprocessOutcome(

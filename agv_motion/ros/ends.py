@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
-from rclpy.qos import DurabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.service_introspection import ServiceIntrospectionState
 
 from agv_motion.errors import AgvMotionError, ConfigurationError, shortened
 
@@ -19,10 +20,13 @@ if TYPE_CHECKING:
 
     from rclpy.clock import Clock
     from rclpy.lifecycle import LifecycleNode
-    from rclpy.qos import QoSProfile
 
 NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 """Destroying a publisher with event callbacks crashes the EventsExecutor."""
+
+
+TOLD = QoSProfile(depth=100)
+"""Of the topics that tell what services are asked, and by whom"""
 
 
 class Owner(Protocol):
@@ -150,7 +154,10 @@ class Ends:
         self.add(close)
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
-        """Offer a service; it refuses while the node is inactive."""
+        """Offer a service; it refuses while the node is inactive.
+
+        What it is asked and answers is told on ``NAME/_service_event``, so that it is in a bag.
+        """
         node, owner = self._node, self._owner
 
         def guarded(request: Any, response: Any) -> Any:
@@ -168,6 +175,7 @@ class Ends:
             return response
 
         service = node.create_service(kind, name, guarded)
+        service.configure_introspection(node.get_clock(), TOLD, ServiceIntrospectionState.CONTENTS)
         self.add(lambda: node.destroy_service(service))
 
     def _require_active(self) -> None:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from agv_motion.watchdog import Watchdog
 
 SECOND = 1_000_000_000
+SERVICE_EVENT = '/_service_event'
+"""What follows the name of a service in the topic that tells what it was asked"""
 
 
 class Place(NamedTuple):
@@ -162,8 +164,15 @@ class InProcessPort:
         self.graph.add_timer(seconds, guarded)
 
     def serve(self, kind: type[Any], name: str, act: Callable[[Any], str]) -> None:
-        """Keep the service: nobody is there to ask, but for a test."""
+        """Do what the service was asked where that is recorded; nobody else is there to ask."""
         self.services[name] = kind, act
+
+        def hear(event: Any) -> None:
+            if event.info.event_type == event.info.REQUEST_RECEIVED:
+                for request in event.request:  # none where only its envelope was recorded
+                    act(request)
+
+        self._add(f'{name}{SERVICE_EVENT}', InProcessListener(self, kind.Event, name, hear))
 
     def close_later(self, close: Callable[[], Any]) -> None:
         """Leave what is open to the end of the process."""

@@ -68,6 +68,15 @@ class Trial:
     def ask(self, service, *, data):
         return self.node.port.services[f'~/{service}'][1](SetBool.Request(data=data))
 
+    def hear_of(self, service, seconds, *, data):
+        """Tell, as a bag does, what a service was asked; that it was answered asks nothing."""
+        request, response = SetBool.Request(data=data), SetBool.Response(success=True)
+        for kind, said in ((1, {'request': [request]}), (2, {'response': [response]})):
+            event = SetBool.Event(**said)
+            event.info.event_type = kind
+            told = codec(SetBool.Event).encode(event)
+            self.graph.feed(f'/arbiter/{service}/_service_event', self._at(seconds), told)
+
     @property
     def twist(self):
         """The last twist that was commanded."""
@@ -138,20 +147,24 @@ def test_who_ranks_higher_drives_and_the_sentence_tells_why_the_other_does_not()
     assert trial.value('agent').startswith('outranked (manual comes first), ')
 
 
-@pytest.mark.parametrize('way', ['topic', 'service', 'a topic with NaN', 'with an old stamp'])
+@pytest.mark.parametrize(
+    'way', ['topic', 'service', 'recorded service', 'a topic with NaN', 'with an old stamp']
+)
 def test_stop_is_a_zero_and_a_standstill_in_the_same_instant(way):
     trial = Trial()
     trial.say('manual', 0.01)
     trial.until(0.02)
     if way == 'service':
         trial.ask('stop', data=True)
+    elif way == 'recorded service':
+        trial.hear_of('stop', 0.02, data=True)
     else:
         twist = Twist(nan, inf, 0.0) if 'NaN' in way else REST
         trial.say('stop', 0.02, twist, stamp=-999.0 if 'old' in way else 0.02, frame='anywhere')
     assert trial.said['/cmd_vel'][-1][0] == trial.said['/standstill'][-1][0] == 0.02
     assert (trial.twist, trial.stands, trial.driver.level) == (REST, True, ERROR)
     assert trial.value('driver') == 'stop'
-    where = '~/stop' if way == 'service' else 'cmd_vel/stop'
+    where = '~/stop' if 'service' in way else 'cmd_vel/stop'
     assert trial.value('stop') == f'asked for by {where}, since 1970-01-01 00:16:40'.replace(
         'by cmd', 'on cmd'
     )
@@ -165,7 +178,7 @@ def test_stop_is_released_by_the_service_alone_and_by_who_speaks_anew():
     assert trial.ask('stop', data=False) == 'released: whoever speaks from now on drives'
     assert (trial.twist, trial.stands, trial.value('stop')) == (REST, False, '')
     told = len(trial.said['/standstill'])
-    trial.ask('stop', data=False)
+    trial.hear_of('stop', 2.1, data=False)
     assert len(trial.said['/standstill']) == told + 1  # wheels may have heard what it did not
     trial.until(2.2)
     assert trial.twist == REST

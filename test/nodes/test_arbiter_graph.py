@@ -8,6 +8,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
@@ -82,6 +83,7 @@ def test_stop_holds_over_a_restart_and_is_released_by_the_service_alone(crew, tm
     crew.stays(agent)
     arbiter.trigger_shutdown()
     crew.stands.clear()
+    asked = crew.tester.listen(SetBool.Event, 'arbiter/stop/_service_event', QoSProfile(depth=9))
     again = crew.start(**state)
     crew.stood()
     crew.graph.meet()
@@ -89,6 +91,7 @@ def test_stop_holds_over_a_restart_and_is_released_by_the_service_alone(crew, tm
     told = crew.tester.wait(crew.drivers, lambda one: 'agent waits' in one.message)
     assert 'STOP: asked for on cmd_vel/stop' in told.message
     assert crew.ask('stop', data=False).success
+    crew.tester.wait(asked, lambda event: any(not one.data for one in event.request))
     crew.drive(agent)
     assert again.active
 
