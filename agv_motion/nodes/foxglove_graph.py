@@ -170,8 +170,9 @@ class FoxgloveGraph:
         self._asked.clear()
 
     def _look(self) -> None:
-        """Look which topics and services there are."""
-        names = self._node.get_topic_names_and_types()
+        """Look which topics and services there are; hidden ones are none of a viewer's."""
+        all_names = self._node.get_topic_names_and_types()
+        names = [(name, types) for name, types in all_names if '/_' not in name]
         self._served.look(names)
         services = {
             name: types[0] for name, types in self._node.get_service_names_and_types()

@@ -213,6 +213,9 @@ def test_connections_and_parameters_are_told(graph, tester, tool, during):
     update = during(told)
     assert {'name': '/said', 'publisherIds': ['/tester']} in update['publishedTopics']
     assert {'name': '/said', 'subscriberIds': ['/tester']} in update['subscribedTopics']
+    shown = {row['name'] for row in update['publishedTopics']}
+    assert '/oak/driver' in shown
+    assert '/oak/arbiter/stop/_service_event' not in shown  # hidden, as for the tools of ROS
 
     def wait_for_rate(value):
         while True:
