@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from agv_motion.activity import Activity, Cause
 from agv_motion.nodes.blocked_report import BlockedReport
@@ -154,6 +154,18 @@ class DrivingNode(PlainNode[P]):
 
         """
         self._pose.require_frame(frame)
+
+    def require_frame_of_all(self, path: Any) -> None:
+        """Raise unless a nav_msgs/Path and each of its poses are in that frame.
+
+        Raises:
+            ConfigurationError: One is in another.
+
+        """
+        for frame in dict.fromkeys(
+            [path.header.frame_id, *(p.header.frame_id for p in path.poses)]
+        ):
+            self.require_frame(frame)
 
     def _on_cycle(self) -> None:
         now = self.port.seconds()

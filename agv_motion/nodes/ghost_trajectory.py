@@ -211,9 +211,7 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
     def _on_path(self, message: Path) -> None:
         """Drive through the poses of a path; along it where they are but places."""
         self._follower.ghost.require_count(len(message.poses))
-        self.require_frame(message.header.frame_id)
-        for stamped in message.poses:
-            self.require_frame(stamped.header.frame_id)
+        self.require_frame_of_all(message)
         poses = [pose_of(stamped.pose) for stamped in message.poses]
         if are_places(poses):
             poses = with_headings(self.require_pose(), poses, backward=self.parameters.backward)

@@ -199,7 +199,7 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         self.port.info(f'route of {len(route.waypoints)} waypoints, {laps}')
 
     def _on_route(self, message: Path) -> None:
-        self.require_frame(message.header.frame_id)
+        self.require_frame_of_all(message)
         given = self.parameters
         self._follow(Route(points_of(message), given.laps), given.follow)
 

@@ -32,11 +32,12 @@ class Course:
         self.node = tester.start(RouteFollowerNode, remap=remap, **(FAST | parameters))
         self.route = tester.publisher(Path, 'route')
 
-    def send(self, *points, frame='odom'):
+    def send(self, *points, frame='odom', of_each=''):
         message = Path()
         message.header.frame_id = frame
         for x, y in points:
             pose = PoseStamped()
+            pose.header.frame_id = of_each
             pose.pose.position.x, pose.pose.position.y = float(x), float(y)
             message.poses.append(pose)
         self.route.publish(message)
@@ -145,19 +146,21 @@ def test_the_last_word_is_zero(course):
 
 
 @pytest.mark.parametrize(
-    ('points', 'frame', 'reason'),
+    ('points', 'frames', 'reason'),
     [
-        ([], 'odom', '0 waypoints'),
-        ([(1, 1)], 'odom', '1 waypoints'),
-        ([(1, 1), (1, 1)], 'odom', '1 of them distinct'),
-        ([(0, 0), (nan, 1)], 'odom', 'must be finite'),
-        ([(0, 0), (1, 1)], 'map', "this node drives in 'odom'"),
+        ([], ('odom', ''), '0 waypoints'),
+        ([(1, 1)], ('odom', ''), '1 waypoints'),
+        ([(1, 1), (1, 1)], ('odom', ''), '1 of them distinct'),
+        ([(0, 0), (nan, 1)], ('odom', ''), 'must be finite'),
+        ([(0, 0), (1, 1)], ('map', ''), "this node drives in 'odom'"),
+        ([(0, 0), (1, 1)], ('odom', 'map'), "this node drives in 'odom'"),
     ],
 )
-def test_a_bad_route_is_refused_and_the_old_one_goes_on(course, points, frame, reason):
+def test_a_bad_route_is_refused_and_the_old_one_goes_on(course, points, frames, reason):
     course.send((0, 0), (30, 0))
     course.robot.moves()
-    course.send(*points, frame=frame)
+    frame, of_each = frames
+    course.send(*points, frame=frame, of_each=of_each)
     course.tester.graph.spin_until(lambda: reason in course.node.complaint)
     course.robot.moves()
 
