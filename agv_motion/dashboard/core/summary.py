@@ -25,6 +25,8 @@ COLOURS = {
 }  # fmt: skip
 """of each activity; of one that is not known: yellow"""
 BY_HAND = ('manual',)
+ASKED = 'asked'
+"""what a tree tells as its hours while it rests until a time that somebody named"""
 NOBODY = {'driver': '', 'stop': False, 'sentence': '', 'lost': '', 'level': 'OK'}
 """what `driver` tells of a robot that has none"""
 STATES = ('state', 'sequence/state', 'sequence/status', 'route/state', 'ghost/state')
@@ -51,6 +53,7 @@ def summary(robot: RobotState, now: float) -> dict[str, Any]:
         'stopped': bool(driver['stop']),
         'standstill': robot.stands(),
         'driver': driver['driver'],
+        'rest_asked': _value(robot, 'hours', now) == ASKED,
         'since': round(robot.word_since, 2),
     }
 
@@ -97,8 +100,13 @@ def _activity(robot: RobotState, driver: dict[str, Any], now: float) -> _Found:
 
 def activity(robot: RobotState, now: float) -> str:
     """Return the word of the motion generator for what it does; empty if none is known."""
+    return _value(robot, 'activity', now)
+
+
+def _value(robot: RobotState, key: str, now: float) -> str:
+    """Return what the first node that tells something under a key tells; empty if none does."""
     for node in robot.nodes.values():
-        word = node.told['values'].get('activity', '')
+        word = node.told['values'].get(key, '')
         if word and not node.is_old(now):
             return text_of(word, 40)
     return ''

@@ -169,6 +169,19 @@ def test_refusal_of_a_goal_is_shown_in_the_words_of_the_robot(park, serve, open_
     assert [action for _, action, _ in park.asked] == ['goal']
 
 
+def test_a_rest_that_was_asked_for_can_be_ended_early(park, serve, open_page, wait_until):
+    page = open_page(serve(park).url)
+    page.locator('[data-act=rest]').wait_for()
+    assert page.locator('[data-act=end_rest]').count() == 0
+    park.sum_up('oak', word='resting', rest_asked=True)
+    page.click('[data-act=end_rest]')
+    wait_until(lambda: park.asked, 20.0)
+    robot, action, told = park.asked[0]
+    assert (robot, action, told['values']) == ('oak', 'set_parameters', {'rest_until': 0.0})
+    park.sum_up('oak')
+    page.locator('[data-act=end_rest]').wait_for(state='detached')
+
+
 def test_two_tabs_agree_since_both_show_what_robots_report(park, serve, open_page):
     url = serve(park).url
     first, second = open_page(url), open_page(url, PHONE)

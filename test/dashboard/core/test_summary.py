@@ -38,6 +38,13 @@ def test_the_word_is_the_activity_of_the_robot(oak, messages, activity, colour):
     assert (found['word'], found['colour']) == (activity, colour)
 
 
+@pytest.mark.parametrize(('hours', 'asked'), [('asked', True), ('closed', False), ('open', False)])
+def test_a_rest_that_somebody_asked_for_can_be_told_from_others(oak, messages, hours, asked):
+    node(oak, messages, activity='resting', because='person', hours=hours)
+    assert told(oak)['rest_asked'] is asked
+    assert told(oak, 200.0)['rest_asked'] is False  # nobody knows any more
+
+
 @pytest.mark.parametrize(('level', 'colour'), [(b'\x00', 'green'), (1, 'yellow'), (b'\x02', 'red')])
 def test_a_node_that_is_not_well_colours_the_robot(oak, messages, level, colour):
     node(oak, messages, level, activity='walking')

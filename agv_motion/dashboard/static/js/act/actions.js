@@ -74,9 +74,10 @@ export class Actions {
    * @param {string} robot of the chosen robot's doors
    * @param {string} action such as `next_goal`
    * @param {object} body
+   * @param {string} name of what is asked for, where it is not that of the door
    */
-  async robot(robot, action, body = {}) {
-    const title = `${robot}: ${phrase(`act ${action}`)}`;
+  async robot(robot, action, body = {}, name = action) {
+    const title = `${robot}: ${phrase(`act ${name}`)}`;
     return this.act(`/robots/${encodeURIComponent(robot)}/${action}`, body, title);
   }
 

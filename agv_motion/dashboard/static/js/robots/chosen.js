@@ -66,7 +66,9 @@ export class Chosen {
     const paused = summary?.word === 'paused';
     const stopped = Boolean(summary?.stopped);
     const locked = Boolean(screen.store.value(screen.chosen, 'driver')?.lock);
-    const told = may ? [screen.chosen, paused, stopped, locked, summary?.kind].join('\n') : '';
+    const told = may
+      ? [screen.chosen, paused, stopped, locked, summary?.kind, summary?.rest_asked].join('\n')
+      : '';
     refill(this.buttons, told, () => (may ? this._buttons(screen.chosen, summary, locked) : []));
     for (const button of this.buttons.children) {
       /** @type {HTMLButtonElement} */ (button).disabled = Boolean(screen.past);
@@ -87,6 +89,9 @@ export class Chosen {
     return [
       plain(summary?.word === 'paused' ? 'resume' : 'pause'),
       ...(tree ? [plain('next_goal'), plain('home'), button('rest', () => this._rest(robot))] : []),
+      ...(tree && summary.rest_asked
+        ? [button('end_rest', () => this.actions.robot(robot, 'rest', { until: 0 }, 'end_rest'))]
+        : []),
       button('drive', () => this.doors.drive()),
       button('pose', () => this.doors.place()),
       plain(locked ? 'unlock' : 'lock'),

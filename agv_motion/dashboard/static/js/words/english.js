@@ -59,6 +59,7 @@ export const english = {
   'act home': 'Go home',
   'act next_goal': 'Next goal',
   'act rest': 'Rest until …',
+  'act end_rest': 'End rest',
   'act drive': 'Drive',
   'act pose': 'Set place',
   'act lock': 'Hand only',

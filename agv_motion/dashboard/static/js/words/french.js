@@ -59,6 +59,7 @@ export const french = {
   'act home': 'Rentrer',
   'act next_goal': 'But suivant',
   'act rest': 'Repos jusqu’à …',
+  'act end_rest': 'Fin du repos',
   'act drive': 'Conduire',
   'act pose': 'Position',
   'act lock': 'Main seule',
