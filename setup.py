@@ -69,7 +69,8 @@ setup(
         'rich>=13',
         'rosbags>=0.10',
         'shapely>=2',
-        'typer>=0.12',
+        # from 0.29 on it imports pydantic: each command would start 0.4 s of computing later
+        'typer>=0.12,<0.29',
         'tzdata',
         'zstandard>=0.22',
     ],
