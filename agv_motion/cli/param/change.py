@@ -10,8 +10,12 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.nodes import joined_to
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime, Timeout
+from agv_motion.cli.lazy_group import HELP
+
+set_app = typer.Typer()
 
 
+@set_app.command(context_settings=HELP | {'ignore_unknown_options': True})  # a value may be -1.0
 def set_(
     node_name: Node,
     parameter_name: Annotated[str, typer.Argument(help='Name of the parameter.')],

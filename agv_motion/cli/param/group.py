@@ -12,7 +12,7 @@ app = typer.Typer(
             'list': 'param.look:list_',
             'get': 'param.look:get',
             'describe': 'param.look:describe',
-            'set': 'param.change:set_',
+            'set': 'param.change:set_app',
             'dump': 'param.change:dump',
             'load': 'param.change:load',
         }

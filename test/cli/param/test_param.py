@@ -58,6 +58,7 @@ def test_what_is_dumped_is_taken_again(alone, oak, tmp_path):
         (('get', '{oak}', 'rates'), 1, "has no parameter 'rates'; did you mean 'rate'?"),
         (('describe', '{oak}', 'rate', 'rates'), 1, "did you mean 'rate'?"),
         (('set', '{oak}', 'rate', '5.0'), 0, 'start it anew with -p rate:=5.0'),
+        (('set', '{oak}', 'residual_stop', '-0.5'), 0, 'residual_stop out of range Min: 0.0'),
         (('set', '{oak}', 'residual_stop', '1'), 0, 'failed: residual_stop = 1: expected a decima'),
         (('load', '{oak}', '/no/such.yaml'), 1, '/no/such.yaml'),
         (('list', '--filter', '('), 1, "--filter '(' is no regular expression"),
