@@ -13,6 +13,7 @@ from math import isfinite, nan
 from typing import NamedTuple
 
 from agv_motion.errors import SignalError
+from agv_motion.probe.tables.signs import NUMBER
 from agv_motion.probe.tables.time_readers import offset_of
 
 EXPECTED = 'expected DD-MM-YY HH:MM:SS v1 v2 ...'
@@ -24,9 +25,9 @@ EPOCHS = (1e9, 3.1e9)
 """[s] since 1970 of those years; a smaller number counts from when the logger was switched on."""
 
 LONGEST_LINE = 1024
-"""Letters; what is longer is rubbish, and costs seconds to search."""
+"""Letters; what is longer is rubbish, and a pattern may search it for seconds."""
 
-MISSING = {-9999.0, -99999.0, -6999.0, -7999.0}
+MISSING = {-9999.0, -99999.0, -6999.0, -7999.0, 6999.0, 7999.0}
 """What loggers write where there is no value."""
 
 _CONTROL = ''.join(map(chr, range(0x20))) + '\x7f '
@@ -42,7 +43,6 @@ _DATED = tuple(
     for date in (_DAY_FIRST, _YEAR_FIRST)
 )
 _EPOCH = re.compile(r'(?P<epoch>\d{1,12}(?:\.\d{1,9})?)(?=[\s,;])', re.ASCII)
-_NUMBER = re.compile(r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?', re.ASCII)
 _DECIMAL_COMMA = re.compile(r'[+-]?\d+,\d+', re.ASCII)
 
 
@@ -168,5 +168,5 @@ def _pointed(words: list[str]) -> tuple[list[str], bool]:
 
 def number_of(word: str) -> float:
     """Return the number of a word; NaN where it is none, or stands for none."""
-    number = float(word) if _NUMBER.fullmatch(word) else nan
+    number = float(word) if NUMBER.fullmatch(word) else nan
     return nan if number in MISSING or not isfinite(number) else number

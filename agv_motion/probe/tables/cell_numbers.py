@@ -7,14 +7,13 @@ from math import isfinite, nan
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SourceError
-from agv_motion.probe.tables.signs import DECIMALS
+from agv_motion.probe.tables.signs import DECIMALS, NUMBER
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from agv_motion.probe.tables.table_parameters import TableParameters
 
-_NUMBER = re.compile(r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?', re.ASCII)
 _WITH_COMMA = re.compile(r'[+-]?\d*,\d+(?:[eE][+-]?\d{1,3})?', re.ASCII)
 _THOUSANDS = re.compile(r'[+-]?[1-9]\d{0,2},\d{3}', re.ASCII)
 
@@ -27,7 +26,7 @@ class CellNumbers:
         self._decimal = decimal
         words = {word.strip().lower() for word in missing}
         self._words = {'', *words}
-        self._numbers = {float(word) for word in words if _NUMBER.fullmatch(word)}
+        self._numbers = {float(word) for word in words if NUMBER.fullmatch(word)}
 
     @classmethod
     def of(cls, cells: Iterable[str], given: TableParameters) -> CellNumbers:
@@ -43,7 +42,7 @@ class CellNumbers:
         thousands = ''
         for cell in cells:
             if ',' not in cell:
-                points += '.' in cell and bool(_NUMBER.fullmatch(cell))
+                points += '.' in cell and bool(NUMBER.fullmatch(cell))
             elif _THOUSANDS.fullmatch(cell):
                 thousands = cell
             else:
@@ -61,7 +60,7 @@ class CellNumbers:
             if '.' in cell:
                 return None
             cell = cell.replace(',', '.')
-        if not _NUMBER.fullmatch(cell):
+        if not NUMBER.fullmatch(cell):
             return None
         number = float(cell)
         if number in self._numbers:

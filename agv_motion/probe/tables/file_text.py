@@ -9,7 +9,19 @@ from agv_motion.errors import SourceError
 
 POWER_CUT = 'only NUL bytes, as a power cut leaves them'
 LOOKED_AT = 4096
-"""[bytes] by which UTF-16 without a mark is known"""
+"""[bytes] by which UTF-16 without a mark is known; and letters by which text is"""
+CONTROLS = frozenset(map(chr, range(1, 32))) - set('\t\n\f\r') | {'\x7f'}
+"""Characters that no table has; NUL is what a power cut leaves"""
+MOST_ODD = 0.02
+"""Share of them from which on a file is no text"""
+BINARY = {
+    b'PK\x03\x04': 'a spreadsheet or an archive: save it as CSV',
+    b'\xd0\xcf\x11\xe0': 'a spreadsheet: save it as CSV',
+    b'\x1f\x8b': 'compressed: gunzip it',
+    b'\xfd7zXZ': 'compressed: unxz it',
+    b'"TOB': 'a binary table of Campbell: convert it to TOA5, by CardConvert or LoggerNet',
+}
+"""What a file is that begins so"""
 
 
 class FileLine(NamedTuple):
@@ -50,9 +62,31 @@ def encoding_of(data: bytes, given: str, file: str) -> str:
     raise SourceError(msg)
 
 
+def require_text(data: bytes, told: str, file: str) -> None:
+    """Refuse a file that is no text.
+
+    Args:
+        data: Its first bytes.
+        told: What they are as text.
+        file: Its name.
+
+    Raises:
+        SourceError: It has characters that no table has; the error says what it may be.
+
+    """
+    head = told[:LOOKED_AT]
+    known = next((what for begin, what in BINARY.items() if data.startswith(begin)), '')
+    odd = sum(character in CONTROLS for character in head)
+    if known or odd > MOST_ODD * len(head):
+        what = f'it is {known}' if known else f'it begins with {data[:8]!r}'
+        msg = f'{file} is no table in text: {what}'
+        raise SourceError(msg)
+
+
 def whole_lines(data: bytes, encoding: str) -> bytes:
-    """Return the lines that have their end."""
-    newline = '\n'.encode(encoding)
+    """Return the lines that have their end, which is CR where there is no LF at all."""
+    newline, old = ('\n'.encode(encoding), '\r'.encode(encoding))
+    newline = newline if newline in data or old not in data else old
     end = data.rfind(newline)
     while end > 0 and end % len(newline):
         end = data.rfind(newline, 0, end + len(newline) - 1)

@@ -27,10 +27,6 @@ if TYPE_CHECKING:
 
 HEAD_BYTES = 1 << 18
 """of a file, which are more than the rows by which it is judged"""
-CONTROLS = frozenset(map(chr, range(1, 32))) - set('\t\n\f\r') | {'\x7f'}
-"""Characters that no table has; NUL is what a power cut leaves"""
-ODD_OF, MOST_ODD = 4096, 0.02
-"""Characters at which is looked for them, and their share from which a file is no text"""
 LOOKED_AT = 400
 """Rows by which a file is judged."""
 MOST = 0.6
@@ -105,10 +101,7 @@ def inspect(file: str) -> Inspection:
     data = data[:HEAD_BYTES]
     encoding = file_text.encoding_of(data[: data.rfind(b'\n') + 1] or data, 'auto', file)
     told = data.decode(encoding, errors='replace')
-    odd = sum(character in CONTROLS for character in told[:ODD_OF])
-    if odd > MOST_ODD * len(told[:ODD_OF]):
-        msg = f'{file} is no table in text: it begins with {data[:8]!r}'
-        raise SourceError(msg)
+    file_text.require_text(data, told, str(files[0]))
     lines = file_text.lines_of(told)
     lines = [line for line in lines if not line.fault]
     rows: dict[str, list[tuple[int, list[str]]]] = {
@@ -123,7 +116,12 @@ def inspect(file: str) -> Inspection:
     of_data = [_is_data(cells) for _, cells in table]
     begin = next((i for i in range(len(table)) if all(of_data[i : i + IN_A_ROW])), len(table))
     head = [row for row in table[:begin] if len(set(row[1])) > 1]
-    header, names = max(head, key=lambda row: len(set(filter(None, row[1]))), default=(0, []))
+    header, names = max(
+        head,
+        # a line of the station may have more cells than the names under it
+        key=lambda row: (len(row[1]) == width, len(set(filter(None, row[1])))),
+        default=(0, []),
+    )
     names = [name.lstrip('# ') for name in names]
     numbers = [str(i + 1) for i in range(max(width, len(names)))]
     names = [

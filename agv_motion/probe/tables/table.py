@@ -64,15 +64,23 @@ class LoggerTables:
         parts: dict[Path, FileRows] = {}
         for path in files_of(self._given.file):
             known = self._files.get(path)
-            size = path.stat().st_size if growing else -1
+            size = _size_of(path) if growing else -1
             if known and size == known.bytes_read:
                 continue
-            if known is None or size < known.bytes_read:
+            if known is None or size < known.bytes_read or not known.is_as_read():
                 if growing and not size:
                     continue
                 known = self._files[path] = TableFile(path, self._given)
             parts[path] = known.read(growing=growing)
         return in_order(parts, len(self._given.columns))
+
+
+def _size_of(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except OSError as error:
+        msg = f"cannot read the probe file '{path}': {error.strerror or error}"
+        raise SourceError(msg) from error
 
 
 def read_tables(given: TableParameters) -> LoggerTable:

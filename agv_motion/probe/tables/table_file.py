@@ -15,7 +15,7 @@ from agv_motion.probe.tables.clock_resets import REASON, after_reset
 from agv_motion.probe.tables.left_out import LeftOut
 from agv_motion.probe.tables.local_time import DoubledHour, LocalClock, zone_of
 from agv_motion.probe.tables.table_form import find_form
-from agv_motion.probe.tables.table_rows import rows_of
+from agv_motion.probe.tables.table_rows import TableRows, without_cut_end
 from agv_motion.probe.tables.time_format import choose, named, second_reading, without_clock
 
 if TYPE_CHECKING:
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
 
 LARGEST = 256 << 20
 """[bytes] of a recording: a year of three probes every second"""
+
+
+TAIL = 64
+"""[bytes] by which a file is known again that has grown"""
 
 
 class FileRows(NamedTuple):
@@ -69,7 +73,9 @@ class TableFile:
         """
         self.path, self._given = path, given
         self.bytes_read, self._line, self._encoding = 0, 1, ''
+        self._ended, self._tail = True, b''
         self.form: FileForm | None = None
+        self._rows: TableRows | None = None
         self._clock = LocalClock(zone_of(given.time_zone), DoubledHour(given.doubled_hour))
 
     def read(self, *, growing: bool = False) -> FileRows:
@@ -87,7 +93,10 @@ class TableFile:
         if growing and not lines:
             return _nothing(len(self._given.columns))
         form = self.form.table if self.form else find_form(lines, self._given, self.path)
-        rows = rows_of(lines, form, self._given.comment, left_out)
+        self._rows = self._rows or TableRows(form, self._given.comment)
+        rows = self._rows.read(lines, left_out)
+        if not self._ended:
+            rows = without_cut_end(rows, form.columns, lines[-1], left_out)
         if self.form is None:
             self.form = FileForm(form, self._time_format(rows, form), self._numbers(rows, form))
         instants, kept = _without_resets(*_timed(rows, self.form, left_out), left_out)
@@ -106,20 +115,33 @@ class TableFile:
             '; '.join(filter(None, (left_out.told(), told))),
         )
 
-    def _lines(self, *, growing: bool) -> list[FileLine]:
-        """Return the lines that were not read before."""
+    def is_as_read(self) -> bool:
+        """Tell whether what was read last still stands there: else another file has its name."""
+        begin = self.bytes_read - len(self._tail)
+        return self._bytes(begin)[: len(self._tail)] == self._tail
+
+    def _bytes(self, begin: int) -> bytes:
         try:
-            data = text.read_bytes(self.path, 'the probe file', LARGEST, self.bytes_read)
+            return text.read_bytes(self.path, 'the probe file', LARGEST, begin)
         except ConfigurationError as error:
             raise text.as_kind(error, SourceError) from error
+
+    def _lines(self, *, growing: bool) -> list[FileLine]:
+        """Return the lines that were not read before."""
+        data = self._bytes(self.bytes_read)
         if not self._encoding:
             known = data[: data.rfind(b'\n') + 1] or data  # a letter at the end may be half written
             self._encoding = file_text.encoding_of(known, self._given.encoding, str(self.path))
+            head = data[: file_text.LOOKED_AT]
+            file_text.require_text(head, head.decode(self._encoding, 'replace'), str(self.path))
         if growing:
             data = file_text.whole_lines(data, self._encoding)
         self.bytes_read += len(data)
+        self._tail = data[-TAIL:] or self._tail
         content = data.decode(self._encoding, errors='replace')
-        first, self._line = self._line, self._line + content.count('\n')
+        self._ended = not content or content[-1] in '\r\n\0'
+        ends = content.count('\n') + content.count('\r') - content.count('\r\n')
+        first, self._line = self._line, self._line + ends
         return file_text.lines_of(content, first)
 
     def _time_format(self, rows: Sequence[Row], form: TableForm) -> TimeFormat:

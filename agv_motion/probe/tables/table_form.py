@@ -37,6 +37,29 @@ class TableForm(NamedTuple):
     """columns, from 0, that make the time"""
     columns: tuple[int, ...]
     """of the probes"""
+    names: tuple[str, ...] = ()
+    """of the columns that make the time, and of the probes; some may be numbers; none: no header"""
+
+    def under(self, line: FileLine, comment: str) -> TableForm | None:
+        """Return how it goes on under a line that is a header again; None if it is none.
+
+        A logger writes one when its program was changed, and who joins files has one of each. A
+        column that is not there any more is at -1.
+        """
+        times = self.names[: len(self.time)]
+        if not times or not all(name in line.text for name in times if not name.isdecimal()):
+            return None
+        cells = _names(line.text, self.delimiter, comment)
+        at = [_place(name, cells) for name in self.names]
+        if min(at[: len(times)]) < 0 or not _has_name(cells, times):
+            return None
+        same = (*self.time, *self.columns) == tuple(at)
+        return self._replace(
+            header=line.number,
+            width=self.width if same else len(cells),
+            time=tuple(at[: len(times)]),
+            columns=tuple(at[len(times) :]),
+        )
 
     def split(self, line: str) -> list[str]:
         """Return the cells of a line.
@@ -95,12 +118,12 @@ def find_form(lines: Sequence[FileLine], given: TableParameters, path: Path) -> 
             for line in head:
                 cells = _names(line.text, delimiter, given.comment)
                 at = [_place(name, cells) for name in names]
-                if min(at) >= 0 and any(name in cells for name in names):
+                if min(at) >= 0 and _has_name(cells, names):
                     _require_once(cells, names, (path, line.number, 1))
                     return TableForm(
                         delimiter, line.number, max(begin, line.number),
                         _width(head, line, delimiter, len(cells), max(at) + 1),
-                        tuple(at[:times]), tuple(at[times:]),
+                        tuple(at[:times]), tuple(at[times:]), tuple(names),
                     )  # fmt: skip
     if all(name.isdecimal() and name != '0' for name in wanted):
         return _numbered(head, delimiters, [int(name) - 1 for name in wanted], begin, given)
@@ -124,6 +147,11 @@ def _place(name: str, cells: Sequence[str]) -> int:
     if name in cells:
         return cells.index(name)
     return int(name) - 1 if name.isdecimal() and int(name) <= len(cells) else -1
+
+
+def _has_name(cells: Sequence[str], names: Sequence[str]) -> bool:
+    """Tell whether a line has a name, and not only numbers that may be data."""
+    return any(name in cells and not name.isdecimal() for name in names)
 
 
 def _names(line: str, delimiter: str, comment: str) -> list[str]:

@@ -58,7 +58,7 @@ class TableParameters:
         tuple[str, ...], Spec('what stands for no value, in capitals or not, beside an empty cell')
     ] = (
         'na', 'n/a', 'nan', 'null', 'none', '-', '--', '---', '#n/a', '#value!', '#div/0!',
-        '-6999', '-7999', '-9999', '-99999',
+        '-6999', '-7999', '-9999', '-99999', '6999', '7999',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

@@ -14,6 +14,12 @@ if TYPE_CHECKING:
 
 UNIT_ROWS = 3
 """Rows under the names that may tell units and kinds of values, as a Campbell logger's do"""
+CAMPBELL = '"TOA5"', '"TOACI1"'
+"""With which the head of such a file begins"""
+
+
+ENOUGH = 3
+"""Rows by which it is known how long a cell is"""
 
 
 class Row(NamedTuple):
@@ -22,34 +28,105 @@ class Row(NamedTuple):
     line: int
     """of the file, counted from 1"""
     cells: list[str]
+    """under the first header of the file, wherever they are under a later one"""
     word: str
     """of its time, which may be several cells"""
 
 
-def rows_of(
-    lines: Sequence[FileLine], form: TableForm, comment: str, left_out: LeftOut
-) -> list[Row]:
-    """Return the rows under the header that have as many cells as it has; note the others."""
-    rows: list[Row] = []
-    for line in lines:
-        if line.number <= form.begin or (comment and line.text.startswith(comment)):
-            continue
+class TableRows:
+    """Reads rows under a header, and under each that comes later in the same file."""
+
+    def __init__(self, form: TableForm, comment: str) -> None:
+        """Begin under the first header.
+
+        Args:
+            form: Of the file, by that header.
+            comment: What a line of comment begins with.
+
+        """
+        self._first = self._form = form
+        self._comment = comment
+        self._fault = ''
+        """why rows under the last header cannot be read"""
+        self._begun = False
+
+    def read(self, lines: Sequence[FileLine], left_out: LeftOut) -> list[Row]:
+        """Return the rows that have as many cells as their header; note the others."""
+        rows: list[Row] = []
+        for line in lines:
+            if line.number > self._first.begin and not self._is_head(line):
+                row = self._row(line, left_out)
+                if row is not None:
+                    rows.append(row)
+                    self._begun = True
+        return rows
+
+    def _is_head(self, line: FileLine) -> bool:
+        """Tell whether a line is a comment or a header; one that comes again counts from here."""
+        form = self._form.under(line, self._comment)
+        if form is not None:
+            self._form, self._begun = form, False
+            places = zip(form.names, (*form.time, *form.columns), strict=True)
+            gone = [name for name, at in places if at < 0]
+            self._fault = f'no column {gone} under the header in line {line.number}' if gone else ''
+            return True
+        if self._form.header and line.text.startswith(CAMPBELL):
+            self._fault = f'under the head in line {line.number} the names are others'
+            return True
+        return bool(self._comment) and line.text.startswith(self._comment)
+
+    def _row(self, line: FileLine, left_out: LeftOut) -> Row | None:
         try:
-            cells = form.split(line.text)
+            cells = self._form.split(line.text)
         except csv.Error as error:
             left_out.add(line.number, 1, f'no CSV: {error}')
-            continue
+            return None
         if not any(cells) and not line.fault:
-            continue
-        if fault := line.fault or _misfit(cells, form.width):
+            return None
+        if fault := line.fault or self._fault or _misfit(cells, self._form.width):
             left_out.add(line.number, 1, fault)
-            continue
-        word = cells[form.time[0]] if len(form.time) == 1 else ' '.join(cells[i] for i in form.time)
+            return None
+        cells = self._as_at_first(cells)
+        time = self._first.time
+        word = cells[time[0]] if len(time) == 1 else ' '.join(cells[i] for i in time)
         if '  ' in word:
             word = ' '.join(word.split())
         told = any(map(str.isdecimal, word))
-        if told or rows or not form.header or line.number > form.header + UNIT_ROWS:
-            rows.append(Row(line.number, cells, word))
+        header = self._form.header
+        if told or self._begun or not header or line.number > header + UNIT_ROWS:
+            return Row(line.number, cells, word)
+        return None
+
+    def _as_at_first(self, cells: list[str]) -> list[str]:
+        """Return the cells that are wanted where they were under the first header."""
+        first, now = self._first, self._form
+        if (now.time, now.columns) == (first.time, first.columns):
+            return cells
+        moved = [''] * first.width
+        places = (*first.time, *first.columns), (*now.time, *now.columns)
+        for to, at in zip(*places, strict=True):
+            moved[to] = cells[at]
+        return moved
+
+
+def without_cut_end(
+    rows: list[Row], columns: Sequence[int], last: FileLine, left_out: LeftOut
+) -> list[Row]:
+    """Return rows without the last one if its last cell seems to be cut: 0.4 of 0.43.
+
+    Args:
+        rows: Of a file.
+        columns: That are wanted.
+        last: Its last line, which has no end; many files end so, and so do half written ones.
+        left_out: Notes it.
+
+    """
+    if len(rows) < ENOUGH or rows[-1].line != last.number or len(rows[-1].cells) - 1 not in columns:
+        return rows
+    length = len(rows[-1].cells[-1])
+    if 0 < length < min(len(row.cells[-1]) or length + 1 for row in rows[:-1]):
+        left_out.add(last.number, 1, 'it has no end, and its last cell is shorter than all others')
+        return rows[:-1]
     return rows
 
 
@@ -58,5 +135,8 @@ def _misfit(cells: Sequence[str], count: int) -> str:
     if len(cells) < count:
         return f'{len(cells)} cells under {count} columns: it is cut short'
     if any(cells[count:]):
-        return f'{len(cells)} cells under {count} columns: a comma in it may be decimal'
+        return (
+            f'{len(cells)} cells under {count} columns: a comma in it may be decimal, or a column '
+            'has no name'
+        )
     return ''

@@ -39,7 +39,7 @@ _CLOCK = (
 _YEAR, _SHORT_YEAR = r'(?P<year>\d{4})', r'(?P<year>\d{4}|\d{2})'
 _MONTHS = ['jan', 'feb', 'mar', 'apr', 'may', 'jun', 'jul', 'aug', 'sep', 'oct', 'nov', 'dec']
 _NAME = r'(?P<month>[A-Za-z]{3})[a-z]*\.?'
-_NUMBER = re.compile(r'\d{1,20}(?:\.\d*)?(?:[eE]\+?\d{1,2})?', re.ASCII)
+_NUMBER = re.compile(r'\d{1,20}(?:[.,]\d*)?(?:[eE]\+?\d{1,2})?', re.ASCII)
 
 
 def _dated(*dates: str) -> Callable[[str], Instant]:
@@ -105,7 +105,7 @@ def offset_of(zone: str | None) -> float | None:
 def _number(word: str) -> float:
     if not _NUMBER.fullmatch(word):
         raise ValueError(word)
-    number = float(word)
+    number = float(word.replace(',', '.'))
     if not isfinite(number):
         raise ValueError(word)
     return number
@@ -121,7 +121,7 @@ def _serial_days(epoch: float) -> Callable[[str], Instant]:
 
     def read(word: str) -> Instant:
         seconds = (_number(word) - epoch) * DAY
-        decimals = len(word.partition('.')[2])
+        decimals = len(word.replace(',', '.').partition('.')[2])
         resolution = 0.51 * DAY * 10.0**-decimals + 1e-5
         for unit in (60.0, 1.0):
             nearest = round(seconds / unit) * unit

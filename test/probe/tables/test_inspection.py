@@ -21,3 +21,13 @@ def test_a_table_with_what_a_power_cut_leaves_is_one(tmp_path):
     rows = [f'2013-06-01T{hour:02}:00:00,0.{500 + hour}\n' for hour in range(24)]
     file.write_text('time,dT\n' + ''.join(rows) + '\0' * 400)
     assert [column.name for column in inspect(str(file)).columns] == ['time', 'dT']
+
+
+def test_names_of_few_columns_are_found_under_a_longer_line_of_the_station(tmp_path):
+    file = tmp_path / 'oak.dat'
+    head = '"TOA5","oak","CR1000","1","Std.31","CPU:a.CR1","9","Sap"\n"TIMESTAMP","RECORD","dT"\n'
+    rows = ''.join(f'"2013-06-10 00:0{i}:00",{i},0.{4 + i}\n' for i in range(4))
+    file.write_text(head + '"TS","RN","mV"\n"","","Avg"\n' + rows)
+    seen = inspect(str(file))
+    assert seen.time_column == 'TIMESTAMP'
+    assert [column.name for column in seen.columns] == ['TIMESTAMP', 'RECORD', 'dT']

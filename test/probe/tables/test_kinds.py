@@ -42,6 +42,13 @@ SAPFLUXNET = """TIMESTAMP,solar_TIMESTAMP,probe_1,probe_2
 2013-06-10T00:00:00Z,2013-06-09T23:31:10Z,0.4,0.5
 2013-06-10T00:30:00Z,2013-06-10T00:01:10Z,0.41,NA
 """
+EXCHANGED = (
+    TOA5.rpartition('"2013')[0]
+    + TOA5.rpartition('"2013')[0]
+    .partition('"2013')[0]
+    .replace('probe_1","probe_2', 'T_air","probe_2","probe_1')
+    + '"2013-06-10 00:30:00",1,21.5,"NAN",0.41\n'
+)
 NEWEST_FIRST = """time,probe_1,probe_2
 2013-06-10 00:30,0.41,0.51
 2013-06-10 00:00,0.4,0.5
@@ -158,6 +165,11 @@ KINDS = {
     'UTF-16 without its mark': (ISO.encode('utf-16-le'), {}),
     'Latin-1': (ISO.replace('probe_2', 'probe_2,T [°C]', 1).encode('latin-1'), {}),
     'NUL bytes of a power cut': (ISO.encode() + b'\0' * 40 + b'\n', {}),
+    'a head again, with other columns': (EXCHANGED, {'time_column': 'TIMESTAMP'}, nan),
+    'overrange of Campbell': (ISO.replace('0.510', '7999'), {}, nan),
+    'days of Excel, decimal comma': (
+        'time;probe_1;probe_2\n41435;0,4;0,5\n41435,0208333;0,41;0,51\n', {'time_format': 'excel'},
+    ),
     'TOA5 of Campbell': (TOA5, {'time_column': 'TIMESTAMP'}, nan),
     'AmeriFlux': (
         AMERIFLUX,
@@ -172,7 +184,8 @@ KINDS = {
 }  # fmt: skip
 SEEN_BY_ITSELF = set(KINDS) - {
     'day first with slashes', 'day first, short year', 'month first', 'US with AM and PM',
-    'a pattern', 'year, month, day and HHMM',
+    'a pattern', 'year, month, day and HHMM', 'days of Excel, decimal comma',
+    'a head again, with other columns',
     'UTC+2', 'UTC-03:30', 'a zone', 'days of Excel', 'lines to skip',
     'days of Excel on an old Macintosh', 'names, and numbers of columns',
 }  # fmt: skip

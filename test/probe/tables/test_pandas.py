@@ -89,6 +89,8 @@ PANDAS = {
     'epoch in microseconds': ({}, number('us')),
     'days of Excel': ({}, number('D', '1899-12-30')),
     'days of Excel on an old Macintosh': ({}, number('D', '1904-01-01')),
+    'days of Excel, decimal comma': (SEMICOLONS | COMMA, number('D', '1899-12-30')),
+    'overrange of Campbell': ({'na_values': ['7999']}, ISO),
     'days of MATLAB': ({}, matlab),
     'date and clock': ({}, joined('%Y-%m-%d %H:%M', 'day', 'clock')),
     'date with dots and clock': (
@@ -137,7 +139,7 @@ PANDAS = {
     ),
     'SAPFLUXNET': ({}, words('ISO8601', 'TIMESTAMP')),
 }  # fmt: skip
-CANNOT = {'names in a comment', 'NUL bytes of a power cut'}
+CANNOT = {'names in a comment', 'NUL bytes of a power cut', 'a head again, with other columns'}
 """Kinds of which pandas makes other names, or no times."""
 
 
