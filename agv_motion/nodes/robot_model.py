@@ -83,7 +83,8 @@ class RobotModelNode(PlainNode[RobotModelParameters]):
         self._told_at: int | None = None
         self._transforms = RobotTransforms(self._model, given.prefix, HOLD)
         tells = ToldOnTf(given.tf)
-        self._tf = None if tells is ToldOnTf.NONE else Transforms(port, static=True)
+        one = tells is ToldOnTf.ALL  # else localization tells the others, and why there are none
+        self._tf = None if tells is ToldOnTf.NONE else Transforms(port, static=True, complains=one)
         self._description = port.publisher(String, 'robot_description', LATCHED, sole=True)
         self._joints = port.publisher(JointState, 'joint_states', SENSOR, sole=True)
         topic = 'turrets/state' if given.platform == Platform.TREE.value else 'wheels/state'

@@ -34,19 +34,20 @@ DEEP = QoSProfile(depth=100)
 class Transforms:
     """Publishes transforms on /tf for as long as the node is configured."""
 
-    def __init__(self, port: Port, *, static: bool = False) -> None:
+    def __init__(self, port: Port, *, static: bool = False, complains: bool = True) -> None:
         """Open /tf, and /tf_static where transforms hold for good; or say once why there is none.
 
         Args:
             port: Of the node.
             static: Whether the node tells some that hold for good.
+            complains: Whether this node is the one of its robot who says why there is none.
 
         """
         self.available = TFMessage is not None
         if self.available:
             self._publisher = port.publisher(TFMessage, TF, DEEP)
             self._static = port.publisher(TFMessage, TF_STATIC, LATCHED) if static else None
-        else:
+        elif complains:
             port.info('tf2_msgs is not installed: nothing goes to /tf; recorders write it all the '
                       'same')  # fmt: skip
 
