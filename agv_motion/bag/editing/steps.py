@@ -91,7 +91,7 @@ def _steps(source: EditSource) -> Iterator[Step]:
 
 def _chunk_step(file: ChunkedFile, chunk: Chunk, wanted: Wanted, start: int) -> Step:
     work = partial(pick, file, chunk, wanted)
-    done = partial(file.release, chunk.offset, chunk.offset + chunk.length + chunk.index_length)
+    done = partial(file.release_chunk, chunk)
     return Step(start, chunk.size + chunk.length, chunk.length, work, done)
 
 

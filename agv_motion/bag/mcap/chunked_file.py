@@ -237,8 +237,9 @@ class ChunkedFile:
         return self._cache.content(chunk, self.unpacked)
 
     def forget(self, chunk: Chunk) -> None:
-        """Keep the content of a chunk no more."""
+        """Keep the content of a chunk no more, and what is mapped of it."""
         self._cache.forget(chunk)
+        self.release_chunk(chunk)
 
     def heads(
         self, chunk: Chunk, unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD
@@ -257,6 +258,10 @@ class ChunkedFile:
     def release(self, begin: int, end: int) -> None:
         """Take a part of the file [bytes] out of the memory of this process; it stays readable."""
         release(self.data, begin, end)
+
+    def release_chunk(self, chunk: Chunk) -> None:
+        """Release a chunk with its indexes."""
+        self.release(chunk.offset, chunk.offset + chunk.length + chunk.index_length)
 
     def close(self) -> None:
         """Let go of the file; messages already read stay valid."""

@@ -116,6 +116,7 @@ class McapFile(ChunkedFile):
         known = np.isin(found['channel'], list(self.channels))
         yield from self.messages_at(unpacked, offsets[known].tolist())
         self.require_described(chunk, found)
+        self.release_chunk(chunk)
 
     def extras(self) -> Iterator[records.Attachment | records.Metadata | DamagedBagError]:
         """Yield the attachments and named strings that are whole, and what is wrong with others."""
@@ -165,6 +166,8 @@ class McapFile(ChunkedFile):
             return sum(len(entries.stamps) for entries in self.entries(chunk, content).values())
         except DamagedBagError as error:
             return error
+        finally:
+            self.release_chunk(chunk)
 
     def _unlike_crc(self) -> DamagedBagError | None:
         """Return what is wrong where the data do not match the CRC at their end."""

@@ -83,6 +83,7 @@ def _together(
         ]
         data = b''.join(contents)
         found = _sorted(file, group[0], data, _listed(told, [len(c) for c in contents]), span)
+        file.release(group[0].offset, group[-1].offset + group[-1].length)
     except DamagedBagError:
         return None
     if found is None:
@@ -104,6 +105,7 @@ def _alone(file: ChunkedFile, chunk: Chunk, wanted: frozenset[int], span: range)
     content = file.content(chunk)
     found = _sorted(file, chunk, content, _listed([told], [len(content)]), span)
     del content  # the run holds no chunk: it asks for it again
+    file.release_chunk(chunk)
     if found is None:
         return None
     stamps, places = found

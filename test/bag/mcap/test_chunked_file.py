@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import random
+from contextlib import closing
+from pathlib import Path
+
 import pytest
 
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.channels import connections
 from agv_motion.bag.mcap.chunked_file import ChunkedFile
+from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.mcap.mapped import mapped
 from agv_motion.bag.mcap.scan import look
 from agv_motion.bag.mcap.writer import McapWriter
@@ -127,3 +132,31 @@ def test_without_messages_there_is_no_span(tmp_path):
     file = opened(writer.path)
     assert (file.span, file.counts(), file.problems) == (None, {}, [])
     file.close()
+
+
+def in_memory(path):
+    """Return how much of a file that is mapped lies in the memory of this process [bytes]."""
+    maps = Path('/proc/self/smaps').read_text().split(str(path))[1:]
+    return sum(int(one.partition('Rss:')[2].split()[0]) * 1024 for one in maps)
+
+
+@pytest.mark.parametrize('compression', ['', 'zstd'])
+@pytest.mark.parametrize('size', [1000, 300_000])
+def test_what_was_read_of_a_file_stays_in_no_memory(tmp_path, compression, size):
+    noise = random.Random(1).randbytes(size)
+    writer = McapWriter(tmp_path / 'large.mcap', compression)
+    writer.add_topic(TOPICS[0])
+    for stamp in range(6_000_000 // size):
+        writer.write(1, stamp, noise, stamp, 0)
+        if writer.chunk_size > 500_000:
+            writer.flush()
+    writer.flush()
+    writer.close({})
+    with closing(McapFile(writer.path)) as file:
+        for read in (
+            lambda: file.messages([1], 0, 2**64),
+            lambda: (message for _, piece in file.pieces() for message in piece),
+            file.damage,
+        ):
+            assert sum(1 for _ in read()) in (0, 6_000_000 // size)
+            assert in_memory(writer.path) < 1_500_000
