@@ -12,17 +12,16 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import benchmark_bags
+import benchmark_edits
 import benchmark_odometry
 import benchmark_recording
 import benchmark_trajectory
 import numpy as np
 import rclpy
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped, Vector3Stamped
-from measure import Row, per_call
+from measure import Row, per_call, show
 from rclpy.qos import qos_profile_sensor_data
-from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 from sensor_msgs.msg import JointState
 from turret_peer import LIMIT, POSITIONS, TWIST, wpilib_command
 from wpimath.geometry import Rotation2d, Translation2d
@@ -203,33 +202,14 @@ def process_rows() -> list[Row]:
     ]
 
 
-def shown(seconds: float) -> str:
-    """Return a time in the unit that suits it."""
-    for unit, factor in (('s', 1.0), ('ms', 1e3), ('us', 1e6)):
-        if seconds * factor >= 1.0:
-            return f'{seconds * factor:.2f} {unit}'
-    return f'{seconds * 1e9:.2f} ns'
-
-
 def main() -> None:
     """Measure everything and print one table."""
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    table = Table(title='Ours beside the peer; medians', title_justify='left')
-    for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
-        table.add_column(column)
     sections = (
         turret_rows, steering_rows, benchmark_odometry.rows, benchmark_trajectory.rows, chain_rows,
-        process_rows, benchmark_recording.rows,
-        benchmark_bags.rows,
+        process_rows, benchmark_recording.rows, benchmark_bags.rows, benchmark_edits.rows,
     )  # fmt: skip
-    for section in track(sections, 'Measuring'):
-        for row in section():
-            ours = f'{row.ours:.3g}' if row.plain else shown(row.ours)
-            theirs, ratio = ('', '') if not row.peer else (
-                shown(row.theirs), f'{row.ours / row.theirs:.2f}',
-            )  # fmt: skip
-            table.add_row(row.what, ours, row.peer, theirs, ratio, row.target)
-    Console(width=None if sys.stdout.isatty() else 120).print(table)
+    show([row for section in track(sections, 'Measuring') for row in section()])
 
 
 if __name__ == '__main__':

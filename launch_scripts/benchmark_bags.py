@@ -7,12 +7,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from itertools import islice
 from math import inf
 from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
+import mcap_codec
 import numpy as np
 from geometry_msgs.msg import TwistStamped, Vector3Stamped
 from mcap.reader import make_reader
@@ -23,12 +25,12 @@ from measure import Row
 from nav_msgs.msg import Odometry
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, LaserScan
 
 from agv_motion.bag.columns.columns import read_topics
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
-from agv_motion.ros.cdr import codec
+from agv_motion.ros.cdr import codec as ros_codec
 from agv_motion.ros.messages import type_name
 
 if TYPE_CHECKING:
@@ -63,6 +65,8 @@ def message(kind: Any, i: int, values: list[float]) -> Any:
         position, orientation = sent.pose.pose.position, sent.pose.pose.orientation
         position.x, position.y, orientation.z, orientation.w = values[:4]
         sent.pose.covariance[:12] = values
+    elif kind is LaserScan:
+        sent.ranges = values * 60
     else:
         sent.vector.x, sent.vector.y, sent.vector.z = values[:3]
     return sent
@@ -73,7 +77,7 @@ def write(path: Path, count: int) -> None:
     rng = np.random.default_rng(1)
     with BagWriter(path, chunk_duration=inf) as writer:
         kinds = [(writer.add_topic(topic, type_name(kind)), kind) for topic, kind in KINDS.items()]
-        encode = {kind: codec(kind).encode for kind in KINDS.values()}
+        encode = {kind: ros_codec(kind).encode for kind in KINDS.values()}
         for i, values in enumerate(rng.normal(size=(count // 4, 12)).tolist()):
             for number, (topic, kind) in enumerate(kinds):
                 data = encode[kind](message(kind, i, values))
@@ -152,6 +156,45 @@ def timed(act: Callable[[], None]) -> float:
     return time.perf_counter() - begin
 
 
+def codec(path: Path) -> None:
+    """Read the only topic of a bag with roboto-mcap-codec."""
+    file = next(path.glob('*.mcap'))
+    with file.open('rb') as data:
+
+        def read(offset: int, length: int) -> bytes:
+            data.seek(offset)
+            return data.read(length)
+
+        when = mcap_codec.TimestampSource('message_log_time')
+        batches = mcap_codec.open_mcap_file(read, file.stat().st_size, timestamp=when)
+        assert sum(batch.num_rows for batch in batches)
+
+
+def write_alone(path: Path, kind: Any, count: int) -> None:
+    """Write a bag of one topic."""
+    rng = np.random.default_rng(1)
+    with BagWriter(path, chunk_duration=inf) as writer:
+        topic, encode = writer.add_topic('/alone', type_name(kind)), ros_codec(kind).encode
+        for i, values in enumerate(rng.normal(size=(count, 12)).tolist()):
+            writer.write(topic, i * 10_000_000, encode(message(kind, i, values)))
+
+
+def codec_rows(folder: Path) -> list[Row]:
+    """Read odometry and scans into columns, in turn with roboto-mcap-codec."""
+    found = []
+    for kind, count, target in (
+        (Odometry, 200_000, 'ratio 0.31'),
+        (LaserScan, 20_000, 'ratio 0.8'),
+    ):
+        bag = folder / kind.__name__
+        write_alone(bag, kind, count)
+        turns = [(timed(partial(columns, bag)), timed(partial(codec, bag))) for _ in range(ROUNDS)]
+        ours, theirs = (median(times) / count for times in zip(*turns, strict=True))
+        what = f'{kind.__name__} into columns'
+        found.append(Row(what, ours, 'roboto-mcap-codec', theirs, target))
+    return found
+
+
 def rows() -> list[Row]:
     """Read one bag of a million messages in every way, in turn."""
     folder = Path(tempfile.mkdtemp(prefix='agv_motion_'))
@@ -176,6 +219,7 @@ def rows() -> list[Row]:
             Row('..., CRCs not compared', unchecked, 'rosbags', theirs, 'ratio 0.04'),
             Row('..., 10 of its fields', some, 'all fields', ours, 'ratio 1'),
             Row('peak memory - 64 MiB, by columns', peak(bag), target='1.5', plain=True),
+            *codec_rows(folder),
         ]
     finally:
         shutil.rmtree(folder)

@@ -1,9 +1,10 @@
 """Benchmarks of editing bags, beside pymcap-cli and rosbags-convert, in one run.
 
 launch_scripts/benchmark_edits.py [MB]: a bag of that size (300), then each command of both, in
-turn, as a person starts it; processor time (user and system, in seconds, without that of a start
-that does nothing) and memory at its peak [MiB]. Then the writer beside that of foxglove-sdk, and an
-index of many bags. pip install "agv_motion[benchmark]" first.
+turn, as a person starts it: processor time (user and system) of all of it, and what remains of
+that without the same command's on a tiny bag, which is its start; time on the wall, which nothing
+else on the machine may share; memory at its peak. Then the writer beside that of foxglove-sdk, and
+an index of many bags. pip install "agv_motion[ros,benchmark]" first.
 """
 
 from __future__ import annotations
@@ -16,15 +17,21 @@ import tempfile
 import time
 from pathlib import Path
 from statistics import median
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import foxglove
 import numpy as np
 from foxglove.mcap import MCAPCompression, MCAPWriteOptions
+from measure import Row, show
 
 from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    Command = list[str | Path]
 
 SECOND = 10**9
 ROUNDS = 3
@@ -35,6 +42,7 @@ MESSAGES, SIZE = 100_000, 300
 TOPICS = (('/odom', 720, 4), ('/imu', 320, 1), ('/scan', 8000, 20), ('/camera', 200_000, 40))
 """of each the bytes of a message, and every which of the ticks has one"""
 AGV, PYMCAP, ROSBAGS = 'agv', 'pymcap-cli', 'rosbags-convert'
+TARGETS = {'filter': 'ratio 0.5', 'merge': 'ratio 0.5', 'convert': 'ratio 0.33'}
 
 
 class Cost(NamedTuple):
@@ -94,89 +102,109 @@ def cost(*command: str | Path) -> Cost:
     return Cost(used, wall, int(done.stdout.split()[-1]) >> 10)
 
 
-def pairs(
-    bag: Path, tables: Path, folder: Path
-) -> dict[str, tuple[list[str | Path], list[str | Path]]]:
+class Given(NamedTuple):
+    """The same bag in all the forms that commands are given."""
+
+    bag: Path
+    tables: Path
+    """in sqlite3"""
+    odometry: Path
+    """one topic of it"""
+    others: Path
+    """and all the others"""
+
+
+def given(folder: Path, megabytes: float) -> Given:
+    """Make them."""
+    one = Given(*(folder / name for name in Given._fields))
+    write(one.bag, megabytes)
+    cost(AGV, 'bag', 'convert', one.bag, one.tables)
+    cost(AGV, 'bag', 'filter', one.bag, one.odometry, '--topics', '/odom')
+    cost(AGV, 'bag', 'filter', one.bag, one.others, '--exclude-topics', '/odom')
+    return one
+
+
+def commands(one: Given, folder: Path) -> dict[str, tuple[Command, Command]]:
     """Return our command and the peer's of each comparison; each writes into a new place."""
-    file, new, other = next(bag.glob('*.mcap')), folder / 'ours', folder / 'theirs.mcap'
-    filtering, theirs = [AGV, 'bag', 'filter', bag, new], [PYMCAP, 'filter', file, other]
+    file, odometry, others = (
+        next(path.glob('*.mcap')) for path in (one.bag, one.odometry, one.others)
+    )
+    new, theirs, other = folder / 'ours', folder / 'theirs', folder / 'theirs.mcap'
+    ours, peer = [AGV, 'bag', 'filter', one.bag, new], [PYMCAP, 'filter', file, other]
+    to_mcap = [ROSBAGS, '--src', one.tables, '--dst', theirs, '--dst-storage', 'mcap']
     return {
-        'filter one topic': ([*filtering, '--topics', '/odom'], [*theirs, '-t', '/odom']),
-        'filter all but one': (
-            [*filtering, '--exclude-topics', '/odom'], [*theirs, '-x', '/odom'],
+        'filter one topic': ([*ours, '--topics', '/odom'], [*peer, '-t', '/odom']),
+        'filter all but one': ([*ours, '--exclude-topics', '/odom'], [*peer, '-x', '/odom']),
+        'merge': (
+            [AGV, 'bag', 'merge', one.odometry, one.others, new],
+            [PYMCAP, 'merge', odometry, others, '-o', other],
         ),
-        'merge': ([AGV, 'bag', 'merge', bag, bag, new], [PYMCAP, 'merge', file, file, '-o', other]),
         'convert to sqlite3': (
-            [AGV, 'bag', 'convert', bag, new],
-            [ROSBAGS, '--src', bag, '--dst', folder / 'theirs', '--dst-storage', 'sqlite3'],
+            [AGV, 'bag', 'convert', one.bag, new],
+            [ROSBAGS, '--src', one.bag, '--dst', theirs, '--dst-storage', 'sqlite3'],
         ),
         'convert to MCAP': (
-            [AGV, 'bag', 'convert', tables, new, '--compression', 'none'],
-            [ROSBAGS, '--src', tables, '--dst', folder / 'theirs', '--dst-storage', 'mcap'],
+            [AGV, 'bag', 'convert', one.tables, new, '--compression', 'none'], to_mcap,
         ),
         'convert to MCAP, zstd': (
-            [AGV, 'bag', 'convert', tables, new],
-            [ROSBAGS, '--src', tables, '--dst', folder / 'theirs', '--dst-storage', 'mcap',
-             '--compress', 'zstd', '--compress-mode', 'storage'],
+            [AGV, 'bag', 'convert', one.tables, new],
+            [*to_mcap, '--compress', 'zstd', '--compress-mode', 'storage'],
         ),
     }  # fmt: skip
 
 
-def compared(bag: Path, folder: Path) -> None:
-    """Print each comparison."""
-    tables = bag.with_name('tables')
-    cost(AGV, 'bag', 'convert', bag, tables)
-    starts = {
-        AGV: median(cost(AGV, 'bag', 'filter', '-h').processor for _ in range(ROUNDS)),
-        PYMCAP: median(cost(PYMCAP, 'filter', '--help').processor for _ in range(ROUNDS)),
-        ROSBAGS: median(cost(ROSBAGS, '--help').processor for _ in range(ROUNDS)),
-    }
-    for what, both in pairs(bag, tables, folder).items():
-        costs: tuple[list[Cost], list[Cost]] = ([], [])
+def compared(large: Given, tiny: Given, folder: Path) -> Iterator[Row]:
+    """Yield what each command took, beside the peer's."""
+    peak = 0
+    for (what, both), starts in zip(
+        commands(large, folder).items(), commands(tiny, folder).values(), strict=True
+    ):
+        costs: list[list[Cost]] = [[] for _ in range(4)]
         for _ in range(ROUNDS):
-            for command, found in zip(both, costs, strict=True):
+            for command, found in zip((*both, *starts), costs, strict=True):
                 shutil.rmtree(folder, ignore_errors=True)
                 folder.mkdir()
                 found.append(cost(*command))
-        ours, theirs = (
-            median(one.processor for one in found) - starts[str(command[0])]
-            for command, found in zip(both, costs, strict=True)
-        )
+        ours, theirs, *least = (median(one.processor for one in found) for found in costs)
         wall = [median(one.wall for one in found) for found in costs]
-        peak = [max(one.peak for one in found) for found in costs]
-        print(
-            f'{what:20} {ours:6.2f} s, {both[1][0]} {theirs:6.2f} s: {theirs / ours:.1f} times; '
-            f'wall {wall[0]:.2f} and {wall[1]:.2f} s; peak {peak[0]} and {peak[1]} MiB'
-        )
+        peer, target = str(both[1][0]), TARGETS[what.split()[0]]
+        peak = max([peak, *(one.peak for one in costs[0])])
+        yield Row(f'{what}, processor', ours, peer, theirs, target)
+        yield Row('..., without the start', ours - least[0], peer, theirs - least[1], target)
+        yield Row('..., on the wall', wall[0], peer, wall[1], target)
+    yield Row('peak memory of all these, MiB', peak, target='256', plain=True)
 
 
-def cut(bag: Path, folder: Path) -> None:
-    """Print what ten seconds in the middle of a bag cost after it was opened."""
+def cut(bag: Path, folder: Path) -> Iterator[Row]:
+    """Yield what ten seconds in the middle of a bag cost after it was opened."""
+    took, used = [], []
     for _ in range(ROUNDS):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         with BagReader(bag) as reader:
             start = (reader.start + reader.end) // 2
-            begin, used = time.perf_counter(), time.process_time()
+            begin, processor = time.perf_counter(), time.process_time()
             edit(
                 [reader], folder / 'cut', Edit(spans=((start, start + 10 * SECOND),), latched=True)
             )
-            took = time.perf_counter() - begin
-        print(f'cut 10 s: {took:.3f} s, {time.process_time() - used:.3f} s of the processor')
+            took.append(time.perf_counter() - begin)
+            used.append(time.process_time() - processor)
+    yield Row('cut 10 s, processor', median(used), target='0.5 s')
+    yield Row('..., on the wall', median(took), target='0.5 s')
 
 
-def index(folder: Path) -> None:
-    """Print what an index of many bags costs, and a look at it when nothing is new."""
+def index(folder: Path) -> Iterator[Row]:
+    """Yield what an index of many bags costs, and a look at it when nothing is new."""
     folder.mkdir()
     for number in range(BAGS):
         write(folder / f'{number}', 1.0)
-    start = median(cost(AGV, 'bag', 'index', '-h').processor for _ in range(ROUNDS))
-    first, again = (cost(AGV, 'bag', 'index', folder).processor - start for _ in range(2))
-    print(f'index of {BAGS} bags: {first:.2f} s of the processor; again {again:.2f} s')
+    first, again = (cost(AGV, 'bag', 'index', folder).processor for _ in range(2))
+    yield Row(f'index of {BAGS} bags, processor', first)
+    yield Row('..., of which none is new', again)
 
 
-def written(folder: Path) -> None:
-    """Print what messages cost on their way into a bag, beside foxglove-sdk's writer in Rust."""
+def written(folder: Path) -> Iterator[Row]:
+    """Yield what messages cost on their way into a bag, beside foxglove-sdk's writer in Rust."""
     data = [bytes([i % 251]) * SIZE for i in range(MESSAGES)]
     used: tuple[list[float], list[float]] = ([], [])
     for _ in range(ROUNDS):
@@ -186,11 +214,8 @@ def written(folder: Path) -> None:
             begin = time.process_time()
             act(folder, data)
             found.append(time.process_time() - begin)
-    ours, theirs = map(median, used)
-    print(
-        f'write {MESSAGES} messages: {ours:.3f} s of the processor, foxglove-sdk {theirs:.3f} s: '
-        f'{theirs / ours:.2f} times'
-    )
+    what = f'{MESSAGES} messages written, processor'
+    yield Row(what, median(used[0]), 'foxglove-sdk', median(used[1]), 'ratio 1')
 
 
 def _ours(folder: Path, data: list[bytes]) -> None:
@@ -210,13 +235,21 @@ def _foxglove(folder: Path, data: list[bytes]) -> None:
             topic.log(content, log_time=1000 * SECOND + i * SECOND // 1000)
 
 
-if __name__ == '__main__':
+def rows(megabytes: float = 300.0) -> list[Row]:
+    """Measure everything."""
     place = Path(tempfile.mkdtemp(prefix='agv_motion_'))
     try:
-        write(place / 'bag', float(sys.argv[1]) if len(sys.argv) > 1 else 300.0)
-        cut(place / 'bag', place / 'new')
-        compared(place / 'bag', place / 'new')
-        written(place / 'new')
-        index(place / 'season')
+        for name in ('large', 'tiny'):
+            (place / name).mkdir()
+        large, tiny = given(place / 'large', megabytes), given(place / 'tiny', 0.001)
+        new = place / 'new'
+        return [
+            *cut(large.bag, new), *compared(large, tiny, new), *written(new),
+            *index(place / 'season'),
+        ]  # fmt: skip
     finally:
         shutil.rmtree(place)
+
+
+if __name__ == '__main__':
+    show(rows(*map(float, sys.argv[1:2])))

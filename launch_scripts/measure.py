@@ -1,13 +1,17 @@
-"""What the benchmarks share: one row of the table, and the median time of a call."""
+"""What the benchmarks share: one row of the table, the table, and the median time of a call."""
 
 from __future__ import annotations
 
 import statistics
+import sys
 import time
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rich.console import Console
+from rich.table import Table
+
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
 
 class Row(NamedTuple):
@@ -34,3 +38,24 @@ def per_call(
             act()
         times.append((clock() - begin) / calls)
     return statistics.median(times)
+
+
+def shown(seconds: float) -> str:
+    """Return a time in the unit that suits it."""
+    for unit, factor in (('s', 1.0), ('ms', 1e3), ('us', 1e6)):
+        if seconds * factor >= 1.0:
+            return f'{seconds * factor:.2f} {unit}'
+    return f'{seconds * 1e9:.2f} ns'
+
+
+def show(rows: Iterable[Row]) -> None:
+    """Print the table."""
+    table = Table(title='Ours beside the peer; medians', title_justify='left')
+    for column in ('what', 'ours', 'peer', 'theirs', 'ours / theirs', 'target'):
+        table.add_column(column)
+    for row in rows:
+        ours = f'{row.ours:.3g}' if row.plain else shown(row.ours)
+        theirs = f'{row.theirs:.3g}' if row.plain else shown(row.theirs)
+        beside = (theirs, f'{row.ours / row.theirs:.2f}') if row.peer else ('', '')
+        table.add_row(row.what, ours, row.peer, *beside, row.target)
+    Console(width=None if sys.stdout.isatty() else 130).print(table)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from stat import S_ISREG
 from typing import TYPE_CHECKING
 
 from agv_motion.bag.mcap.records import MAGIC
@@ -56,8 +57,11 @@ def kind(path: Path) -> str:
 
 def _beginning(path: Path) -> bytes:
     try:
-        with path.open('rb') as file:
-            return file.read(_TAR_AT + len(_TAR))
+        if S_ISREG(path.stat().st_mode):
+            with path.open('rb') as file:
+                return file.read(_TAR_AT + len(_TAR))
     except OSError as error:
         msg = f'{path} cannot be read: {error.strerror}'
         raise SourceError(msg) from error
+    msg = f'{path} is no file, but a pipe or a device: give a bag'  # one may wait for ever
+    raise SourceError(msg)

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 NAME = 'notes.jsonl'
 LONGEST = 1000
 """characters of a note"""
+_JOINER = '\u200d'
+"""between the pictures that make one emoji"""
 _MOST = 1 << 26
 """[bytes] of a file of notes that are read"""
 
@@ -39,8 +41,7 @@ class Note(NamedTuple):
 
 def one_line(text: str) -> str:
     """Return what somebody wrote as a note can hold it: printable, on one line, not too long."""
-    printable = ''.join(c if c.isprintable() else ' ' for c in text)
-    return ' '.join(printable.split())[:LONGEST]
+    return _printable(text)[:LONGEST]
 
 
 def notes_of(bag: Path) -> list[Note]:
@@ -114,8 +115,13 @@ def _place(bag: Path) -> Path:
     return bag.with_name(f'{bag.name}.{NAME}')
 
 
+def _printable(text: str) -> str:
+    """Return a text on one line, without what moves a cursor or turns the direction of writing."""
+    return ' '.join(''.join(c if c.isprintable() or c == _JOINER else ' ' for c in text).split())
+
+
 def _line(note: Note) -> bytes:
-    text = ' '.join(note.text.split())
+    text = _printable(note.text)
     if not 0 < len(text) <= LONGEST:
         msg = f'a note of {len(text)} characters: expected 1 to {LONGEST}'
         raise ConfigurationError(msg)
@@ -134,4 +140,4 @@ def _parsed(line: bytes) -> Note | None:
     except (ValueError, LookupError, TypeError, RecursionError):
         return None
     fits = type(stamp) is int and isinstance(text, str) and 0 <= stamp < 2**64
-    return Note(stamp, ' '.join(text.split())[:LONGEST]) if fits else None
+    return Note(stamp, one_line(text)) if fits else None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from agv_motion.bag.file_kind import MCAP, SQLITE, ZSTD, kind
@@ -47,3 +49,9 @@ def test_what_is_something_else_is_told_with_its_remedy(tmp_path, data, remedy):
 def test_what_is_not_there_is_told(tmp_path):
     with pytest.raises(SourceError, match='cannot be read: No such file'):
         kind(tmp_path / 'nothing.mcap')
+
+
+def test_nobody_waits_for_a_pipe(tmp_path):
+    os.mkfifo(tmp_path / 'pipe.mcap')
+    with pytest.raises(SourceError, match=r'pipe\.mcap is no file, but a pipe or a device'):
+        kind(tmp_path / 'pipe.mcap')

@@ -7,7 +7,7 @@ import os
 import pytest
 
 from agv_motion.bag import notes as module
-from agv_motion.bag.notes import Note, add_note, carry, notes_of, one_line
+from agv_motion.bag.notes import NAME, Note, add_note, carry, notes_of, one_line
 from agv_motion.errors import ConfigurationError, SourceError
 
 
@@ -93,3 +93,12 @@ def test_what_somebody_wrote_becomes_one_line():
     assert one_line(' rain\n\x1b[31m began ') == 'rain [31m began'
     assert one_line('\n') == ''
     assert len(one_line('x' * 5000)) == 1000
+
+
+def test_no_note_moves_a_cursor_or_turns_the_writing_whoever_wrote_it(tmp_path):
+    add_note(tmp_path, Note(1, 'two\n\x1b[2J\u202e\0lines \udcff 👨\u200d🌾'))
+    (tmp_path / NAME).open('a').write('{"stamp": 2, "text": "a\\u001b[2J\\nb"}\n')
+    told = [Note(1, 'two [2J lines 👨\u200d🌾'), Note(2, 'a [2J b')]
+    assert notes_of(tmp_path) == told
+    with pytest.raises(ConfigurationError, match='a note of 0 characters'):
+        add_note(tmp_path, Note(1, '\x1b\0'))

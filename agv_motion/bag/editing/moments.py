@@ -9,6 +9,7 @@ from decimal import Decimal
 from agv_motion.errors import ConfigurationError
 
 SECOND = 10**9
+_DAY = 86400 * SECOND
 _NUMBER = r'\d{1,12}(?:\.\d{1,9})?'
 _OFFSET = re.compile(rf'([+-]?)({_NUMBER})\s*s?')
 _ABSOLUTE = re.compile(rf'@({_NUMBER})')
@@ -56,7 +57,7 @@ def moment(text: str, start: int, end: int) -> int:
 
 
 def _clock(found: re.Match[str], start: int, end: int) -> int:
-    """Return a date with time, or a time on the day of the bag."""
+    """Return a date with time, or a time of day in the bag, before it or after it."""
     year, month, day, hour, minute, seconds, name = found.groups()
     zone = _zone(name or '')
     begin = datetime.fromtimestamp(start // SECOND, zone)
@@ -64,8 +65,10 @@ def _clock(found: re.Match[str], start: int, end: int) -> int:
     rest = Decimal(seconds or 0)
     moment = datetime(*date, int(hour), int(minute), int(rest), tzinfo=zone)
     stamp = int(moment.timestamp()) * SECOND + int(rest % 1 * SECOND)
-    while not year and stamp < start and stamp + 86400 * SECOND <= end:  # beyond midnight
-        stamp += 86400 * SECOND
+    if not year:  # the day on which the bag has such a time, else the one that is closest to it
+        stamp += max(-((stamp - start) // _DAY), 0) * _DAY
+        if start - (stamp - _DAY) < stamp - end:
+            stamp -= _DAY
     return max(stamp, 0)
 
 

@@ -150,9 +150,10 @@ class EditRequest:
             msg = f"from '{self.begin}' to '{self.end}': expected the earlier one first"
             raise ConfigurationError(msg)
         if (self.begin or self.end) and not (first <= end and stop > start):
+            since, until = f'@{_seconds(start)}', f'@{_seconds(end)}'
             msg = (
-                f"nothing was recorded from '{self.begin or start}' to '{self.end or end}': "
-                f'{bags[0].path} reaches from @{_seconds(start)} to @{_seconds(end)}'
+                f"nothing was recorded from '{self.begin or since}' to '{self.end or until}': "
+                f'{bags[0].path} reaches from {since} to {until}'
             )
             raise ConfigurationError(msg)
         if not self.around:

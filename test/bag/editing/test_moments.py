@@ -39,6 +39,15 @@ def test_a_time_of_day_after_midnight_is_of_the_next_day():
     assert moment('01:30+02:00', start, end) == at(2024, 5, 3, 23, 30)
 
 
+def test_a_time_of_day_that_no_day_of_the_bag_has_is_the_closest():
+    start, end = at(2024, 5, 3, 23, 50), at(2024, 5, 4, 0, 5)
+    assert moment('00:10', start, end) == at(2024, 5, 4, 0, 10)
+    assert moment('23:40', start, end) == at(2024, 5, 3, 23, 40)
+    start, end = at(2024, 5, 4, 0, 10), at(2024, 5, 4, 0, 30)
+    assert moment('23:00', start, end) == at(2024, 5, 3, 23, 0)
+    assert moment('12:00', start, at(2024, 5, 7)) == at(2024, 5, 4, 12, 0)
+
+
 def test_the_day_is_that_of_the_place_that_is_named():
     start, end = at(2024, 5, 3, 23, 30), at(2024, 5, 4, 1, 0)
     assert moment('01:45+02:00', start, end) == at(2024, 5, 3, 23, 45)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import random
 from contextlib import closing
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from agv_motion.bag.damage import DamagedBagError
@@ -143,7 +143,7 @@ def in_memory(path):
 @pytest.mark.parametrize('compression', ['', 'zstd'])
 @pytest.mark.parametrize('size', [1000, 300_000])
 def test_what_was_read_of_a_file_stays_in_no_memory(tmp_path, compression, size):
-    noise = random.Random(1).randbytes(size)
+    noise = np.random.default_rng(1).bytes(size)
     writer = McapWriter(tmp_path / 'large.mcap', compression)
     writer.add_topic(TOPICS[0])
     for stamp in range(6_000_000 // size):
