@@ -62,7 +62,12 @@ class OfferedQos(NamedTuple):
 
     @classmethod
     def from_entries(cls, entries: dict[str, Any]) -> OfferedQos:
-        """Return a profile from what rosbag2 wrote, of any version."""
+        """Return a profile from what rosbag2 wrote, of any version.
+
+        Raises:
+            ArithmeticError, AttributeError, LookupError, TypeError, ValueError: It is none.
+
+        """
         words: dict[str, Any] = {key: _word(key, entries[key]) for key in WORDS if key in entries}
         times: dict[str, Any] = {
             field: nanoseconds(entries[key])
@@ -72,7 +77,10 @@ class OfferedQos(NamedTuple):
             )
             if key in entries
         }
-        return cls(depth=int(entries.get('depth', 10)), **words, **times)
+        depth = int(entries.get('depth', 10))
+        if not 0 <= depth < 2**63:
+            raise ValueError(depth)
+        return cls(depth=depth, **words, **times)
 
     def entries(self) -> dict[str, Any]:
         """Return what rosbag2 writes, in its order."""
@@ -111,4 +119,4 @@ def nanoseconds(time: dict[str, int]) -> int:
 
 
 def _word(key: str, value: Any) -> str:
-    return str(WORDS[key][value] if isinstance(value, int) else value)
+    return WORDS[key][value if isinstance(value, int) else WORDS[key].index(value)]

@@ -123,7 +123,9 @@ class BagReader:
             if topic not in self.topics:
                 close = get_close_matches(topic, self.topics)
                 hint = (
-                    f"did you mean '{close[0]}'?" if close else f'it has {", ".join(self.topics)}'
+                    f"did you mean '{close[0]}'?"
+                    if close
+                    else f'it has {", ".join(self.topics) or "none"}'
                 )
                 msg = f"bag {self.path} has no topic '{topic}'; {hint}"
                 raise ConfigurationError(msg)

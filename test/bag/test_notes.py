@@ -97,7 +97,8 @@ def test_what_somebody_wrote_becomes_one_line():
 
 def test_no_note_moves_a_cursor_or_turns_the_writing_whoever_wrote_it(tmp_path):
     add_note(tmp_path, Note(1, 'two\n\x1b[2J\u202e\0lines \udcff 👨\u200d🌾'))
-    (tmp_path / NAME).open('a').write('{"stamp": 2, "text": "a\\u001b[2J\\nb"}\n')
+    with (tmp_path / NAME).open('a') as file:
+        file.write('{"stamp": 2, "text": "a\\u001b[2J\\nb"}\n')
     told = [Note(1, 'two [2J lines 👨\u200d🌾'), Note(2, 'a [2J b')]
     assert notes_of(tmp_path) == told
     with pytest.raises(ConfigurationError, match='a note of 0 characters'):

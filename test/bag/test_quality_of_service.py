@@ -62,3 +62,8 @@ def test_latched_publishers_keep_their_depth():
 )  # fmt: skip
 def test_nought_and_what_is_beyond_mean_no_limit(time, ns):
     assert nanoseconds(time) == ns
+
+
+@pytest.mark.parametrize('entry', ['reliability: perhaps', 'depth: -5', f'depth: {10**30}'])
+def test_what_no_reader_of_ros_takes_is_not_handed_on(entry):
+    assert OfferedQos.from_yaml(f'- {entry}') == ()

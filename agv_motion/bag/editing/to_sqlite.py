@@ -19,7 +19,7 @@ from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.mcap.output import McapOutput
 from agv_motion.bag.sqlite.writer import SqliteWriter
-from agv_motion.errors import SignalError, SourceError
+from agv_motion.errors import SignalError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -47,6 +47,7 @@ def edit_to_sqlite(
 
     Raises:
         SignalError: A time lies beyond what sqlite3 can hold, the year 2262.
+        OSError: The disk takes no more.
 
     """
     require_sound(bags, whole=what.spans is None)
@@ -61,8 +62,7 @@ def edit_to_sqlite(
         told = made.described()
         writer.close(metadata.inside_mcap(told))
     except sqlite3.Error as error:
-        msg = f'{folder} cannot be written ({error}): choose another place'
-        raise SourceError(msg) from error
+        raise OSError(str(error)) from error
     finally:
         writer.abandon()
     _keep(bags, folder)

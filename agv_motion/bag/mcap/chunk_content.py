@@ -81,7 +81,10 @@ def stored_content(
     end = chunk.offset + chunk.length
     body = chunk.offset + records.PREFIX.size
     head = parsing.chunk_head(parsing.Body(data[body:end], path, body), body)
-    ratio = RATIOS.get(head.compression, 1)
+    ratio = RATIOS.get(head.compression)
+    if ratio is None:
+        finding = f"a chunk compressed by {head.compression[:50]!r}, expected '', 'lz4' or 'zstd'"
+        raise DamagedBagError(path, chunk.offset, finding)
     if head.size > min(LARGEST, head.stored * ratio):
         finding = (
             f'a chunk of {head.size} bytes out of {head.stored}, expected at most {LARGEST}, '

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import record_parsing as parsing
 from agv_motion.bag.mcap import records
@@ -98,6 +100,7 @@ def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
         walk.messages += chunk.indexed_messages
         position = chunk.offset + chunk.length + chunk.index_length
     statistics = summary.statistics
+    walk.require_described()
     whole = walk.stretch(position, len(data)) and not walk.problems
     if not whole or statistics is None or statistics.messages != walk.messages:
         return None
@@ -158,6 +161,8 @@ class _Walk:
         self.chunks: list[Chunk] = []
         self.problems: list[DamagedBagError] = []
         self.messages = 0
+        self._first: dict[int, int] = {}
+        """of the channel of each message where the first one lies [bytes]"""
 
     def through(self) -> None:
         """Walk from the first record to the end of the data, or to where the file is torn."""
@@ -165,6 +170,14 @@ class _Walk:
         if not whole:
             self._torn(end)
         self._learn()
+        self.require_described()
+
+    def require_described(self) -> None:
+        """Note messages of channels that nothing describes: nobody can read them."""
+        for channel, at in self._first.items():
+            if channel not in self.described.channels:
+                finding = f'here, messages of channel {channel}, which is not described'
+                self.problems.append(DamagedBagError(self._path, at, finding))
 
     def stretch(self, position: int, end: int) -> bool:
         """Walk from one byte to another; return whether whole records fill that, or data ends."""
@@ -211,7 +224,8 @@ class _Walk:
 
     def _message(self, offset: int, end: int) -> None:
         """Add a message outside chunks to the stretch before it, or begin another stretch."""
-        stamp = records.MESSAGE_HEAD.unpack_from(self._data, offset)[4]
+        _, _, channel, _, stamp, _ = records.MESSAGE_HEAD.unpack_from(self._data, offset)
+        self._first.setdefault(channel, offset)
         self.messages += 1
         last = self.chunks[-1] if self.chunks else None
         if last and last.bare and last.offset + last.length == offset and last.length < STRETCH:
@@ -242,6 +256,8 @@ class _Walk:
         """Look into chunks of which something is not known: a channel, a schema, what they hold."""
         described = self.described.has
         for number, chunk in enumerate(self.chunks):
+            for channel in chunk.indexes or ():
+                self._first.setdefault(channel, chunk.offset)
             if chunk.bare or (chunk.indexes and all(map(described, chunk.indexes))):
                 continue
             try:
@@ -257,9 +273,12 @@ class _Walk:
     def _counted(self, chunk: Chunk, inside: parsing.Buffer) -> Chunk:
         """Return a chunk that is to be read without its index, with the times of its messages."""
         try:
-            stamps = heads(inside, message_offsets(inside))['stamp']
+            found = heads(inside, message_offsets(inside))
         except ValueError:
             return chunk._replace(indexes=None)
+        stamps = found['stamp']
+        for channel in np.unique(found['channel']).tolist():
+            self._first.setdefault(channel, chunk.offset)
         if chunk.indexes is None:
             self.messages += len(stamps)
         if not len(stamps):

@@ -114,3 +114,10 @@ def test_how_many_messages_indexes_tell_of():
     assert not chunk._replace(indexes={}).filled
     assert chunk._replace(indexes=None).filled
     assert chunk._replace(indexes=None).indexed_messages == 0
+
+
+def test_a_compression_that_is_none_of_mcap_is_named():
+    data, chunk = file_with('zstd')
+    data = memoryview(bytes(data).replace(b'zstd', b'zlib', 1))
+    with pytest.raises(DamagedBagError, match="a chunk compressed by 'zlib', expected '', 'lz4'"):
+        content(data, chunk, PATH, validate=True)

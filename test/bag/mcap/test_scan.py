@@ -6,7 +6,7 @@ import pytest
 
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.chunk_content import content, message_offsets
-from agv_motion.bag.mcap.record_parsing import walk
+from agv_motion.bag.mcap.record_parsing import Body, chunk_head, walk
 from agv_motion.bag.mcap.scan import look, scan
 from agv_motion.bag.mcap.summary import read
 from agv_motion.bag.mcap.writer import McapWriter
@@ -116,3 +116,23 @@ def test_channels_that_are_described_inside_of_a_chunk_only_are_found(tmp_path):
     assert found.channels[9].topic == '/inside'
     assert found.schemas[4].name == 'a/msg/A'
     assert found.problems == []
+
+
+@pytest.mark.parametrize('lost', [{records.MESSAGE_INDEX}, set()])
+@pytest.mark.parametrize('chunked', [True, False])
+def test_messages_of_a_channel_that_nothing_describes_are_told(file, lost, chunked):
+    """Readers ask for topics: without a problem such messages would be gone in silence."""
+    whole, kept = file.read_bytes(), [records.MAGIC]
+    for opcode, at, end in walk(whole, len(records.MAGIC), len(whole)):
+        record = whole[at - records.PREFIX.size : end]
+        if opcode == records.CHUNK and not chunked:
+            head = chunk_head(Body(whole[at:end], file, at), at)
+            record = whole[head.content : end]
+        second = opcode == records.CHANNEL and whole[at : at + 2] == b'\2\0'
+        if not second and opcode not in lost:
+            kept.append(record)
+        if opcode == records.DATA_END:
+            break
+    found = look(memoryview(b''.join(kept)), file)
+    assert list(found.channels) == [1]
+    assert 'messages of channel 2, which is not described' in str(found.problems[0])
