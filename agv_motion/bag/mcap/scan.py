@@ -100,8 +100,8 @@ def between(data: memoryview, path: Path, summary: Summary) -> Summary | None:
         walk.messages += chunk.indexed_messages
         position = chunk.offset + chunk.length + chunk.index_length
     statistics = summary.statistics
-    walk.require_described()
     whole = walk.stretch(position, len(data)) and not walk.problems
+    whole = whole and not described.missing()
     if not whole or statistics is None or statistics.messages != walk.messages:
         return None
     return Summary(described.schemas, described.channels, walk.chunks, statistics)
@@ -136,6 +136,7 @@ class _Descriptions:
         self._path = path
         self.schemas: dict[int, records.Schema] = {}
         self.channels: dict[int, records.Channel] = {}
+        self._needed: dict[int, int] = {}
 
     def take(self, opcode: int, data: parsing.Buffer, at: int) -> None:
         """Take up a record, if it is a schema or a channel; ``at`` tells where, for errors."""
@@ -145,6 +146,19 @@ class _Descriptions:
         elif opcode == records.CHANNEL:
             channel = parsing.channel(parsing.Body(data, self._path, at))
             self.channels.setdefault(channel.id, channel)
+
+    def need(self, channel_id: int, at: int) -> None:
+        """Note a message of a channel, and where it lies [bytes]."""
+        self._needed.setdefault(channel_id, at)
+
+    def missing(self) -> list[DamagedBagError]:
+        """Return where messages lie of channels that nothing describes: nobody can read them."""
+        finding = 'here, messages of channel {}, which is not described'
+        return [
+            DamagedBagError(self._path, at, finding.format(channel))
+            for channel, at in self._needed.items()
+            if channel not in self.channels
+        ]
 
     def has(self, channel_id: int) -> bool:
         """Return whether a channel is described, and its schema too."""
@@ -161,8 +175,6 @@ class _Walk:
         self.chunks: list[Chunk] = []
         self.problems: list[DamagedBagError] = []
         self.messages = 0
-        self._first: dict[int, int] = {}
-        """of the channel of each message where the first one lies [bytes]"""
 
     def through(self) -> None:
         """Walk from the first record to the end of the data, or to where the file is torn."""
@@ -170,14 +182,7 @@ class _Walk:
         if not whole:
             self._torn(end)
         self._learn()
-        self.require_described()
-
-    def require_described(self) -> None:
-        """Note messages of channels that nothing describes: nobody can read them."""
-        for channel, at in self._first.items():
-            if channel not in self.described.channels:
-                finding = f'here, messages of channel {channel}, which is not described'
-                self.problems.append(DamagedBagError(self._path, at, finding))
+        self.problems += self.described.missing()
 
     def stretch(self, position: int, end: int) -> bool:
         """Walk from one byte to another; return whether whole records fill that, or data ends."""
@@ -225,7 +230,7 @@ class _Walk:
     def _message(self, offset: int, end: int) -> None:
         """Add a message outside chunks to the stretch before it, or begin another stretch."""
         _, _, channel, _, stamp, _ = records.MESSAGE_HEAD.unpack_from(self._data, offset)
-        self._first.setdefault(channel, offset)
+        self.described.need(channel, offset)
         self.messages += 1
         last = self.chunks[-1] if self.chunks else None
         if last and last.bare and last.offset + last.length == offset and last.length < STRETCH:
@@ -257,7 +262,7 @@ class _Walk:
         described = self.described.has
         for number, chunk in enumerate(self.chunks):
             for channel in chunk.indexes or ():
-                self._first.setdefault(channel, chunk.offset)
+                self.described.need(channel, chunk.offset)
             if chunk.bare or (chunk.indexes and all(map(described, chunk.indexes))):
                 continue
             try:
@@ -278,7 +283,7 @@ class _Walk:
             return chunk._replace(indexes=None)
         stamps = found['stamp']
         for channel in np.unique(found['channel']).tolist():
-            self._first.setdefault(channel, chunk.offset)
+            self.described.need(channel, chunk.offset)
         if chunk.indexes is None:
             self.messages += len(stamps)
         if not len(stamps):
