@@ -47,7 +47,7 @@ class TableForm(NamedTuple):
         column that is not there any more is at -1.
         """
         times = self.names[: len(self.time)]
-        if not times or not all(name in line.text for name in times if not name.isdecimal()):
+        if not times or times[0] not in line.text:
             return None
         cells = _names(line.text, self.delimiter, comment)
         at = [_place(name, cells) for name in self.names]
