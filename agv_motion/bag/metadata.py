@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import yaml
-
 from agv_motion.files import yaml_text
 
 if TYPE_CHECKING:
@@ -86,13 +84,13 @@ def describe(
         'custom_data': None,
         'ros_distro': ros_distro,
     }
-    return yaml.safe_dump({'rosbag2_bagfile_information': entries}, sort_keys=False)
+    return yaml_text.dump({'rosbag2_bagfile_information': entries})
 
 
 def inside_mcap(description: str) -> str:
     """Return a description as rosbag2 repeats it inside an MCAP file."""
     entries = yaml_text.plain(description, FILE_NAME, ENTRIES)['rosbag2_bagfile_information']
-    return yaml.safe_dump(entries, sort_keys=False)
+    return yaml_text.dump(entries)
 
 
 def save(bag: Path, description: str) -> None:

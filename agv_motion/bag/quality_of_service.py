@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import yaml
-
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 
@@ -105,7 +103,7 @@ def kept(profiles: Iterable[OfferedQos]) -> int:
 def as_yaml(profiles: Iterable[OfferedQos]) -> str:
     """Return the profiles of a topic's publishers as a channel keeps them."""
     entries = [profile.entries() for profile in profiles]
-    return yaml.safe_dump(entries, sort_keys=False) if entries else ''
+    return yaml_text.dump(entries) if entries else ''
 
 
 def _time(nanoseconds: int) -> dict[str, int]:

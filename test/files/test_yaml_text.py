@@ -7,7 +7,8 @@ from contextlib import suppress
 from math import inf, isnan
 
 import pytest
-from hypothesis import given
+import yaml
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
@@ -18,6 +19,7 @@ NINE = 'a: &a [x,x,x,x,x,x,x,x,x]\n' + ''.join(
     for old, new in zip('abcdefg', 'bcdefgh', strict=False)
 )
 """9 to the 8th values of 9 that stand there."""
+WRITTEN = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text()
 
 
 def test_what_plain_scalars_mean():
@@ -99,3 +101,13 @@ def test_a_file_is_named_and_an_empty_one_is_told(tmp_path):
     path.write_text('\n')
     with pytest.raises(ConfigurationError, match=r'f\.yaml: the file is empty'):
         yaml_text.load(path)
+
+
+@settings(max_examples=20)
+@given(st.lists(st.dictionaries(st.text(), WRITTEN, max_size=3), max_size=3))
+def test_what_is_written_is_read_back(content):
+    assert yaml.safe_load(yaml_text.dump(content)) == content
+
+
+def test_entries_stay_in_order():
+    assert yaml_text.dump({'b': [1, {'c': None}], 'a': 'x'}) == 'b:\n- 1\n- c: null\na: x\n'
