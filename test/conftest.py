@@ -276,7 +276,7 @@ def recorded(tmp_path_factory):
     from agv_motion.reprocess.simulated_tree import record_simulated_tree
 
     folder = tmp_path_factory.mktemp('recorded')
-    record_simulated_tree(folder / 'a', 60)
+    record_simulated_tree(folder / 'a', 20)
     record_simulated_tree(folder / 'c', 30, seed=2)
     (folder / 'b').mkdir()
     (folder / 'b' / 'b_0.mcap').write_bytes(b'no bag')
