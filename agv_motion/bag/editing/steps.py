@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from agv_motion.bag.columns.message_batches import unpack_message
+from agv_motion.bag.editing.blocks import blocks_ahead
 from agv_motion.bag.editing.picking import Picked, Wanted, pick
-from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap.message_heads import HEAD, headed
 from agv_motion.errors import SignalError
 
 if TYPE_CHECKING:
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 CHUNK = 1 << 20
 """[bytes] of a new chunk, about"""
 _ALL = (0, 2**64)
-_HEAD_BODY = records.MESSAGE_HEAD.size - records.PREFIX.size
 
 
 class EditSource(NamedTuple):
@@ -146,22 +146,11 @@ def ids_of(sources: Iterable[EditSource]) -> dict[Connection, int]:
 
 
 def stream(messages: Iterable[Message], ids: Mapping[Connection, int]) -> Iterator[Step]:
-    """Yield steps that make chunks of messages, which are read when the step is asked for."""
-    block: list[Message] = []
-    size = 0
-    for message in messages:
-        block.append(message)
-        size += len(message.data) + records.MESSAGE_HEAD.size
-        if size >= CHUNK:
-            yield _block_step(block, size, ids)
-            block, size = [], 0
-    if block:
-        yield _block_step(block, size, ids)
-
-
-def _block_step(block: list[Message], size: int, ids: Mapping[Connection, int]) -> Step:
-    work = partial(together, block, ids)
-    return Step(block[0].stamp, 2 * size, size, work, lambda: None)
+    """Yield steps that make chunks of messages, which are read one step ahead."""
+    for block in blocks_ahead(messages, CHUNK):
+        size = sum(len(message.data) + HEAD.itemsize for message in block)
+        work = partial(together, block, ids)
+        yield Step(block[0].stamp, 2 * size, size, work, lambda: None)
 
 
 def together(messages: Sequence[Message], ids: Mapping[Connection, int]) -> Picked:
@@ -171,19 +160,16 @@ def together(messages: Sequence[Message], ids: Mapping[Connection, int]) -> Pick
         SignalError: A number does not fit its field.
 
     """
-    parts, pack = [], records.MESSAGE_HEAD.pack
-    channels = [ids[message.connection] for message in messages]
-    for (_, stamp, data, publish, sequence), channel in zip(messages, channels, strict=True):
-        if not (0 <= stamp < 2**64 and 0 <= publish < 2**64):
-            msg = f'log time {stamp}, publish time {publish}: expected nanoseconds in [0, 2^64)'
+    connections, stamps, data, publishes, sequences = zip(*messages, strict=True)
+    for times, what in ((stamps, 'log'), (publishes, 'publish')):
+        if not 0 <= min(times) <= max(times) < 2**64:
+            msg = (
+                f'{what} times from {min(times)} to {max(times)}: expected nanoseconds in [0, 2^64)'
+            )
             raise SignalError(msg)
-        head = records.MESSAGE, _HEAD_BODY + len(data), channel, sequence & 0xFFFFFFFF
-        parts += [pack(*head, stamp, publish), data]
-    sizes = np.array([len(m.data) for m in messages], np.uint64)
-    sizes += np.uint64(records.MESSAGE_HEAD.size)
-    return Picked(
-        b''.join(parts),
-        np.array(channels, np.uint16),
-        np.array([m.stamp for m in messages], np.uint64),
-        np.cumsum(sizes) - sizes,
-    )
+    heads = np.zeros(len(data), HEAD)
+    heads['channel'] = [ids[connection] for connection in connections]
+    heads['stamp'], heads['publish'] = np.array(stamps, np.uint64), np.array(publishes, np.uint64)
+    heads['sequence'] = [sequence & 0xFFFFFFFF for sequence in sequences]
+    parts, offsets = headed(heads, data)
+    return Picked(b''.join(parts), heads['channel'].copy(), heads['stamp'].copy(), offsets)

@@ -7,7 +7,6 @@ last two go into a file beside it, ``extras.mcap``, which this package reads aga
 from __future__ import annotations
 
 import sqlite3
-from concurrent.futures import ThreadPoolExecutor
 from heapq import merge
 from itertools import chain
 from operator import attrgetter
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.bag import metadata
 from agv_motion.bag.bag_files import EXTRAS
+from agv_motion.bag.editing.blocks import blocks_ahead
 from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.mcap.output import McapOutput
@@ -31,10 +31,8 @@ if TYPE_CHECKING:
 
 LATEST = 2**63 - 1
 """[ns] Last time that sqlite3 can hold."""
-_BLOCK = 1 << 22
+_BLOCK = 1 << 21
 """[bytes] of messages that are handed over together"""
-_TOGETHER = 1000
-"""messages that are, at most"""
 
 
 def edit_to_sqlite(
@@ -56,7 +54,7 @@ def edit_to_sqlite(
     try:
         made = _Tables(writer, bags, what)
         total = sum(bag.message_count for bag in bags) or 1
-        for block in _ahead(_blocks(_messages(bags, what))):
+        for block in blocks_ahead(_messages(bags, what), _BLOCK):
             made.write(block)
             progress(min(made.messages / total, 1.0))
         told = made.described()
@@ -122,29 +120,6 @@ def _messages(bags: Sequence[BagReader], what: Edit) -> Iterator[Message]:
             for bag in bags
         ]
         yield from streams[0] if len(streams) == 1 else merge(*streams, key=attrgetter('stamp'))
-
-
-def _blocks(messages: Iterator[Message]) -> Iterator[list[Message]]:
-    """Yield some messages at a time, of which few are large."""
-    block: list[Message] = []
-    size = 0
-    for message in messages:
-        block.append(message)
-        size += len(message.data)
-        if size >= _BLOCK or len(block) >= _TOGETHER:
-            yield block
-            block, size = [], 0
-    if block:
-        yield block
-
-
-def _ahead(blocks: Iterator[list[Message]]) -> Iterator[list[Message]]:
-    """Yield the blocks; while one is written, another thread reads the next."""
-    with ThreadPoolExecutor(1) as pool:
-        coming = pool.submit(next, blocks, None)
-        while (block := coming.result()) is not None:
-            coming = pool.submit(next, blocks, None)
-            yield block
 
 
 def _keep(bags: Sequence[BagReader], folder: Path) -> None:

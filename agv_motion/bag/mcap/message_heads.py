@@ -9,6 +9,8 @@ import numpy as np
 from agv_motion.bag.mcap import records
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from agv_motion.bag.mcap.record_parsing import Buffer
@@ -47,3 +49,20 @@ def heads(unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD) -
         msg = f'no whole message at byte {int(places[int(wrong.argmax())])} of the content'
         raise ValueError(msg)
     return found
+
+
+def headed(heads: NDArray[Any], data: Sequence[bytes]) -> tuple[list[bytes], NDArray[np.uint64]]:
+    """Return heads and data in turn, as they are to lie in a chunk, and where each head begins.
+
+    Args:
+        heads: (n,) rows of ``HEAD``; opcode and length are filled in here.
+        data: (n,) messages.
+
+    """
+    sizes = np.fromiter(map(len, data), np.uint64, len(data)) + np.uint64(HEAD.itemsize)
+    heads['opcode'], heads['length'] = records.MESSAGE, sizes - np.uint64(records.PREFIX.size)
+    packed, size = heads.tobytes(), HEAD.itemsize
+    parts = [b''] * (2 * len(data))
+    parts[::2] = [packed[i : i + size] for i in range(0, len(packed), size)]
+    parts[1::2] = data
+    return parts, np.cumsum(sizes) - sizes

@@ -16,7 +16,7 @@ import numpy as np
 from agv_motion.bag.compression import compressor
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.checksum import crc32
-from agv_motion.bag.mcap.message_heads import HEAD
+from agv_motion.bag.mcap.message_heads import HEAD, headed
 from agv_motion.bag.mcap.output import McapOutput, NewChunk
 from agv_motion.bag.quality_of_service import as_yaml
 from agv_motion.errors import SignalError
@@ -112,23 +112,16 @@ class McapWriter(McapOutput):
     ) -> None:
         """Append messages that were sent when they were received, without a number of theirs."""
         heads = np.zeros(len(data), HEAD)
-        heads['opcode'], heads['channel'] = records.MESSAGE, channels
-        heads['length'] = np.fromiter(map(len, data), np.uint64, len(data))
-        ends = np.cumsum(heads['length'] + np.uint64(HEAD.itemsize)) + np.uint64(self.chunk_size)
-        offsets = ends - heads['length'] - np.uint64(HEAD.itemsize)
-        heads['length'] += np.uint64(_MESSAGE_BODY)
-        heads['stamp'] = heads['publish'] = stamps
-        packed, size = heads.tobytes(), HEAD.itemsize
-        parts = [b''] * (2 * len(data))
-        parts[::2] = [packed[i : i + size] for i in range(0, len(packed), size)]
-        parts[1::2] = data
+        heads['channel'], heads['stamp'], heads['publish'] = channels, stamps, stamps
+        parts, offsets = headed(heads, data)
+        offsets += np.uint64(self.chunk_size)
         self._parts += parts
         entries = np.column_stack((stamps, offsets))
         for channel in np.unique(channels).tolist():
             self._indexes[channel - 1].frombytes(entries[channels == channel].tobytes())
         if not self.chunk_size:
             self.chunk_start = int(stamps[0])
-        self.chunk_size = int(ends[-1])
+        self.chunk_size = int(offsets[-1]) + HEAD.itemsize + len(data[-1])
 
     def flush(self) -> None:
         """Hand the chunk being filled to the operating system, with its index."""

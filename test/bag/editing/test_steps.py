@@ -48,5 +48,5 @@ def test_a_stream_makes_chunks_of_about_a_mebibyte(sources):
 
 def test_a_time_that_no_file_can_hold_is_refused(sources):
     ids = ids_of(sources)
-    with pytest.raises(SignalError, match=r'log time -1'):
+    with pytest.raises(SignalError, match=r'log times from -1 to -1: expected'):
         together([Message(next(iter(ids)), -1, b'', 0, 0)], ids)
