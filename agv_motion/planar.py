@@ -14,6 +14,11 @@ from agv_motion.errors import SignalError
 SMALL_ANGLE = 1e-4
 """[rad] Below this the series of sin(a)/a and (1 - cos a)/a are exact to double precision."""
 
+STANDSTILL = 1e-9
+"""[m/s] A speed below this is none: rounding, which has no direction of its own."""
+
+THERE = 1.0 - 1e-12
+"""[-] Share of the way to a target that is all of it."""
 
 FARTHEST = 1e7
 """[m] of any place from the origin of its map, along each axis: as far as UTM goes."""

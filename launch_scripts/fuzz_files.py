@@ -150,7 +150,7 @@ def read_zone(path: Path) -> None:
     zone = load_zone(path)
     assert isfinite(zone.area)
     assert all(map(isfinite, zone.bounds))
-    zone.nearest_walkable(1.0, 2.0)
+    assert isfinite(zone.edge_distance(1.0, 2.0))
 
 
 class Line:

@@ -18,10 +18,7 @@ from typing import Annotated
 
 from agv_motion.errors import SignalError
 from agv_motion.parameters import Spec, check
-from agv_motion.planar import REST, Twist, require_finite
-
-THERE = 1.0 - 1e-12
-"""[-] Share of the way to the target that is all of it."""
+from agv_motion.planar import REST, THERE, Twist, require_finite
 
 
 @dataclass(frozen=True)

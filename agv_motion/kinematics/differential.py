@@ -18,15 +18,12 @@ from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError, SignalError
-from agv_motion.planar import Twist, require_finite
+from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
-
-SIDEWAYS = 1e-9
-"""[m/s] A sideways speed below this is rounding."""
 
 
 class WheelSpeeds(NamedTuple):
@@ -114,7 +111,7 @@ class DifferentialDrive:
         if not isfinite(left + right + vy):
             require_finite('twist', twist)
             require_finite('wheel speeds', (left, right))
-        if abs(vy) > SIDEWAYS:
+        if abs(vy) > STANDSTILL:
             msg = f'vy = {vy} m/s: a differential drive cannot go sideways, give vx and wz only'
             raise SignalError(msg)
         fastest = max(abs(left), abs(right))

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from agv_motion.errors import SignalError
-from agv_motion.kinematics.turrets import STANDSTILL
 from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
+from agv_motion.planar import STANDSTILL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

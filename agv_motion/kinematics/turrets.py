@@ -22,7 +22,7 @@ import numpy as np
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.kinematics.twist_fit import TwistFit
-from agv_motion.planar import Twist, require_finite
+from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,9 +33,6 @@ if TYPE_CHECKING:
 
     Column = NDArray[np.float64]
     T = TypeVar('T', float, Column)
-
-STANDSTILL = 1e-9
-"""[m/s] Below this speed a wheel has no direction of its own, so its turret keeps its angle."""
 
 
 class TurretCommand(NamedTuple):

@@ -20,16 +20,13 @@ from math import floor, inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import REST, Twist, require_finite
+from agv_motion.planar import REST, THERE, Twist, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.wheel_limits import WheelLimits
 
-
-THERE = 1.0 - 1e-12
-"""Share of the way to the target that is all of it."""
 
 NOTHING = 1e-12
 """[m/s] A change of rim speed that is none."""

@@ -14,7 +14,8 @@ from agv_motion.ros.qos import LATCHED
 from agv_motion.saved_state import set_aside
 
 if TYPE_CHECKING:
-    from agv_motion.motion.behavior.memory import Grid, Map, Mask, Memory
+    from agv_motion.motion.behavior.cells import Map, Mask
+    from agv_motion.motion.behavior.memory import Grid, Memory
     from agv_motion.nodes.motion_parameters import MotionGeneratorParameters
     from agv_motion.ros.port import Port
 
@@ -134,10 +135,10 @@ class MemoryStore:
         message = OccupancyGrid()
         message.header.frame_id = self._frame
         message.info.map_load_time = message.header.stamp
-        message.info.resolution = memory.parameters.cell
+        message.info.resolution = memory.cells.size
         message.info.height, message.info.width = memory.flow.shape
-        message.info.origin.position.x = memory.west
-        message.info.origin.position.y = memory.south
+        message.info.origin.position.x = memory.cells.west
+        message.info.origin.position.y = memory.cells.south
         return message
 
     def _publish(self, publisher: Any, values: Map, known: Mask) -> None:

@@ -10,8 +10,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError, SignalError
-from agv_motion.kinematics.turrets import STANDSTILL, Turrets, centre_of_rotation
-from agv_motion.planar import REST, Twist
+from agv_motion.kinematics.turrets import Turrets, centre_of_rotation
+from agv_motion.planar import REST, STANDSTILL, Twist
 
 TREE = Turrets([(1.18 * cos(a), 1.18 * sin(a)) for a in (-pi / 4, pi / 4, pi)])
 COORDINATE = st.floats(-3.0, 3.0)

@@ -105,7 +105,7 @@ def test_what_is_remembered_of_places_that_are_still_there_stays(make, tmp_path)
     tree.set(zone='{boundary: [[1, 1], [12, 1], [12, 12], [1, 12]], margin: 0.2, home: [4, 4]}')
     memory = tree.node.plain._tree.agent.memory  # noqa: SLF001
     assert memory is not before
-    assert memory.flow[memory.cell_of(5.1, 5.1)] == 0.75
+    assert memory.flow[memory.cells.cell_of(5.1, 5.1)] == 0.75
     tree.graph.stop()
     assert file.exists()
     assert (tmp_path / 'memory.other_zone').exists()

@@ -162,11 +162,6 @@ class Board:
             return now
         return self.time + max(now - self._heard_clock, 0.0)
 
-    def version_of(self, robot: str, slot: str) -> int:
-        """Return the version of a cell; 0 without one."""
-        cell = self.cells.get((robot, slot))
-        return 0 if cell is None else cell.version
-
     def _refresh(self, robot: RobotState, slot: Slot, now: float) -> None:
         """Make a slot anew if one of its topics has spoken."""
         entries = [robot.latest[topic] for topic in slot.sources if topic in robot.latest]

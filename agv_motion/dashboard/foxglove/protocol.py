@@ -23,7 +23,7 @@ CDR, DEFINITION = 'cdr', 'ros2msg'
 """How messages and their definitions are coded"""
 SECOND = 1_000_000_000
 
-_MESSAGE, _TIME, _ANSWER = Struct('<BIQ'), Struct('<BQ'), Struct('<BIII')
+_TIME, _ANSWER = Struct('<BQ'), Struct('<BIII')
 _ASSET, _STATE = Struct('<BIBI'), Struct('<BBQfBI')
 LONGEST = 1000
 """characters of a text that is told"""
@@ -128,11 +128,6 @@ def status(level: Severity, message: str, number: str = '') -> str:
     return _text(told | ({'id': number} if number else {}))
 
 
-def remove_status(numbers: Sequence[str]) -> str:
-    """Return that words hold no more."""
-    return _text({'op': 'removeStatus', 'statusIds': list(numbers)})
-
-
 def advertise(channels: Iterable[ChannelInfo]) -> str:
     """Return that there are channels."""
     rows = [
@@ -211,11 +206,6 @@ def graph_update(now: ConnectionGraph, before: ConnectionGraph = NO_GRAPH) -> st
     told['removedTopics'] = sorted(topics_before.keys() - topics.keys())
     told['removedServices'] = sorted(before.services.keys() - now.services.keys())
     return _text(told) if any(told[key] for key in told if key != 'op') else ''
-
-
-def message_data(subscription: int, stamp: int, data: bytes) -> bytes:
-    """Return a message of a topic, received at ``stamp`` [ns]."""
-    return _MESSAGE.pack(1, subscription, stamp) + data
 
 
 def time_data(stamp: int) -> bytes:

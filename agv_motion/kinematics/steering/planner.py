@@ -32,15 +32,12 @@ from agv_motion.kinematics.steering.at_rest import align, hold, may_roll, unwind
 from agv_motion.kinematics.steering.chassis import measure
 from agv_motion.kinematics.steering.rolling import roll
 from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
-from agv_motion.planar import Twist, require_finite
+from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.limits import SteeringLimits
     from agv_motion.kinematics.steering.state import Phase
     from agv_motion.kinematics.turrets import Turrets
-
-NEGLIGIBLE = 1e-9
-"""[m/s] A slower twist is none."""
 
 
 class SteeringPlanner:
@@ -95,7 +92,7 @@ class SteeringPlanner:
             raise SignalError(msg)
         a, b, c = vx - wz * y, vy + wz * x, wz * length
         size = sqrt(a * a + b * b + c * c)
-        wanted = (a / size, b / size, c / size) if size > NEGLIGIBLE else None
+        wanted = (a / size, b / size, c / size) if size > STANDSTILL else None
         if isinstance(phase, Rolling):
             phase = roll(chassis, phase, wanted, size, period)
         elif wanted is None:

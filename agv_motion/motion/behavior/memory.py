@@ -9,29 +9,22 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from math import ceil, floor
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 import shapely
 
-from agv_motion.errors import ConfigurationError, GeometryError
+from agv_motion.errors import ConfigurationError
 from agv_motion.kinematics.platform import PLATFORM_RADIUS
+from agv_motion.motion.behavior.cells import ZoneCells
 from agv_motion.parameters import Spec, check
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from agv_motion.motion.behavior.cells import Map, Mask
     from agv_motion.motion.navigation.zone import Zone
-
-    Map = NDArray[np.float64]
-    Mask = NDArray[np.bool_]
 
 NEVER = -np.inf
 """[s] the time of what has not happened."""
-
-LARGEST = 4_000_000
-"""Cells beyond which a grid is a mistake: a square of 500 m at 0.25 m."""
 
 CLOCK_STEP = 1.0
 """[s] A clock that falls back by more was set anew: what is remembered keeps its age."""
@@ -113,51 +106,17 @@ class Memory:
         self.parameters = given = parameters or MemoryParameters()
         self.reach = given.reach or max(rim, given.cell)
         """Cells so near to the trunk are visited [m]."""
-        self.west, self.south, east, north = zone.bounds
-        columns = ceil((east - self.west) / given.cell - 1e-9)
-        rows = ceil((north - self.south) / given.cell - 1e-9)
-        if rows * columns > LARGEST:
-            msg = f'memory.cell = {given.cell} m makes {rows} x {columns} cells: take larger ones'
-            raise GeometryError(msg)
-        self.x: Map = self.west + given.cell * (np.arange(columns, dtype=np.float64) + 0.5)
-        """(columns,) centres of the cells [m]"""
-        self.y: Map = self.south + given.cell * (np.arange(rows, dtype=np.float64) + 0.5)
-        """(rows,) centres of the cells [m]"""
-        x, y = np.meshgrid(self.x, self.y)
-        self.part = np.full((rows, columns), -1)
-        """(rows, columns) which walkable part of the zone a cell lies in; -1: in none"""
-        for i, part in enumerate(zone.parts):
-            self.part[shapely.intersects_xy(part, x, y)] = i
-        self.walkable: Mask = self.part >= 0
-        if not self.walkable.any():
-            msg = f'memory.cell = {given.cell} m: no cell fits into the zone; take smaller ones'
-            raise GeometryError(msg)
-        self.flow: Map = np.full((rows, columns), np.nan)
-        self.felt_at: Map = np.full((rows, columns), NEVER)
-        self.visited_at: Map = np.full((rows, columns), NEVER)
+        self.cells = ZoneCells(zone, given.cell)
+        shape = self.cells.part.shape
+        self.flow: Map = np.full(shape, np.nan)
+        self.felt_at: Map = np.full(shape, NEVER)
+        self.visited_at: Map = np.full(shape, NEVER)
         self.newest = NEVER
         """Time of the latest of what is remembered [s]."""
-        self._parts = np.array(zone.parts)
         self._zone = _digest(zone)
         self._stood: tuple[float, float] | None = None
         self._here: tuple[int, int] | None = None
-        self._under: tuple[Map, Mask] = self.visited_at[:0], self.walkable[:0]
-
-    def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
-        """Return row and column of a point [m]; None where the trunk cannot be."""
-        row = floor((y - self.south) / self.parameters.cell)
-        column = floor((x - self.west) / self.parameters.cell)
-        rows, columns = self.part.shape
-        if 0 <= row < rows and 0 <= column < columns and self.walkable[row, column]:
-            return row, column
-        return None
-
-    def part_at(self, x: float, y: float) -> int:
-        """Return the walkable part of the zone in which, or nearest to which, a point lies [m]."""
-        here = self.cell_of(x, y)
-        if here is not None:
-            return int(self.part[here])
-        return int(shapely.distance(self._parts, shapely.Point(x, y)).argmin())
+        self._under: tuple[Map, Mask] = self.visited_at[:0], self.cells.walkable[:0]
 
     def update(self, time: float, x: float, y: float, flow: float) -> None:
         """Write down that the tree stands at (x, y) [m] at ``time`` [s] and feels ``flow``."""
@@ -165,7 +124,9 @@ class Memory:
             self._set_back(self.newest - time)
         self.newest = max(time, self.newest)
         if (x, y) != self._stood:
-            self._stood, self._here, self._under = (x, y), self.cell_of(x, y), self._visited(x, y)
+            self._stood, self._here = (x, y), self.cells.cell_of(x, y)
+            where, under = self.cells.within(x, y, self.reach)
+            self._under = self.visited_at[where], under
         if self._here is not None:
             self.flow[self._here], self.felt_at[self._here] = flow, time
         window, under = self._under
@@ -196,13 +157,13 @@ class Memory:
 
     def coverage(self, part: int = 0) -> tuple[float, float]:
         """Return the shares of the cells of a walkable part that were visited, and felt."""
-        cells = self.part == part
+        cells = self.cells.part == part
         return float(self.visited[cells].mean()), float(self.felt[cells].mean())
 
     def grid(self) -> Grid:
         """Return a copy of all that is remembered."""
         maps = self.flow.copy(), self.felt_at.copy(), self.visited_at.copy()
-        return Grid(self.west, self.south, self.parameters.cell, *maps, self._zone)
+        return Grid(self.cells.west, self.cells.south, self.cells.size, *maps, self._zone)
 
     def recall(self, grid: Grid) -> bool:
         """Take up what was kept; return whether it belongs to this very zone and these cells.
@@ -210,14 +171,15 @@ class Memory:
         What belongs to another is carried over place by place, as far as the two overlap: a bench
         that was moved does not cost a season.
         """
-        own = (grid.west, grid.south, grid.cell, grid.zone)
-        same = own == (self.west, self.south, self.parameters.cell, self._zone)
-        rows = np.floor((self.y - grid.south) / grid.cell).astype(int)
-        columns = np.floor((self.x - grid.west) / grid.cell).astype(int)
+        cells = self.cells
+        kept = grid.west, grid.south, grid.cell, grid.zone
+        same = kept == (cells.west, cells.south, cells.size, self._zone)
+        rows = np.floor((cells.y - grid.south) / grid.cell).astype(int)
+        columns = np.floor((cells.x - grid.west) / grid.cell).astype(int)
         inside = (
             ((rows >= 0) & (rows < grid.flow.shape[0]))[:, None]
             & ((columns >= 0) & (columns < grid.flow.shape[1]))[None, :]
-            & self.walkable
+            & cells.walkable
         )
         row, column = np.nonzero(inside)
         source = rows[row], columns[column]
@@ -226,19 +188,6 @@ class Memory:
         self.visited_at[inside] = grid.visited_at[source]
         self.newest = float(max(self.felt_at.max(), self.visited_at.max()))
         return same
-
-    def _visited(self, x: float, y: float) -> tuple[Map, Mask]:
-        """Return the part of `visited_at` about (x, y) [m], and what of it the platform visits."""
-        rows, columns = self._near(y - self.south), self._near(x - self.west)
-        away = (self.y[rows, None] - y) ** 2 + (self.x[columns] - x) ** 2
-        under = (away <= self.reach**2) & self.walkable[rows, columns]
-        return self.visited_at[rows, columns], under
-
-    def _near(self, distance: float) -> slice:
-        """Return the rows (or columns) within reach of a distance from the edge of the first."""
-        cell, reach = self.parameters.cell, self.reach
-        first = ceil((distance - reach) / cell - 0.5)
-        return slice(max(first, 0), max(floor((distance + reach) / cell + 0.5), 0))
 
     def _set_back(self, seconds: float) -> None:
         """Move all times back with the clock: order and age stay."""

@@ -13,7 +13,8 @@ import numpy as np
 
 from agv_motion import saved_state
 from agv_motion.errors import ConfigurationError
-from agv_motion.motion.behavior.memory import LARGEST, NEVER, Grid
+from agv_motion.motion.behavior.cells import LARGEST
+from agv_motion.motion.behavior.memory import NEVER, Grid
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -74,7 +75,7 @@ def restore(path: str | Path, memory: Memory) -> str:
     cells = int(memory.visited.sum())
     return (
         f'memory {path} belongs to another zone or size of cells: {cells} of '
-        f'{int(memory.walkable.sum())} cells carried over; '
+        f'{int(memory.cells.walkable.sum())} cells carried over; '
         f'{saved_state.set_aside(path, ".other_zone")}'
     )
 

@@ -21,6 +21,7 @@ from shapely import LineString, Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.navigation.corners import reflex, rings
+from agv_motion.motion.navigation.polyline import ROUNDING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from agv_motion.motion.navigation.zone import Zone
 
     Column = NDArray[np.float64]
-
-TOLERANCE = 1e-6
-"""[m] by which a path may cut an edge, so that paths along an edge are not refused by rounding."""
 
 
 class PathPlanner:
@@ -117,7 +115,7 @@ class VisibilityGraph:
 
     def __init__(self, part: Polygon) -> None:
         """Find the corners of ``part``."""
-        self._floor = part.buffer(TOLERANCE)
+        self._floor = part.buffer(ROUNDING)  # paths along an edge are none that cut it
         shapely.prepare(self._floor)
         self._corners = np.vstack([reflex(ring) for ring in rings(part)])
         self._asked_before = False

@@ -19,6 +19,9 @@ Path = tuple[Point, ...]
 SAME = 1e-9
 """[m] Points nearer than this are one."""
 
+ROUNDING = 1e-6
+"""[m] by which a place may lie off the floor or the path that it is on, as GEOS rounds"""
+
 
 def length(path: Sequence[Point]) -> float:
     """Return the length of ``path`` [m]."""

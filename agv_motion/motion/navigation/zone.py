@@ -15,6 +15,7 @@ from shapely import Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.navigation.corners import inset
+from agv_motion.motion.navigation.polyline import ROUNDING
 from agv_motion.planar import FARTHEST
 
 if TYPE_CHECKING:
@@ -27,10 +28,6 @@ MARGIN = 0.5
 
 The original installation counted it from the centre.
 """
-
-
-ROUNDING = 1e-6
-"""[m] by which a rim may seem to be over an edge."""
 
 
 class Zone:
@@ -177,11 +174,6 @@ class Zone:
         """Return the walkable part in which (x, y) lies, None where it lies in none."""
         return next((p for p in self.parts if shapely.intersects_xy(p, x, y)), None)
 
-    def nearest_walkable(self, x: float, y: float) -> tuple[float, float]:
-        """Return the walkable point nearest to (x, y) [m]."""
-        point = shapely.shortest_line(self._walkable, shapely.Point(x, y)).coords[0]
-        return point[0], point[1]
-
     def way_back(self, x: float, y: float) -> tuple[float, float]:
         """Return the walkable point to which the platform can go straight from (x, y) [m].
 
@@ -193,7 +185,7 @@ class Zone:
         lines = [shapely.shortest_line(here, part) for part in self.parts]
         for line in sorted(lines, key=lambda line: float(line.length)):
             if self.contains(x, y):
-                free = self.floor.buffer(1e-6).covers(line)
+                free = self.floor.buffer(ROUNDING).covers(line)
             else:
                 free = not any(h.intersects(line) for h in self.holes if not h.intersects(here))
             if free:

@@ -30,12 +30,12 @@ def test_what_has_not_changed_is_not_made_anew(messages):
     board = Board()
     board.receive('oak', 'goal', 1.0, messages.goal(1.0, 2.0))
     board.refresh(1.0)
-    version = board.version_of('oak', 'goal')
+    version = board.cells['oak', 'goal'].version
     board.refresh(5.0)
-    assert board.version_of('oak', 'goal') == version
+    assert board.cells['oak', 'goal'].version == version
     board.receive('oak', 'goal', 6.0, messages.goal(1.0, 2.0))
     board.refresh(6.0)
-    assert board.version_of('oak', 'goal') > version
+    assert board.cells['oak', 'goal'].version > version
 
 
 def test_nothing_is_decoded_that_nobody_looks_at():

@@ -14,7 +14,6 @@ from websockets.protocol import OPEN
 from websockets.uri import parse_uri
 
 from agv_motion.dashboard.foxglove.frames import frame, message_header
-from agv_motion.dashboard.foxglove.protocol import message_data
 
 SIZES = st.sampled_from([0, 1, 112, 113, 125, 126, 1000, 65522, 65523, 65536, 70000])
 
@@ -32,7 +31,8 @@ def received(data):
 def test_messages_in_one_piece_are_read_one_by_one(sizes, subscription, stamp):
     data = [bytes([n % 251]) * size for n, size in enumerate(sizes)]
     parts = b''.join(message_header(subscription, stamp, len(one)) + one for one in data)
-    expected = [(Opcode.BINARY, message_data(subscription, stamp, one), True) for one in data]
+    head = b'\1' + subscription.to_bytes(4, 'little') + stamp.to_bytes(8, 'little')
+    expected = [(Opcode.BINARY, head + one, True) for one in data]
     assert received(parts) == expected
 
 

@@ -12,8 +12,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from agv_motion.errors import GeometryError
-from agv_motion.motion.navigation.path_planner import TOLERANCE, PathPlanner
-from agv_motion.motion.navigation.polyline import length
+from agv_motion.motion.navigation.path_planner import PathPlanner
+from agv_motion.motion.navigation.polyline import ROUNDING, length
 from agv_motion.motion.navigation.zone import Zone
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]
@@ -50,7 +50,7 @@ def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, go
     path = paths.path(start, goal)
     assert path[0] == start
     assert path[-1] == goal
-    floor = shapely.union_all(zone.parts).buffer(3 * TOLERANCE)
+    floor = shapely.union_all(zone.parts).buffer(3 * ROUNDING)
     assert floor.covers(shapely.LineString(path)) or start == goal
     assert length(path) >= hypot(goal[0] - start[0], goal[1] - start[1]) - 1e-9
 
@@ -148,7 +148,7 @@ def test_no_shorter_way_than_by_an_independent_search(seed):
     import networkx as nx  # a quarter of a second, that only this test needs
 
     zone = crowded(seed)
-    floor = zone.parts[0].buffer(TOLERANCE)
+    floor = zone.parts[0].buffer(ROUNDING)
     corners = [p for ring in (floor.exterior, *floor.interiors) for p in ring.coords[:-1]]
     draw = Random(seed)  # noqa: S311 - a zone, no secret
     ends = [

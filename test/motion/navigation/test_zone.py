@@ -38,16 +38,6 @@ def test_turning_is_not_allowed_on_delicate_floor():
     assert zone.may_turn(3.0, 3.0)
 
 
-@given(st.floats(-5, 15), st.floats(-5, 15))
-def test_the_nearest_walkable_point_is_walkable(x, y):
-    zone = Zone(SQUARE, [COLUMN])
-    px, py = zone.nearest_walkable(x, y)
-    grown = Zone(SQUARE, [COLUMN], margin=0.5 - 1e-9)
-    assert grown.walkable(px, py)
-    if zone.walkable(x, y):
-        assert (px, py) == pytest.approx((x, y), abs=1e-9)
-
-
 def test_a_margin_may_part_the_zone():
     hourglass = [[0, 0], [4, 0], [4, 1.6], [6, 1.6], [6, 0], [10, 0], [10, 4], [6, 4], [6, 2.4],
                  [4, 2.4], [4, 4], [0, 4]]  # fmt: skip
@@ -115,7 +105,8 @@ def test_the_margin_counts_from_the_rim(point, holds, walkable):
 def test_where_the_platform_may_be_all_of_it_keeps_the_margin(x, y, margin, rim):
     """Round the corners of the column too, where an arc inside the circle would be too near."""
     zone = Zone(SQUARE, [COLUMN], margin=margin, rim=rim)
-    near = zone.nearest_walkable(x, y)
+    (part,) = zone.parts
+    near = shapely.shortest_line(part, shapely.Point(x, y)).coords[0]
     assert zone.edge_distance(*near) >= rim + margin - 1e-9
     body = shapely.Point(near).buffer(rim - 1e-6, quad_segs=64)
     assert shapely.covers(zone.floor, body)

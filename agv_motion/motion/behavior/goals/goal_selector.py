@@ -17,9 +17,10 @@ from agv_motion.errors import GeometryError
 from agv_motion.motion.behavior.goals.goal import Goal, Objective
 
 if TYPE_CHECKING:
+    from agv_motion.motion.behavior.cells import Mask
     from agv_motion.motion.behavior.goals.reachability import Reachability
     from agv_motion.motion.behavior.goals.strategy import GoalSetting
-    from agv_motion.motion.behavior.memory import Mask, Memory
+    from agv_motion.motion.behavior.memory import Memory
     from agv_motion.motion.navigation.polyline import Point
 
 CYCLE = tuple(Objective)
@@ -47,7 +48,7 @@ class GoalSelector:
         leads to does so as well, and counts as a failure.
         """
         assert memory is not None
-        open_cells = memory.part == memory.part_at(*here)
+        open_cells = memory.cells.part == memory.cells.part_at(*here)
         self.refusals = []
         satisfied = 0
         while len(self.refusals) < self._setting.attempts and satisfied < len(CYCLE):
@@ -81,18 +82,18 @@ class GoalSelector:
         equals = np.flatnonzero(best)
         if not equals.size:
             return None
-        cell = divmod(int(equals[self._random.randrange(equals.size)]), memory.part.shape[1])
+        cell = divmod(int(equals[self._random.randrange(equals.size)]), memory.cells.part.shape[1])
         return _goal(objective, time, memory, cell)
 
     def _around(self, memory: Memory, goal: Goal) -> Mask:
-        away = np.hypot(memory.x[None, :] - goal.x, memory.y[:, None] - goal.y)
+        away = np.hypot(memory.cells.x[None, :] - goal.x, memory.cells.y[:, None] - goal.y)
         near: Mask = away < self._reachability.retry_distance
         return near
 
 
 def _goal(objective: Objective, time: float, memory: Memory, cell: tuple[int, int]) -> Goal:
     """Return a cell as a goal, with its reason in words."""
-    x, y = float(memory.x[cell[1]]), float(memory.y[cell[0]])
+    x, y = float(memory.cells.x[cell[1]]), float(memory.cells.y[cell[0]])
     place = f'({x:.1f}, {y:.1f})'
     if objective is Objective.UNKNOWN:
         visited = float(memory.visited_at[cell])

@@ -10,7 +10,7 @@ from shapely import Polygon
 
 from agv_motion.errors import GeometryError
 from agv_motion.motion.navigation.path_planner import PathPlanner
-from agv_motion.motion.navigation.polyline import Path, joined, straight_pieces
+from agv_motion.motion.navigation.polyline import ROUNDING, Path, joined, straight_pieces
 from agv_motion.motion.navigation.reservations.needs import ARRIVED, COURTESY
 from agv_motion.motion.navigation.reservations.separation import apart, keeps_away
 
@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from agv_motion.motion.navigation.reservations.needs import Need, Needs
     from agv_motion.motion.navigation.reservations.separation import Floor
     from agv_motion.motion.navigation.zone import Zone
-
-ROUNDING = 1e-6
-"""[m] by which a place may lie off the floor it is on."""
 
 QUARTER = 3
 """Corners of a quarter of a round obstacle; few, since each costs time."""

@@ -127,11 +127,6 @@ class Reservation:
         return self.journey, self.name
 
     @cached_property
-    def held_line(self) -> shapely.Geometry:
-        """The path of ``held``."""
-        return line(self.held)
-
-    @cached_property
     def requested_line(self) -> shapely.Geometry:
         """The path of ``requested``; empty if it asks for nothing."""
         return line(self.requested)
@@ -150,11 +145,6 @@ class Reservation:
     def most_floor(self) -> Floor:
         """All that it may hold by now, and where it was."""
         return Floor.of(joined(self.held, self.requested))
-
-    @cached_property
-    def planned_line(self) -> shapely.Geometry:
-        """The path of ``planned``; empty if it has none."""
-        return line(self.planned)
 
 
 class Answer(Enum):

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import shapely
 
-from agv_motion.motion.navigation.polyline import cut, length, line
+from agv_motion.motion.navigation.polyline import ROUNDING, cut, length, line
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from agv_motion.motion.navigation.polyline import Path
 
-TOUCH = 1e-6
-"""[m] Rounding that is no overlap."""
 
 SAMPLE = 0.05
 """[m] between the places at which a path is tested."""
@@ -42,7 +40,7 @@ class Floor(NamedTuple):
 
 def apart(a: shapely.Geometry, b: shapely.Geometry, clearance: float) -> bool:
     """Return whether two paths keep ``clearance`` [m]; nothing keeps it from anything."""
-    return bool(not a.distance(b) < clearance - TOUCH)  # the distance of an empty one is NaN
+    return bool(not a.distance(b) < clearance - ROUNDING)  # the distance of an empty one is NaN
 
 
 def keeps_away(path: Path, floor: Floor, clearance: float) -> bool:
@@ -56,7 +54,7 @@ def keeps_away(path: Path, floor: Floor, clearance: float) -> bool:
         return True
     places = _places(path)
     return all(
-        bool(whole.distance(thing) >= min(float(away[0]), clearance) - TOUCH)
+        bool(whole.distance(thing) >= min(float(away[0]), clearance) - ROUNDING)
         and not _nearer(away, clearance).any()
         for thing in floor.things()
         for away in (shapely.distance(places, thing),)
@@ -81,7 +79,7 @@ def free_part(path: Path, floor: Floor, clearance: float, least: float = 0.0) ->
         bad |= _nearer(shapely.distance(places, thing), clearance)
     first = int(np.flatnonzero(bad)[0]) if bad.any() else len(places)
     upto = length(path) * (first - 1) / (len(places) - 1)
-    while upto > max(least, TOUCH):
+    while upto > max(least, ROUNDING):
         short = cut(path, upto)[0]
         if keeps_away(short, floor, clearance):
             return short
@@ -102,5 +100,5 @@ def _places(path: Path) -> NDArray[np.object_]:
 def _nearer(away: NDArray[np.float64], clearance: float) -> NDArray[np.bool_]:
     """Return at which places a path is nearer than before, and nearer than ``clearance``."""
     farthest = np.minimum(np.maximum.accumulate(away), clearance)
-    nearer: NDArray[np.bool_] = away < farthest - TOUCH
+    nearer: NDArray[np.bool_] = away < farthest - ROUNDING
     return nearer

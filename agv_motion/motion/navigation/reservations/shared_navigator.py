@@ -24,11 +24,11 @@ import shapely
 from agv_motion.errors import GeometryError
 from agv_motion.motion.navigation.navigator import Guidance
 from agv_motion.motion.navigation.path_follower import CORNER_REACH, CORNER_SLACK, Waypoints
-from agv_motion.motion.navigation.polyline import Path, cut, joined, length, line, nearest
+from agv_motion.motion.navigation.polyline import ROUNDING, Path, cut, joined, length, line, nearest
 from agv_motion.motion.navigation.reservations.detour import Detours
 from agv_motion.motion.navigation.reservations.needs import ARRIVED, COURTESY, Needs
 from agv_motion.motion.navigation.reservations.reservation import IDLE, Answer, Reservation
-from agv_motion.motion.navigation.reservations.separation import TOUCH, apart
+from agv_motion.motion.navigation.reservations.separation import apart
 
 if TYPE_CHECKING:
     from agv_motion.motion.navigation.path_planner import PathPlanner
@@ -131,7 +131,7 @@ class SharedNavigator:
         holds = right.ahead - along > ARRIVED
         free = self._needs.step((here, path[0]), self._spare)
         obstacle = right.obstacle(now)
-        walks = holds and not obstacle and length(free.path) > TOUCH
+        walks = holds and not obstacle and length(free.path) > ROUNDING
         self._count(now, walks=walks and not self._yielding)
         if holds and free.by and not walks:
             self._let_go(along)

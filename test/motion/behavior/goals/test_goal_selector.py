@@ -56,7 +56,7 @@ def test_sun_shade_and_the_unknown_in_turn_with_their_reasons():
 
 def test_where_all_is_visited_the_longest_ago_is_next():
     memory = Memory(ZONE)
-    memory.visited_at[memory.walkable] = NOON
+    memory.visited_at[memory.cells.walkable] = NOON
     memory.visited_at[20, 30] = NOON - 86400.0
     (goal,) = goals(memory, 1)
     assert goal.objective is Objective.UNKNOWN
@@ -75,7 +75,7 @@ def test_ties_fall_on_every_equal():
     for x in (1.1, 3.1, 5.1, 7.1):
         memory.update(NOON, x, 1.1, 0.9)
     cycle = selector()
-    chosen = {cycle.best(Objective.SUN, NOON, memory, memory.walkable).x for _ in range(60)}
+    chosen = {cycle.best(Objective.SUN, NOON, memory, memory.cells.walkable).x for _ in range(60)}
     assert len(chosen) == 4
 
 
@@ -91,11 +91,13 @@ def test_no_walkable_cell_is_higher_lower_or_longer_unvisited(places, seed):
     for i, place in enumerate(places):
         memory.update(NOON + 60.0 * i, *place)
     cycle = selector(seed=seed)
-    sun, shade, unknown = (cycle.best(w, NOON + 1e4, memory, memory.walkable) for w in Objective)
+    sun, shade, unknown = (
+        cycle.best(w, NOON + 1e4, memory, memory.cells.walkable) for w in Objective
+    )
     felt = memory.flow[memory.felt]
-    assert memory.flow[memory.cell_of(*sun.place)] == felt.max()
-    assert memory.flow[memory.cell_of(*shade.place)] == felt.min()
-    assert memory.visited_at[memory.cell_of(*unknown.place)] == memory.visited_at.min()
+    assert memory.flow[memory.cells.cell_of(*sun.place)] == felt.max()
+    assert memory.flow[memory.cells.cell_of(*shade.place)] == felt.min()
+    assert memory.visited_at[memory.cells.cell_of(*unknown.place)] == memory.visited_at.min()
     assert all(ZONE.walkable(*goal.place) for goal in (sun, shade, unknown))
 
 
@@ -121,7 +123,7 @@ def test_the_shortest_way_reaches_round_the_corner_and_the_straight_line_does_no
     memory = Memory(zone)
     memory.update(NOON, 1.1, 1.1, 0.9)
     memory.update(NOON, 8.1, 1.1, 0.2)
-    memory.visited_at[memory.walkable] = NOON
+    memory.visited_at[memory.cells.walkable] = NOON
     paths, start = PathPlanner(zone), (8.5, 3.0)
     (round_the_wall,) = goals(memory, 1, paths=paths, start=start)
     assert round_the_wall.objective is Objective.SUN
@@ -174,5 +176,5 @@ def test_the_faded_flow_decides_where_memory_fades():
     memory.update(NOON - 3 * 3600.0, 1.1, 1.1, 0.9)
     memory.update(NOON, 8.1, 8.1, 0.7)
     memory.update(NOON, 8.1, 1.1, 0.2)
-    best = selector().best(Objective.SUN, NOON, memory, np.copy(memory.walkable))
+    best = selector().best(Objective.SUN, NOON, memory, np.copy(memory.cells.walkable))
     assert best.place == (8.125, 8.125)

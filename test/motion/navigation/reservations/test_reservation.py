@@ -54,11 +54,9 @@ def test_the_older_journey_goes_first_then_the_name_and_who_stands_goes_last():
 
 def test_what_it_may_hold_by_now_is_what_it_holds_and_requests():
     both = reservation(requested=((1.0, 0.0), (1.0, 2.0)))
-    assert both.held_line.length == 1.0
     assert both.requested_line.length == 2.0
     assert both.both.length == both.most_floor.line.length == 3.0
     assert both.floor.line.length == 1.0
-    assert both.planned_line.is_empty
 
 
 def test_a_ruling_in_words():

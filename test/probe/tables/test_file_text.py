@@ -1,0 +1,55 @@
+"""The encoding of a file by its mark or by what it holds; lines whole, numbered, without NULs."""
+
+from __future__ import annotations
+
+import pytest
+
+from agv_motion.errors import SourceError
+from agv_motion.probe.tables.file_text import POWER_CUT, encoding_of, lines_of, whole_lines
+
+TABLE = 'Zeit;ΔT °C\n01.06.2013 10:00;8,25\n'
+
+
+@pytest.mark.parametrize('codec', ['utf-8', 'utf-16-le', 'utf-16-be'])
+@pytest.mark.parametrize('mark', ['', '\ufeff'])
+def test_an_encoding_is_known_by_its_mark_and_without_one(codec, mark):
+    assert encoding_of((mark + TABLE).encode(codec), 'auto', 'x.csv') == codec
+
+
+def test_what_is_no_unicode_is_latin():
+    assert encoding_of('8,25 °C\n'.encode('latin-1'), 'auto', 'x.csv') == 'latin-1'
+    assert encoding_of(TABLE.encode(), 'latin-1', 'x.csv') == 'latin-1'
+
+
+@pytest.mark.parametrize('data', [b'', b'\0', b'1\0\n', b'1;2\n' * 20, b'\0' * 40])
+def test_few_bytes_or_zeros_everywhere_are_no_utf_16(data):
+    assert encoding_of(data, 'auto', 'x.csv') == 'utf-8'
+
+
+def test_a_few_letters_of_another_script_do_not_hide_utf_16():
+    for codec in ('utf-16-le', 'utf-16-be'):
+        assert encoding_of(('a' * 95 + 'Δ' * 5).encode(codec), 'auto', 'x.csv') == codec
+        assert encoding_of(('ab' * 40 + 'ΔΔ' * 10).encode(codec), 'auto', 'x.csv') != codec
+
+
+@pytest.mark.parametrize(
+    ('data', 'given', 'word'),
+    [(TABLE.encode(), 'utf-16', 'no mark of UTF-16'), (b'\xb0C\n', 'utf-8', "can't decode")],
+)
+def test_what_is_not_as_it_is_given_is_refused(data, given, word):
+    with pytest.raises(SourceError, match=rf'x\.csv is not {given} \(.*{word}'):
+        encoding_of(data, given, 'x.csv')
+
+
+@pytest.mark.parametrize('codec', ['utf-8', 'utf-16-le', 'utf-16-be'])
+@pytest.mark.parametrize('rest', ['', '8', '8,2\u0a0a\u000a0'[:4]])
+def test_a_line_that_has_no_end_yet_is_left(codec, rest):
+    assert whole_lines((TABLE + rest).encode(codec), codec) == TABLE.encode(codec)
+    assert whole_lines('8,25'.encode(codec), codec) == b''
+
+
+def test_lines_are_counted_as_an_editor_does_and_a_power_cut_is_told():
+    found = lines_of('\ufeffa\r\n\n  \n\0\0\0\nb\0c\rd', first=10)
+    assert [(line.number, line.text, line.fault) for line in found] == [
+        (10, 'a', ''), (13, '', POWER_CUT), (14, 'bc', ''), (15, 'd', ''),
+    ]  # fmt: skip
