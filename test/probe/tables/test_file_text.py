@@ -21,14 +21,25 @@ def test_what_is_no_unicode_is_latin():
     assert encoding_of(TABLE.encode(), 'latin-1', 'x.csv') == 'latin-1'
 
 
-@pytest.mark.parametrize('data', [b'', b'\0', b'1\0\n', b'1;2\n' * 20, b'\0' * 40])
+@pytest.mark.parametrize(
+    'data',
+    [
+        b'',
+        b'\0',
+        b'1\0\n',
+        b'1;2\n' * 20,
+        b'1;2\n' * 20 + b'\0' * 4,
+        b'1\0' + b'22' * 20,
+        b'\0' * 40,
+    ],
+)
 def test_few_bytes_or_zeros_everywhere_are_no_utf_16(data):
     assert encoding_of(data, 'auto', 'x.csv') == 'utf-8'
 
 
 def test_a_few_letters_of_another_script_do_not_hide_utf_16():
     for codec in ('utf-16-le', 'utf-16-be'):
-        assert encoding_of(('a' * 95 + 'Δ' * 5).encode(codec), 'auto', 'x.csv') == codec
+        assert encoding_of(('a' * 90 + 'Δ' * 5 + 'Ā' * 3).encode(codec), 'auto', 'x.csv') == codec
         assert encoding_of(('ab' * 40 + 'ΔΔ' * 10).encode(codec), 'auto', 'x.csv') != codec
 
 
