@@ -137,8 +137,8 @@ class MemoryStore:
         message.info.map_load_time = message.header.stamp
         message.info.resolution = memory.cells.size
         message.info.height, message.info.width = memory.flow.shape
-        message.info.origin.position.x = memory.cells.west
-        message.info.origin.position.y = memory.cells.south
+        corner = message.info.origin.position
+        corner.x, corner.y = memory.cells.corner
         return message
 
     def _publish(self, publisher: Any, values: Map, known: Mask) -> None:

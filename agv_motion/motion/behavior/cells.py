@@ -38,15 +38,17 @@ class ZoneCells:
 
         """
         self.size = size
-        self.west, self.south, east, north = zone.bounds
-        columns = ceil((east - self.west) / size - 1e-9)
-        rows = ceil((north - self.south) / size - 1e-9)
+        west, south, east, north = zone.bounds
+        self.corner = west, south
+        """[m] where row 0 and column 0 begin"""
+        columns = ceil((east - west) / size - 1e-9)
+        rows = ceil((north - south) / size - 1e-9)
         if rows * columns > LARGEST:
             msg = f'memory.cell = {size} m makes {rows} x {columns} cells: take larger ones'
             raise GeometryError(msg)
-        self.x: Map = self.west + size * (np.arange(columns, dtype=np.float64) + 0.5)
+        self.x: Map = west + size * (np.arange(columns, dtype=np.float64) + 0.5)
         """(columns,) centres of the cells [m]"""
-        self.y: Map = self.south + size * (np.arange(rows, dtype=np.float64) + 0.5)
+        self.y: Map = south + size * (np.arange(rows, dtype=np.float64) + 0.5)
         """(rows,) centres of the cells [m]"""
         x, y = np.meshgrid(self.x, self.y)
         self.part = np.full((rows, columns), -1)
@@ -61,7 +63,8 @@ class ZoneCells:
 
     def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
         """Return row and column of a point [m]; None where the trunk cannot be."""
-        row, column = floor((y - self.south) / self.size), floor((x - self.west) / self.size)
+        west, south = self.corner
+        row, column = floor((y - south) / self.size), floor((x - west) / self.size)
         rows, columns = self.part.shape
         if 0 <= row < rows and 0 <= column < columns and self.walkable[row, column]:
             return row, column
@@ -83,7 +86,8 @@ class ZoneCells:
             reach: Of the centres of the cells from the point [m].
 
         """
-        window = self._near(y - self.south, reach), self._near(x - self.west, reach)
+        west, south = self.corner
+        window = self._near(y - south, reach), self._near(x - west, reach)
         away = (self.y[window[0], None] - y) ** 2 + (self.x[window[1]] - x) ** 2
         return window, (away <= reach**2) & self.walkable[window]
 

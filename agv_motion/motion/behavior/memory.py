@@ -163,7 +163,7 @@ class Memory:
     def grid(self) -> Grid:
         """Return a copy of all that is remembered."""
         maps = self.flow.copy(), self.felt_at.copy(), self.visited_at.copy()
-        return Grid(self.cells.west, self.cells.south, self.cells.size, *maps, self._zone)
+        return Grid(*self.cells.corner, self.cells.size, *maps, self._zone)
 
     def recall(self, grid: Grid) -> bool:
         """Take up what was kept; return whether it belongs to this very zone and these cells.
@@ -172,8 +172,8 @@ class Memory:
         that was moved does not cost a season.
         """
         cells = self.cells
-        kept = grid.west, grid.south, grid.cell, grid.zone
-        same = kept == (cells.west, cells.south, cells.size, self._zone)
+        kept = (grid.west, grid.south), grid.cell, grid.zone
+        same = kept == (cells.corner, cells.size, self._zone)
         rows = np.floor((cells.y - grid.south) / grid.cell).astype(int)
         columns = np.floor((cells.x - grid.west) / grid.cell).astype(int)
         inside = (
