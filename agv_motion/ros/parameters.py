@@ -204,7 +204,7 @@ def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
             node.declare_parameter(
                 prefix + name,
                 getattr(defaults, name),
-                _descriptor(spec, origin, empty=getattr(defaults, name) == ()),
+                _descriptor(spec, origin),
             ).value
         )
         for name, origin, spec in rows(kind)
@@ -213,16 +213,16 @@ def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
     return kind(**values, **groups)
 
 
-def _descriptor(spec: Spec, origin: Any, *, empty: bool) -> ParameterDescriptor:
+def _descriptor(spec: Spec, origin: Any) -> ParameterDescriptor:
     """Return what ``ros2 param describe`` shows; rclpy checks the range of scalars by itself.
 
-    Of an ``empty`` array, rclpy cannot tell the type: it must not insist on it.
+    Of an empty array rclpy cannot tell the type: of arrays it must not insist on it, `wrong` does.
     """
     descriptor = ParameterDescriptor(
         description=f'{spec.description} [{spec.unit}]' if spec.unit else spec.description,
         additional_constraints=f'one of {", ".join(spec.choices)}' if spec.choices else '',
         read_only=not spec.dynamic,
-        dynamic_typing=empty,
+        dynamic_typing=hasattr(origin, '__args__'),
     )
     if spec.between and origin is float:
         low, high = spec.between

@@ -160,6 +160,9 @@ def test_an_empty_list_in_a_file_is_a_list_without_elements(graph, tmp_path):
     node = made(WheelKinematics, graph, '--params-file', str(path))
     assert node.parameters.steering_zero == ()
     node.destroy_node()
+    path.write_text('/**:\n  ros__parameters:\n    turret_x: []\n')  # the default is none
+    with pytest.raises(ConfigurationError, match=r'0 values in turret_x, 3 in turret_y'):
+        made(WheelKinematics, graph, '--params-file', str(path))
     path.write_text('/**:\n  ros__parameters:\n    rate: []\n')
     with pytest.raises(ConfigurationError, match=r'rate = \[\]: expected a decimal number'):
         made(WheelKinematics, graph, '--params-file', str(path))
