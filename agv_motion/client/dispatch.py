@@ -18,13 +18,12 @@ from agv_motion.client.view import RobotView
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.planar import Pose
 from agv_motion.ros.messages import fill_pose
+from agv_motion.ros.remote_services import UnansweredError
 
 if TYPE_CHECKING:
     from agv_motion.client.link import Heard, ScriptLink
 
 NOTHING = Result(Outcome.FAILED, 'nothing was ordered')
-SETTLE = 0.3
-"""[s] in which what was latched before comes in"""
 
 
 def require(answer: Any) -> None:
@@ -52,6 +51,8 @@ class Dispatch:
         self._link, self._patience = link, patience
         self._order: Order | None = None
         self._candidate: Order | None = None
+        self._forsaken: Order | None = None
+        """that nobody has answered in time: its node must not set off later"""
         for driver in DRIVERS:
             link.know(driver.kind, [driver.service])
         link.know(Trigger, ['sequence/start'])
@@ -60,25 +61,6 @@ class Dispatch:
         self.view = RobotView(link, self._receive)
         """What is heard of the robot"""
         link.start(self._look)
-
-    def find(self) -> None:
-        """Wait until the robot is heard.
-
-        Raises:
-            SourceError: It is not.
-
-        """
-        if not self._link.wait(lambda: self.view.is_there, self._patience.answer):
-            node = self._link.node
-            space = node.get_namespace()
-            others = {s for n, s in node.get_node_names_and_namespaces() if n == 'arbiter'}
-            there = f'; there are {", ".join(sorted(others - {space}))}' if others else ''
-            msg = (
-                f"no robot in the namespace '{space}' within {self._patience.answer:g} s: start it "
-                f'(agv up), or name its namespace and ROS domain{there}'
-            )
-            raise SourceError(msg)
-        self._link.wait(lambda: False, SETTLE)
 
     def first(self, *drivers: Driver) -> Driver:
         """Return the first of some nodes that is there.
@@ -159,6 +141,9 @@ class Dispatch:
             with self._link.news:
                 order.accept(time.monotonic())
                 self._order = order
+        except UnansweredError:
+            self._forsake(order)
+            raise
         finally:
             self._candidate = None
 
@@ -197,18 +182,26 @@ class Dispatch:
                 count, reason = self.view.refusals(node)
                 if not order.task.accepted and count > before:
                     raise ConfigurationError(reason)
-                if not order.task.accepted:
-                    said = self.view.state(order.driver) or 'nothing'
-                    msg = f'{node} does not answer; it says: {said}'
-                    raise SourceError(msg)
-                self._order = order
+                said = self.view.state(order.driver) or 'nothing'
+                if order.task.accepted:
+                    self._order = order
+            if not order.task.accepted:
+                self._forsake(order)
+                msg = f'{node} does not answer; it says: {said}; it is told to leave the order'
+                raise SourceError(msg)
         finally:
             self._candidate = None
 
     def _begin(self, order: Order) -> None:
         """Let an order hear; the last one stays in force until this one is taken."""
         with self._link.news:
-            self._candidate = order
+            self._candidate, self._forsaken = order, None
+
+    def _forsake(self, order: Order) -> None:
+        """Let an order go that its node may hear yet: nobody would watch how it goes."""
+        with self._link.news:
+            self._candidate, self._forsaken = None, order
+        self._take_back(order)
 
     def _require_free(self) -> None:
         """Raise if a STOP holds: an order would wait for whoever releases it.
@@ -278,9 +271,13 @@ class Dispatch:
         return self._link.wait(lambda: not self.view.stop, self._patience.answer)
 
     def _receive(self, topic: str, heard: Heard) -> None:
-        for order in (self._order, self._candidate):
+        for order in (self._order, self._candidate, self._forsaken):
             if order is not None:
                 order.receive(topic, heard)
+        late = self._forsaken
+        if late is not None and late.task.accepted:
+            self._forsaken = None
+            self._take_back(late)
         self._judge(heard.at)
 
     def _look(self, now: float) -> None:

@@ -9,10 +9,10 @@ from geometry_msgs.msg import PoseStamped, Vector3Stamped
 from nav_msgs.msg import Path
 
 from agv_motion.client.drivers import GHOST, ROUTE, TREE
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError, shortened
 from agv_motion.planar import Pose, require_finite
 from agv_motion.ros.messages import fill_path, fill_pose
-from agv_motion.route.route import Route
+from agv_motion.route.route import MOST_WAYPOINTS, Route
 from agv_motion.route.route_file import load_route
 
 if TYPE_CHECKING:
@@ -46,10 +46,11 @@ class Orders:
             AgvMotionError: The robot has not taken it; the message says why.
 
         """
-        # a message takes a whole number, and sends another one
-        x, y = float(x), float(y)
-        heading = None if heading is None else float(heading)
-        require_finite('go_to (x, y, heading)', (x, y, heading or 0.0))
+        name = 'go_to (x, y, heading)'
+        if heading is None:
+            x, y = _numbers(name, x, y)
+        else:
+            x, y, heading = _numbers(name, x, y, heading)
         driver = self._dispatch.first(GHOST, TREE)
         if driver is TREE:
             self._dispatch.send_tree(x, y, heading, frame)
@@ -77,9 +78,8 @@ class Orders:
             AgvMotionError: The robot has not taken it; the message says why.
 
         """
-        for pose in poses:
-            require_finite('a pose (x, y, heading)', pose)
-        self._dispatch.send(self._dispatch.first(GHOST), 'path', _path(poses, frame))
+        given = [Pose(*_numbers('a pose (x, y, heading)', *pose, count=3)) for pose in poses]
+        self._dispatch.send(self._dispatch.first(GHOST), 'path', _path(given, frame))
 
     def follow_route(
         self, route: Sequence[tuple[float, float]] | str | File, *, laps: int = 1, frame: str = ''
@@ -95,12 +95,15 @@ class Orders:
             AgvMotionError: It is no route, or the robot has not taken it.
 
         """
-        if not 1 <= laps <= MOST_LAPS:
-            msg = f'laps = {laps}: give 1 to {MOST_LAPS}'
+        if not isinstance(laps, int) or not 1 <= laps <= MOST_LAPS:
+            msg = f'laps = {laps}: give a whole number from 1 to {MOST_LAPS}'
             raise ConfigurationError(msg)
         given = load_route(route, laps) if isinstance(route, (str, File)) else Route(route, laps)
         if given.laps < 1:
             msg = f'{route}: laps = 0 never ends: give 1 or more'
+            raise ConfigurationError(msg)
+        if len(given.waypoints) * given.laps > MOST_WAYPOINTS:
+            msg = f'{len(given.waypoints)} waypoints, {given.laps} times: {MOST_WAYPOINTS} at most'
             raise ConfigurationError(msg)
         places = [Pose(float(x), float(y), 0.0) for x, y in given.waypoints * given.laps]
         self._dispatch.send(self._dispatch.first(ROUTE), 'route', _path(places, frame))
@@ -131,7 +134,7 @@ class Orders:
 
         """
         # an arc so large that 100 m of it end 5 mm beside the straight line
-        require_finite('drive_straight (distance, speed)', (distance, speed))
+        distance, speed = _numbers('drive_straight (distance, speed)', distance, speed)
         if speed <= 0.0 or not distance:
             msg = f'drive_straight: {distance:g} m at {speed:g} m/s: give a distance, speed above 0'
             raise ConfigurationError(msg)
@@ -176,8 +179,7 @@ class Orders:
             AgvMotionError: It has no localization, or that does not believe it.
 
         """
-        require_finite('set_pose (x, y, heading)', (x, y, heading))
-        self._dispatch.set_pose(Pose(float(x), float(y), float(heading)))
+        self._dispatch.set_pose(Pose(*_numbers('set_pose (x, y, heading)', x, y, heading)))
 
 
 def _path(poses: Sequence[Pose], frame: str) -> Path:
@@ -188,7 +190,30 @@ def _path(poses: Sequence[Pose], frame: str) -> Path:
 
 
 def _vector(x: float, y: float, z: float) -> Vector3Stamped:
-    require_finite('the numbers of an order', (x, y, z))
     message = Vector3Stamped()
-    message.vector.x, message.vector.y, message.vector.z = float(x), float(y), float(z)
+    vector, numbers = message.vector, _numbers('the numbers of an order', x, y, z)
+    vector.x, vector.y, vector.z = numbers
     return message
+
+
+def _numbers(name: str, *values: float, count: int | None = None) -> tuple[float, ...]:
+    """Return values as decimal numbers: a message takes a whole one, and sends another.
+
+    Args:
+        name: What they are, for the error.
+        values: What somebody gave, of whatever type.
+        count: How many there have to be; None: any.
+
+    Raises:
+        SignalError: One is no finite number, or their count is wrong.
+
+    """
+    try:
+        numbers = tuple(map(float, values))
+    except (TypeError, ValueError, OverflowError):
+        numbers = ()
+    if len(numbers) != (len(values) if count is None else count):
+        msg = f'{name}: {shortened(str(values))}: give numbers'
+        raise SignalError(msg)
+    require_finite(name, numbers)
+    return numbers

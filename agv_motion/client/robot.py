@@ -21,7 +21,11 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from agv_motion.client.task import Fault
+    from agv_motion.client.view import RobotView
     from agv_motion.planar import Pose, Twist
+
+SETTLE = 0.3
+"""[s] in which what was latched before comes in"""
 
 
 class Robot(Orders):
@@ -57,7 +61,7 @@ class Robot(Orders):
         link.know(SetBool, STOPS)
         super().__init__(Dispatch(link, Patience(patience, silent_after, stands_for)))
         try:
-            self._dispatch.find()
+            _find(link, self._dispatch.view, patience)
         except BaseException:
             link.close()
             raise
@@ -180,3 +184,23 @@ class Robot(Orders):
     def __exit__(self, *_: object) -> None:
         """Close it."""
         self.close()
+
+
+def _find(link: ScriptLink, view: RobotView, patience: float) -> None:
+    """Wait until a robot is heard.
+
+    Raises:
+        SourceError: It is not.
+
+    """
+    if not link.wait(lambda: view.is_there, patience):
+        node = link.node
+        space = node.get_namespace()
+        others = {s for n, s in node.get_node_names_and_namespaces() if n == 'arbiter'}
+        there = f'; there are {", ".join(sorted(others - {space}))}' if others else ''
+        msg = (
+            f"no robot in the namespace '{space}' within {patience:g} s: start it "
+            f'(agv up), or name its namespace and ROS domain{there}'
+        )
+        raise SourceError(msg)
+    link.wait(lambda: False, SETTLE)

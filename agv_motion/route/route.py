@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+MOST_WAYPOINTS = 20_000
+"""Of a longer one a virtual point would have to look through too many segments in each cycle."""
+
+
 class Point(NamedTuple):
     """A place in the frame of the route."""
 
@@ -59,10 +63,16 @@ class Route:
                 joined to the first, unless it lies there.
 
         Raises:
-            GeometryError: A point is no finite pair, fewer than 2 points differ, or a negative
-                number of laps.
+            GeometryError: A point is no finite pair, fewer than 2 points differ, there are too
+                many, or a negative number of laps.
 
         """
+        if len(points) > MOST_WAYPOINTS:
+            msg = (
+                f'a route of {len(points)} waypoints: at most {MOST_WAYPOINTS}; leave out those '
+                'that lie on straight stretches, or send it in parts'
+            )
+            raise GeometryError(msg)
         waypoints = _distinct([_point(i, pair) for i, pair in enumerate(points)])
         if laps < 0:
             msg = f'laps = {laps}: give 1 or more, or 0 to go round without end'

@@ -139,6 +139,12 @@ def test_a_sequence_is_performed(robot, tmp_path):
         ('drive_arc', (1.0, -1.0), 'diameter'),
         ('follow_route', ([(0.0, 0.0)],), '2'),
         ('follow_route', ([(0.0, 0.0), (1.0, 0.0)], 0), 'laps = 0'),
+        ('go_to', ('a', 0.0), 'give numbers'),
+        ('go_to', (None, 0.0), 'give numbers'),
+        ('follow_path', ([(1.0, 2.0)],), 'give numbers'),
+        ('follow_route', ([(0.0, 0.0), (1.0, 0.0)], 2.5), 'a whole number'),
+        ('follow_route', ([(0.0, 0.0), (1.0, 0.0)] * 15_000,), 'at most 20000'),
+        ('follow_route', ([(0.1 * i, 0.0) for i in range(50)], 999), '20000 at most'),
         ('perform', ('nowhere.yaml',), "no file 'nowhere.yaml'"),
     ],
 )
@@ -148,6 +154,24 @@ def test_what_it_cannot_do_is_told_and_changes_nothing(robot, order, arguments, 
     with pytest.raises(AgvMotionError, match=words.replace('?', r'\?')):
         getattr(robot, order)(*(arguments[:1] if options else arguments), **options)
     assert robot.result() == before
+
+
+def test_an_order_that_was_not_answered_in_time_is_not_carried_out_later(robot, nodes):
+    robot.go_to(50.0, 0.0, 0.0)
+    assert robot.cancel(LIMIT).outcome is Outcome.CANCELLED
+    dispatch, ghost = vars(vars(robot)['_dispatch']), nodes['ghost_trajectory'].plain
+    follower, patient = vars(ghost)['_follower'], dispatch['_patience']
+    before, dispatch['_patience'] = follower.ghost, patient._replace(answer=0.0)
+    try:
+        with pytest.raises(AgvMotionError, match='is told to leave the order'):
+            robot.go_to(50.0, 0.0, 0.0)
+    finally:
+        dispatch['_patience'] = patient
+    # it has set out, and has been told to end that
+    assert dispatch['_link'].wait(
+        lambda: follower.ghost is not before and ghost.told == 'aborted', LIMIT
+    )
+    assert robot.pose().x < 20.0
 
 
 def test_a_wait_ends_though_the_robot_does_not(robot):

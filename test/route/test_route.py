@@ -7,7 +7,7 @@ from math import inf, nan, pi, radians
 import pytest
 
 from agv_motion.errors import GeometryError
-from agv_motion.route.route import Route, RoutePlace
+from agv_motion.route.route import MOST_WAYPOINTS, Route, RoutePlace
 
 TRIANGLE = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]
 
@@ -34,6 +34,13 @@ def test_repeated_waypoints_are_dropped():
 def test_what_is_no_route_is_refused(points, reason):
     with pytest.raises(GeometryError, match=reason):
         Route(points)
+
+
+def test_a_route_that_takes_too_long_to_look_through_is_refused():
+    line = [(0.001 * i, 0.0) for i in range(MOST_WAYPOINTS)]
+    assert len(Route(line).segments) == MOST_WAYPOINTS - 1
+    with pytest.raises(GeometryError, match='a route of 20001 waypoints: at most 20000; leave out'):
+        Route([*line, (0.0, 1.0)])
 
 
 def test_a_negative_number_of_laps_is_refused():
