@@ -43,6 +43,8 @@ _DATED = tuple(
     for date in (_DAY_FIRST, _YEAR_FIRST)
 )
 _EPOCH = re.compile(r'(?P<epoch>\d{1,12}(?:\.\d{1,9})?)(?=[\s,;])', re.ASCII)
+_HALF_DAY = re.compile(r'[\s,;]*[AaPp]\.?[Mm]\b')
+_NO_VALUE = {'nan', 'na', 'n/a', 'null', 'none', '-', '--', '---', ''}
 _DECIMAL_COMMA = re.compile(r'[+-]?\d+,\d+', re.ASCII)
 
 
@@ -86,7 +88,11 @@ def read_line(text: str, utc_offset: float = 0.0) -> LoggerLine:
             msg = f'no time that can be known: {EXPECTED}'
             raise SignalError(msg)
         time = float(found['epoch'])
-    words, decimal_comma = words_of(text[found.end() :])
+    rest = text[found.end() :]
+    if _HALF_DAY.match(rest):
+        msg = 'a clock of twelve hours: give a regular expression as format, and time_format'
+        raise SignalError(msg)
+    words, decimal_comma = words_of(rest)
     return LoggerLine(time, tuple(number_of(word) for word in words), decimal_comma)
 
 
@@ -126,9 +132,24 @@ def words_of(rest: str) -> tuple[list[str], bool]:
     """Return the words of the values, and whether their commas are decimal.
 
     Raises:
-        SignalError: Commas may separate values or be decimal.
+        SignalError: Commas may separate values or be decimal, or each value has a label or unit,
+            by which all but the first would count as another.
 
     """
+    words, decimal_comma = _separated(rest)
+    numbers = [bool(NUMBER.fullmatch(word)) for word in words]
+    labels = [not NUMBER.fullmatch(word) and word.lower() not in _NO_VALUE for word in words]
+    for first, second in ((labels, numbers), (numbers, labels)):
+        if len(words) > 3 and all(first[0::2]) and all(second[1::2]):
+            msg = (
+                f"a word stands beside each value ('{words[0]:.20} {words[1]:.20}'): give a "
+                'regular expression as format'
+            )
+            raise SignalError(msg)
+    return words, decimal_comma
+
+
+def _separated(rest: str) -> tuple[list[str], bool]:
     rest = rest.strip().removesuffix(',').removesuffix(';').rstrip()
     if ';' in rest:
         first = rest.lstrip().startswith(';')

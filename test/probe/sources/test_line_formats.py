@@ -119,6 +119,11 @@ def test_what_stands_for_no_value_is_missing():
         ('D,1,"J",2013/06/10,12:30:00,1e9,0;A,0,1', 'datataker', "'1e9' is no fraction"),
         ('D,1,"J",2000/01/01,00:00:05,0,0;A,0,1', 'datataker', 'the clock of the logger was not'),
         ('none', r'(?P<v1>\d+)', 'not of the form'),
+        ('ch1 0.41 ch2 0.52 ch3 0.63', 'arrival', "a word stands beside each value .'ch1 0.41'"),
+        ('0.41 mV 0.52 mV 0.63 mV', 'arrival', "beside each value .'0.41 mV'"),
+        ('10-06-13 12:30:00 0.41 K 0.52 K 0.63', 'auto', "beside each value .'0.41 K'"),
+        ('10-06-13 1:30:00 PM 0.41 0.52 0.63', 'auto', 'a clock of twelve hours: give a regular'),
+        ('10-06-13;01:30 a.m.;0,41;0,52;0,63', 'auto', 'a clock of twelve hours'),
         ('0.41', 'arrival', '1 values, probe field 3 is missing'),
     ],
 )
@@ -126,6 +131,13 @@ def test_what_is_not_of_the_form_is_refused_and_quoted(text, format_, match):
     with pytest.raises(SignalError, match=match) as caught:
         read(text, format_)
     assert text in str(caught.value)
+
+
+@pytest.mark.parametrize('text', ['0.41 ERR 0.63', 'NAN 0.52 NAN 0.63', 'ERR ERR ERR', 'x 0.5 1'])
+def test_a_word_in_place_of_a_value_is_missing(text):
+    values = read(text, 'arrival').values
+    expected = [not word[0].isdigit() for word in text.split()]
+    assert [isnan(value) for value in values] == expected[:3]
 
 
 @pytest.mark.parametrize('format_', [*LINE_FORMATS, r'(?P<v1>\d+)'])
