@@ -112,6 +112,7 @@ def inspect(file: str) -> Inspection:
         msg = f'{file} has no row: give a file with a row of names and rows of numbers'
         raise SourceError(msg)
     width = Counter(len(cells) for _, cells in rows[delimiter]).most_common(1)[0][0]
+    _require_points(rows[delimiter], width, str(files[0]))
     table = [row for row in rows[delimiter] if len(row[1]) >= width]
     of_data = [_is_data(cells) for _, cells in table]
     begin = next((i for i in range(len(table)) if all(of_data[i : i + IN_A_ROW])), len(table))
@@ -135,6 +136,28 @@ def inspect(file: str) -> Inspection:
         if name
     )
     return Inspection(files, encoding, delimiter, header, columns, *_time_of(columns))
+
+
+def _require_points(rows: Sequence[tuple[int, list[str]]], width: int, file: str) -> None:
+    """Refuse rows of a time and pairs of whole numbers under a name for each pair.
+
+    Raises:
+        SourceError: They are so: commas stand between the columns, and in the numbers too.
+
+    """
+    data = [cells for _, cells in rows if len(cells) == width and _is_data(cells)]
+    number, names = next((row for row in rows if len(row[1]) > 1), (0, []))
+    if (
+        data
+        and width == 2 * len(names) - 1
+        and not any(map(is_number, names))
+        and all(cell.lstrip('+-').isdecimal() for cells in data for cell in cells[1:])
+    ):
+        msg = (
+            f'{file}, line {number}: {len(names)} names over rows of {width} cells of whole '
+            'numbers: the sign between its columns is in its numbers too; save it with another'
+        )
+        raise SourceError(msg)
 
 
 def _rows(lines: Sequence[FileLine], delimiter: str) -> list[tuple[int, list[str]]]:

@@ -31,3 +31,10 @@ def test_names_of_few_columns_are_found_under_a_longer_line_of_the_station(tmp_p
     seen = inspect(str(file))
     assert seen.time_column == 'TIMESTAMP'
     assert [column.name for column in seen.columns] == ['TIMESTAMP', 'RECORD', 'dT']
+
+
+def test_decimal_commas_between_commas_are_refused_with_a_remedy(tmp_path):
+    file = tmp_path / 'oak.csv'
+    file.write_text('time,dT_1,dT_2\n2013-06-10 00:00,0,40,0,50\n2013-06-10 00:30,0,41,-0,51\n')
+    with pytest.raises(SourceError, match=r'3 names over rows of 5 cells.*save it with another'):
+        inspect(str(file))
