@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, MutableMapping
 from importlib import import_module
-from typing import Any
+from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.markup import escape
 from typer.core import TyperGroup
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class _Commands(MutableMapping[str, Any]):
@@ -48,12 +52,16 @@ def _command(found: Any, name: str) -> Any:
     app._add_completion = False  # noqa: SLF001 - only the whole program offers that
     command: Any = typer.main.get_command(app)
     command.name = name
-    _escape_help(command)
+    _prepare(command)
     return command
 
 
-def _escape_help(command: Any) -> None:
-    """Let the help of a command and of its own ones show square brackets, of units, as they are."""
+def _prepare(command: Any) -> None:
+    """Let a command and its own ones show square brackets in help, of units, as they are.
+
+    And let none take a number that is not finite: each comparison with NaN is false, so that it
+    passes every range, and a limit of time that is NaN never comes.
+    """
     commands = getattr(command, 'commands', {})
     own = commands.there if isinstance(commands, _Commands) else commands
     for one in (command, *own.values()):
@@ -61,6 +69,20 @@ def _escape_help(command: Any) -> None:
         for parameter in one.params:
             if getattr(parameter, 'help', None):
                 parameter.help = escape(parameter.help)
+            parameter.callback = _finite(parameter.callback)
+
+
+def _finite(then: Callable[..., Any] | None) -> Callable[..., Any]:
+    """Return a callback of a parameter that refuses NaN and infinity, and hands on to ``then``."""
+
+    def check(context: Any, parameter: Any, value: Any) -> Any:
+        for one in value if isinstance(value, (list, tuple)) else (value,):
+            if isinstance(one, float) and not isfinite(one) and value != parameter.default:
+                msg = f'{one} is no finite number'
+                raise typer.BadParameter(msg, ctx=context, param=parameter)
+        return then(context, parameter, value) if then else value
+
+    return check
 
 
 HELP = {'help_option_names': ['-h', '--help']}

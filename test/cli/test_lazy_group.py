@@ -5,26 +5,40 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
 import typer
 from typer.testing import CliRunner
 
 from agv_motion.cli.main import app
 
 
-def commands(command, name=()):
-    """Yield the words of every command and group below ``command``."""
-    yield name
+def commands_of(command, name=()):
+    """Yield every command and group below ``command``, each after its words."""
+    yield name, command
     for word, below in getattr(command, 'commands', {}).items():
-        yield from commands(below, (*name, word))
+        yield from commands_of(below, (*name, word))
 
 
 def test_every_command_tells_what_it_is_for():
-    found = list(commands(typer.main.get_command(app)))
+    found = [words for words, _ in commands_of(typer.main.get_command(app))]
     assert len(found) > 30
     for words in found:
         result = CliRunner().invoke(app, [*words, '--help'])
         assert result.exit_code == 0, words
         assert len(result.output) > 200, words
+
+
+@pytest.mark.parametrize('number', ['nan', 'inf', '-inf'])
+def test_no_option_takes_a_number_that_is_not_finite(number):
+    """It would pass every range, and `agv demo --minutes nan` would never end."""
+    tried = 0
+    for words, command in commands_of(typer.main.get_command(app)):
+        for option in command.params:
+            if 'float' in type(option.type).__name__.lower():
+                with pytest.raises(typer.BadParameter, match=r'finite|range'):
+                    command.make_context(words[-1], [option.opts[0], number])
+                tried += 1
+    assert tried > 40
 
 
 PROGRAM = """
