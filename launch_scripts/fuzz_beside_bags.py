@@ -16,8 +16,8 @@ from agv_motion.bag.catalog.find import find as ask
 from agv_motion.bag.catalog.index import NAME, BagIndex
 from agv_motion.bag.catalog.statistics import Period, amounts, topic_amounts
 from agv_motion.bag.connection import Connection, Message
-from agv_motion.bag.events.black_box import owed
 from agv_motion.bag.events.event_parameters import EventParameters
+from agv_motion.bag.events.event_saver import owed
 from agv_motion.bag.events.journal import left_behind
 from agv_motion.bag.events.trigger import Trigger
 from agv_motion.bag.writer import BagWriter

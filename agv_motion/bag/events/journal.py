@@ -12,6 +12,8 @@ import json
 import os
 import secrets
 from contextlib import suppress
+from functools import partial
+from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.bag.events.event import Event, from_entries
@@ -86,6 +88,42 @@ def begin(folder: Path, recording: Path, before: float, *, only_events: bool) ->
         {'recording': str(recording.absolute()), 'only_events': only_events, 'before': before}
     )
     return journal
+
+
+class OwnJournal:
+    """The journal of a recorder, which is not there before it is needed. For any thread."""
+
+    def __init__(self, folder: Path, recording: Path, before: float, *, only_events: bool) -> None:
+        """Make nothing yet; arguments as of :func:`begin`."""
+        self.folder = folder
+        self._begin = partial(begin, folder, recording, before, only_events=only_events)
+        self._lock = Lock()
+        self._journal: Journal | None = None
+
+    def begin(self) -> Journal:
+        """Return the journal; make it if it is not there.
+
+        Raises:
+            SourceError: The disk takes nothing.
+
+        """
+        with self._lock:
+            self._journal = self._journal or self._begin()
+            return self._journal
+
+    def note(self, number: int, event: Event) -> None:
+        """Note an event, or that it goes on."""
+        self.begin().note(number, event)
+
+    def saved(self, number: int) -> None:
+        """Note that nothing is left to do for an event."""
+        self.begin().saved(number)
+
+    def close(self, *, done: bool) -> None:
+        """Let go of the file, if there is one; delete it first if there is nothing left to do."""
+        if self._journal is not None:
+            self._journal.close(done=done)
+            self._journal = None
 
 
 def left_behind(folder: Path) -> Iterator[tuple[Journal, LeftBehind]]:

@@ -14,9 +14,10 @@ import pytest
 pytest.importorskip('std_msgs')
 
 from agv_motion.bag.editing.request import EditRequest
-from agv_motion.bag.events.black_box import KILLED, BlackBox
+from agv_motion.bag.events.black_box import BlackBox
 from agv_motion.bag.events.event import Moment, events_of
 from agv_motion.bag.events.event_parameters import EventParameters
+from agv_motion.bag.events.event_saver import KILLED
 from agv_motion.bag.notes import Note, add_note, notes_of
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.reader import BagReader

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from agv_motion.bag.events.event import Event, Moment
-from agv_motion.bag.events.journal import begin, left_behind
+from agv_motion.bag.events.journal import OwnJournal, begin, left_behind
 
 ONE, TWO = (Event((Moment(stamp, 'slip'),), 0, stamp) for stamp in (5, 9))
 
@@ -69,3 +69,19 @@ def test_journals_of_the_same_recording_are_others(tmp_path):
     assert all(j.path.name.startswith('.walk.') for j in two)
     for journal in two:
         journal.close(done=True)
+
+
+def test_the_journal_of_a_recorder_is_not_there_before_it_is_needed(tmp_path):
+    own = OwnJournal(tmp_path / 'events', tmp_path / 'walk', 5.0, only_events=False)
+    own.close(done=True)
+    assert not own.folder.exists()
+    own.note(1, TWO)
+    own.note(2, TWO)
+    own.saved(1)
+    (path,) = own.folder.iterdir()
+    own.close(done=False)
+    ((journal, left),) = left_behind(own.folder)
+    assert journal.path == path
+    assert left.events == {2: TWO}
+    journal.close(done=True)
+    assert not list(own.folder.iterdir())
