@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from agv_motion.errors import SourceError
+from agv_motion.errors import AgvMotionError, SourceError
 from agv_motion.probe.tables.table_file import TableFile
 
 if TYPE_CHECKING:
@@ -49,12 +49,14 @@ class LoggerTables:
         """Read nothing yet."""
         self._given = given
         self._files: dict[Path, TableFile] = {}
+        self._begun = False
 
     def read(self, *, growing: bool = False) -> LoggerTable:
         """Return the rows that were not read before, of files that are new too.
 
         Args:
-            growing: Whether a logger may be writing. A file that it has begun anew is read anew.
+            growing: Whether a logger may be writing. A file that it has begun anew is read anew,
+                and one that cannot be read later is told in `LoggerTable.problem`.
 
         Raises:
             SourceError: There is no file, it cannot be read, or no row in it can.
@@ -62,17 +64,35 @@ class LoggerTables:
 
         """
         parts: dict[Path, FileRows] = {}
+        troubles: list[str] = []
         for path in files_of(self._given.file):
-            known = self._files.get(path)
-            size = _size_of(path) if growing else -1
-            if known and size == known.bytes_read:
-                continue
-            if known is None or size < known.bytes_read or not known.is_as_read():
-                if growing and not size:
-                    continue
-                known = self._files[path] = TableFile(path, self._given)
-            parts[path] = known.read(growing=growing)
-        return in_order(parts, len(self._given.columns))
+            rows = self._new_rows(path, troubles, growing=growing)
+            parts |= {} if rows is None else {path: rows}
+        self._begun = True
+        table = in_order(parts, len(self._given.columns))
+        return table._replace(problem='; '.join(filter(None, (table.problem, *troubles))))
+
+    def _new_rows(self, path: Path, troubles: list[str], *, growing: bool) -> FileRows | None:
+        """Return the new rows of a file; None, and a trouble, where another's rows are to count."""
+        try:
+            return self._rows_of(path, growing=growing)
+        except AgvMotionError as error:
+            if not (growing and self._begun):
+                raise
+            troubles.append(str(error))
+            return None
+
+    def _rows_of(self, path: Path, *, growing: bool) -> FileRows | None:
+        """Return what was not read before of a file; None where nothing is new."""
+        known = self._files.get(path)
+        size = _size_of(path) if growing else -1
+        if known and size == known.bytes_read:
+            return None
+        if known is None or size < known.bytes_read or not known.is_as_read():
+            if growing and not size:
+                return None
+            known = self._files[path] = TableFile(path, self._given)
+        return known.read(growing=growing)
 
 
 def _size_of(path: Path) -> int:

@@ -177,3 +177,18 @@ def test_a_file_that_is_not_there_is_told(tmp_path):
     for growing in (False, True):
         with pytest.raises(SourceError, match=r'cannot read the probe file .*oak\.csv'):
             tables.read(growing=growing)
+
+
+def test_a_file_that_cannot_be_read_costs_no_row_of_the_others(tmp_path):
+    (tmp_path / 'a.csv').write_text(HEADER + rows(1))
+    tables = LoggerTables(TableParameters(file=str(tmp_path), columns=('a',)))
+    assert tables.read(growing=True).values[:, 0].tolist() == [1]
+    (tmp_path / 'b.txt').write_text('notes\n')
+    with (tmp_path / 'a.csv').open('a') as written:
+        written.write(rows(2))
+    (tmp_path / 'c.csv').write_text(HEADER + rows(3))
+    found = tables.read(growing=True)
+    assert found.values[:, 0].tolist() == [2, 3]
+    assert "b.txt, line 1, column 1: no column 'time'" in found.problem
+    with pytest.raises(ConfigurationError, match=r'b\.txt'):
+        read(tmp_path)
