@@ -113,7 +113,6 @@ def pytest_collection_modifyitems(items):
 
 def pytest_collection_finish():
     """Keep the collector from all that is imported: it is run before each graph, and often."""
-    gc.collect()
     gc.freeze()
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import nullcontext
+from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
@@ -19,11 +19,14 @@ from PIL import Image, ImageSequence
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.report.walk import WalkRun
 
-sys.path.append(str(Path(__file__).parents[1] / 'launch_scripts'))
-
-import animation
-
 SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
+
+
+@pytest.fixture
+def animation(monkeypatch):
+    """Return the script; it imports all of pyplot, so not in each process that lists the tests."""
+    monkeypatch.syspath_prepend(Path(__file__).parents[1] / 'launch_scripts')
+    return import_module('animation')
 
 
 def walk():
@@ -37,7 +40,7 @@ def walk():
     return WalkRun(path, flow, speeds, np.zeros((1, 2)), goals, reasons, None, None)
 
 
-def test_a_walk_becomes_a_moving_picture(tmp_path, monkeypatch):
+def test_a_walk_becomes_a_moving_picture(animation, tmp_path, monkeypatch):
     monkeypatch.setattr(animation, 'DOTS_PER_INCH', 40)
     path = tmp_path / 'walk.gif'
     animation.write(walk(), SQUARE, path, None, frames=3)
@@ -54,7 +57,7 @@ def test_a_walk_becomes_a_moving_picture(tmp_path, monkeypatch):
 
 
 def test_a_bag_that_does_not_tell_the_robot_is_drawn_with_a_word_about_it(
-    tmp_path, monkeypatch, capsys
+    animation, tmp_path, monkeypatch, capsys
 ):
     drawn = []
     monkeypatch.setattr(animation, 'read_walk', lambda *_: walk())

@@ -6,9 +6,8 @@ import ast
 import importlib
 import pydoc
 import re
+from functools import cache
 from pathlib import Path
-
-import pytest
 
 ROOT = Path(__file__).parents[2]
 BAG = ROOT / 'agv_motion' / 'bag'
@@ -17,10 +16,6 @@ ABOVE = ('editing', 'checks', 'recording', 'playback')
 """Rooms that use the reader and the writer, which use none of them."""
 ON_TOP = ('events', 'catalog')
 """Rooms that use those, too, and which nobody uses."""
-
-
-def name_of(path):
-    return '.'.join(path.relative_to(ROOT).with_suffix('').parts)
 
 
 def imports(path):
@@ -33,16 +28,19 @@ def imports(path):
                 yield inner if is_file else node.module
 
 
-@pytest.mark.parametrize('path', FILES, ids=name_of)
-def test_a_file_imports_files_and_not_faces(path):
-    for module in imports(path):
+@cache
+def all_imports():
+    return [(path, module) for path in FILES for module in imports(path)]
+
+
+def test_a_file_imports_files_and_not_faces():
+    for path, module in all_imports():
         assert (ROOT / f'{module.replace(".", "/")}.py').is_file(), f'{path}: {module}'
 
 
-@pytest.mark.parametrize('path', FILES, ids=name_of)
-def test_what_reads_and_writes_does_not_know_who_uses_it(path):
-    mine = path.relative_to(BAG).parts[0]
-    for module in imports(path):
+def test_what_reads_and_writes_does_not_know_who_uses_it():
+    for path, module in all_imports():
+        mine = path.relative_to(BAG).parts[0]
         other = module.split('.')[2]
         assert other not in ABOVE or other == mine or mine in ON_TOP, f'{path} imports {module}'
         assert other not in ON_TOP or other == mine, f'{path} imports {module}'
