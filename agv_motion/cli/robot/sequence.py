@@ -38,8 +38,11 @@ def sequence(
         str, typer.Option(help='With --dry-run: X,Y,DEGREES where the robot stands.')
     ] = '0,0,0',
     config: Annotated[
-        Path | None, typer.Option(help='Parameter file with a section for the node sequence.')
-    ] = None,
+        str,
+        typer.Option(
+            help='Parameter file with a section for the node sequence, or one of config/.'
+        ),
+    ] = '',
     actions: Annotated[
         bool, typer.Option('--actions', help='Tell which actions there are, with all their keys.')
     ] = False,
@@ -64,15 +67,18 @@ def sequence(
     if not file:
         typer.echo(context.get_help())
         return
+    from agv_motion.ros.config import find_config
+
+    parameters = find_config(config) if config else None
     if not dry_run:
         from agv_motion.cli.robot.sequence_run import perform
 
-        perform(file, config, context.args)
+        perform(file, parameters, context.args)
         return
     if context.args:
         msg = f'unknown with --dry-run: {" ".join(context.args)}'
         raise typer.BadParameter(msg)
-    _predict(file, config, start, plot)
+    _predict(file, parameters, start, plot)
 
 
 def _parameters(config: Path | None) -> SequenceParameters:

@@ -30,6 +30,17 @@ def test_a_dry_run_tells_every_action_draws_it_and_warns(alone, tmp_path):
     assert picture.read_bytes().startswith(b'\x89PNG')
 
 
+def test_a_configuration_of_the_package_is_found_by_its_name(alone):
+    """As by `agv route` and `agv drive`, wherever one stands."""
+    words = 'sequence', 'sequence_example.yaml', '--dry-run', '--config'
+    status, out, errors = alone(*words, 'differential.yaml')
+    assert (status, errors) == (0, '')
+    assert 'go_to' in out
+    status, _, errors = alone(*words, 'diferential.yaml')
+    assert status == 1
+    assert "no file 'diferential.yaml', neither by that path nor in" in errors
+
+
 def test_every_key_of_every_action_is_explained():
     rows = list(keys())
     assert {row.action for row in rows} >= set(ACTIONS)
