@@ -19,8 +19,8 @@ from agv_motion.planar import Pose
 ZONE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], [[[8, 5], [12, 5], [12, 9], [8, 9]]], home=[2, 2])
 NOON = 1434369600.0
 FLOW = SapFlow(0.8, 0.6, 0.4)
-VALUES = {'goal', 'planar', 'polyline', 'sap_flow', 'separation', 'zone'}
-"""They answer what is asked of points, lines and values, and decide nothing."""
+VALUES = {'cells', 'goal', 'planar', 'polyline', 'sap_flow', 'separation', 'zone'}
+"""They answer what is asked of points, lines, cells and values, and decide nothing."""
 
 
 def passed(act):
