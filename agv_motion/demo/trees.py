@@ -101,12 +101,14 @@ class TreesScenario(Scenario[list[RecordedWalk]]):
 
         """
         names, zone, seed = self._names, self._zone_file, self._seed
-        minds = [self._minds(name, seed + i) for i, name in enumerate(names)]
+        minds = [self._minds(names[0], seed)]
         given = minds[0].motion.parameters
         self._traffic = given.sharing()
         self._zone = load_zone(find_config(zone), given.rim)
         chance = random.Random(seed)  # noqa: S311 - a simulation, no secret
         starts = scattered(self._zone, len(names), self._traffic.clearance, chance)
+        # those of the others take a second: not before it is known that they have room
+        minds += [self._minds(name, seed + i) for i, name in enumerate(names) if i]
         simulators: list[LiveNode[Any]] = []
         for i, (name, (x, y)) in enumerate(zip(names, starts, strict=True)):
             start_at = {'start_x': x, 'start_y': y, 'start_heading': chance.uniform(-pi, pi)}
