@@ -133,7 +133,8 @@ def trial(given: LossTrialParameters) -> LossTally:
     counts = [0, 0, 0, 0, 0]
     error = 0.0
     ladder = given.loss.hold + given.loss.trend + given.loss.climatology
-    back, noticed = BACK * given.step, NOTICED * given.step
+    warm = ProbeParameters().settling + given.step
+    back, noticed = max(BACK * given.step, warm), NOTICED * given.step
     for time, failure, told, true, reading in _steps(given, found):
         since = time - failure.begin
         failed, resting = failure.begin <= time < failure.end, not told.values
