@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -13,7 +12,7 @@ from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.nodes.promise import guarded, promise
 
 
-def answered(*answers):
+def answered(run_apart, *answers):
     """Return what a future ends with, that another thread answers."""
 
     async def ask():
@@ -23,20 +22,20 @@ def answered(*answers):
                 pool.submit(answer, one)
         return await future
 
-    return asyncio.run(ask())
+    return run_apart(ask())
 
 
-def test_the_first_answer_counts():
-    assert answered('yes', 'no', SignalError('late')) == 'yes'
+def test_the_first_answer_counts(run_apart):
+    assert answered(run_apart, 'yes', 'no', SignalError('late')) == 'yes'
     with pytest.raises(SignalError, match='no message'):
-        answered(SignalError('no message'), 'yes')
+        answered(run_apart, SignalError('no message'), 'yes')
 
 
-def test_who_answers_when_nobody_waits_any_more_is_not_troubled():
+def test_who_answers_when_nobody_waits_any_more_is_not_troubled(run_apart):
     async def ask():
         return promise()[1]
 
-    asyncio.run(ask())('late')
+    run_apart(ask())('late')
 
 
 def fail(error):

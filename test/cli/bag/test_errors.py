@@ -145,7 +145,7 @@ def test_a_reference_of_another_bag(bags):
         (['--unit', 'm'], 'choose one of frames, metres, seconds'),
         (['--metric', 'rpe', '--delta', '60'], 'no poses are 60 frames apart; all cover 59'),
         (['--scale'], '--scale with --align none'),
-        (['--within', 'nan'], '--within nan'),
+        (['--within', '-1'], '--within -1'),
     ],
 )
 def test_what_cannot_be_compared_is_refused_with_the_reason(bags, words, why):

@@ -43,12 +43,11 @@ def test_a_bag_is_served_without_ros(alone, walk, tmp_path, connect):
     assert process.returncode == 0
 
 
-@pytest.mark.parametrize(('rate', 'words'), [('1000', 'rate = 1000'), ('nan', 'rate = nan')])
-def test_a_rate_that_cannot_be_played_is_told(alone, walk, tmp_path, rate, words):
-    given = '--rate', rate, '--port', 0, '--state-folder', tmp_path
+def test_a_rate_that_cannot_be_played_is_told(alone, walk, tmp_path):
+    given = '--rate', '1000', '--port', 0, '--state-folder', tmp_path
     status, _, errors = alone('foxglove', walk, *given)
     assert status == 1
-    assert words in errors
+    assert 'rate = 1000' in errors
 
 
 def test_a_token_is_that_of_its_user_for_its_hours_and_no_longer(tmp_path):

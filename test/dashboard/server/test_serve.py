@@ -8,7 +8,6 @@ import socket
 import ssl
 import statistics
 import subprocess
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
@@ -63,13 +62,7 @@ async def look(server, frames, ages, delay=0.0):
                 return
 
 
-def run_apart(coroutine):
-    """Run a coroutine in a thread of its own: a browser of other tests may have a loop in ours."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, coroutine).result()
-
-
-def test_a_stalled_client_and_one_far_away_cost_a_good_one_nothing(serve, site, robots):
+def test_a_stalled_client_and_one_far_away_cost_a_good_one_nothing(serve, site, robots, run_apart):
     """What is counted is the order of things: how old, on the board's clock, what is sent."""
     server = serve()
     board = robots.board
@@ -94,7 +87,7 @@ def test_a_stalled_client_and_one_far_away_cost_a_good_one_nothing(serve, site, 
     assert statistics.quantiles(frames, n=100)[98] <= 0.3
 
 
-def test_a_silent_crowd_keeps_nobody_from_the_page(serve):
+def test_a_silent_crowd_keeps_nobody_from_the_page(serve, run_apart):
     server = serve()
     crowd = []
     try:
@@ -124,7 +117,7 @@ def test_too_many_who_look_are_refused_and_the_others_served(serve, site):
             made.close()
 
 
-def test_a_huge_message_ends_its_sender_alone(serve):
+def test_a_huge_message_ends_its_sender_alone(serve, run_apart):
     server = serve()
 
     async def send():
@@ -139,7 +132,7 @@ def test_a_huge_message_ends_its_sender_alone(serve):
     run_apart(look(server, 1, []))
 
 
-def test_who_floods_is_sent_away(serve):
+def test_who_floods_is_sent_away(serve, run_apart):
     server = serve()
 
     async def flood():
@@ -167,7 +160,7 @@ def test_a_host_that_is_not_this_machine_is_told():
         listening('192.0.2.1', 0)
 
 
-def test_with_a_certificate_the_page_is_served_by_tls(serve, tmp_path, monkeypatch):
+def test_with_a_certificate_the_page_is_served_by_tls(serve, tmp_path, monkeypatch, run_apart):
     certificate, key = tmp_path / 'page.pem', tmp_path / 'page.key'
     try:
         subprocess.run(  # noqa: S603 - our own

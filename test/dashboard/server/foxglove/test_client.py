@@ -47,7 +47,7 @@ def test_a_session_is_looked_at_now_and_then():
     assert [renewal.is_due() for _ in range(4)] == [False, True, False, True]
 
 
-def test_a_request_of_a_client_that_leaves_at_once_is_closed():
+def test_a_request_of_a_client_that_leaves_at_once_is_closed(run_apart):
     """Its task is cancelled before it is begun."""
     begun = []
 
@@ -62,5 +62,5 @@ def test_a_request_of_a_client_that_leaves_at_once_is_closed():
         await asyncio.sleep(0)
         return inspect.getcoroutinestate(request)
 
-    assert asyncio.run(leave()) == inspect.CORO_CLOSED
+    assert run_apart(leave()) == inspect.CORO_CLOSED
     assert begun == []

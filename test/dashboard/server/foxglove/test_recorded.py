@@ -168,7 +168,7 @@ def test_numbers_that_are_none_are_refused(server, connect):
         assert 'must be a finite number' in tool.refusal()
 
 
-def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch):
+def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch, run_apart):
     """A client that only speaks: what it asks waits for the next look, which it puts off."""
     from agv_motion.dashboard.foxglove.requests import Control, ProtocolError
     from agv_motion.dashboard.server.foxglove import viewing
@@ -184,7 +184,7 @@ def test_who_takes_nothing_cannot_pile_up_requests(bag, monkeypatch):
             made.do(request)
         made.end()
 
-    asyncio.run(pile_up())
+    run_apart(pile_up())
 
 
 def viewed(bag):
@@ -197,7 +197,7 @@ def viewed(bag):
     return Viewing(RecordedRoom(bag), client, controls=True)
 
 
-def test_of_many_leaps_between_two_looks_the_last_is_made(bag, monkeypatch):
+def test_of_many_leaps_between_two_looks_the_last_is_made(bag, monkeypatch, run_apart):
     """Each of them would read the bag; each is answered all the same."""
     from agv_motion.dashboard.foxglove.requests import Control
 
@@ -214,7 +214,7 @@ def test_of_many_leaps_between_two_looks_the_last_is_made(bag, monkeypatch):
         made.end()
         return sought, answered, made._player.rate  # noqa: SLF001
 
-    sought, answered, rate = asyncio.run(leap())
+    sought, answered, rate = run_apart(leap())
     assert (sought, rate) == ([51 * SECOND], 4.0)
     assert answered == [*map(str, range(50)), 'last']
 
