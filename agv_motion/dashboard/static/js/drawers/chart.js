@@ -17,6 +17,7 @@ export class Chart {
     this.canvas = /** @type {HTMLCanvasElement} */ (document.createElement('canvas'));
     this.canvas.className = 'chart';
     this.canvas.setAttribute('role', 'img');
+    this.canvas.setAttribute('aria-label', title); // until there are values
     /** @type {Plot|null} */
     this.plot = null;
     /** @type {number|null} */
