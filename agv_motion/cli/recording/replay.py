@@ -140,7 +140,9 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
         bar = Progress(
             BarColumn(), TextColumn('{task.description}'), console=console, transient=True
         )
-        task = bar.add_task('', total=player.playing.excerpt.end - player.playing.excerpt.begin)
+        task = bar.add_task(
+            _progress(player), total=player.playing.excerpt.end - player.playing.excerpt.begin
+        )
         with bar, keyboard(enabled=keys) as pressed:
 
             def finished() -> bool:
