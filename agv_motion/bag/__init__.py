@@ -23,7 +23,7 @@ Write a bag as ``ros2 bag record`` leaves it:
 Look what is wrong in one, and save what can be read of it:
 
     with BagReader('walk') as bag:
-        for finding in check(bag, Limits()):
+        for finding in check(bag):
             print(finding.severity, finding.where, finding.text)
     with BagWriter('saved') as writer:
         Recovery(writer).save(Path('walk'))
@@ -34,10 +34,9 @@ is wrong). `README.md` beside this file tells the way through the rooms; whateve
 ``__all__`` may change.
 """
 
-from agv_motion.bag.checks.check import Limits, check
+from agv_motion.bag.checks.check import check
 from agv_motion.bag.columns.column import Ragged, Texts
 from agv_motion.bag.columns.columns import Columns, read_topic, read_topics
-from agv_motion.bag.connection import Message
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.quality_of_service import OfferedQos
@@ -49,8 +48,6 @@ __all__ = [
     'BagWriter',
     'Columns',
     'DamagedBagError',
-    'Limits',
-    'Message',
     'OfferedQos',
     'Ragged',
     'Recovery',

@@ -9,7 +9,6 @@ from agv_motion.simulation.fixes import FixSensor
 from agv_motion.simulation.gyro import Gyro
 from agv_motion.simulation.omni import OmniRobot
 from agv_motion.simulation.turret_platform import TurretPlatform
-from agv_motion.simulation.uwb import Uwb
 
 __all__ = [
     'DifferentialRobot',
@@ -17,5 +16,4 @@ __all__ = [
     'Gyro',
     'OmniRobot',
     'TurretPlatform',
-    'Uwb',
 ]

@@ -43,6 +43,9 @@ class Limits(NamedTuple):
     """a silence is so many times the usual interval"""
 
 
+_USUAL = Limits()
+
+
 class Finding(NamedTuple):
     """Something that is wrong."""
 
@@ -54,7 +57,7 @@ class Finding(NamedTuple):
 
 
 def check(
-    bag: BagReader, limits: Limits, progress: Callable[[str], None] = lambda _: None
+    bag: BagReader, limits: Limits = _USUAL, progress: Callable[[str], None] = lambda _: None
 ) -> Iterator[Finding]:
     """Yield all findings, file by file, then topic by topic.
 
