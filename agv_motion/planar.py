@@ -23,6 +23,9 @@ THERE = 1.0 - 1e-12
 FARTHEST = 1e7
 """[m] of any place from the origin of its map, along each axis: as far as UTM goes."""
 
+FASTEST = 1000.0
+"""[m/s], [rad/s] No robot is meant that would be faster: the number is a mistake."""
+
 
 class Pose(NamedTuple):
     """Where a frame is, seen from another."""
@@ -71,6 +74,20 @@ def require_finite(name: str, values: tuple[float, ...]) -> None:
     """
     if not isfinite(sum(values)) and not all(map(isfinite, values)):
         msg = f'{name} must be finite, got {tuple(values)}: discard it and keep the last good one'
+        raise SignalError(msg)
+
+
+def require_twist(twist: Twist) -> None:
+    """Raise unless ``twist`` is one that somebody can mean.
+
+    Raises:
+        SignalError: A number is not finite, or beyond any robot.
+
+    """
+    vx, vy, wz = twist
+    if not (abs(vx) <= FASTEST and abs(vy) <= FASTEST and abs(wz) <= FASTEST):
+        require_finite('twist (vx, vy, wz)', twist)
+        msg = f'twist {tuple(twist)}: at most {FASTEST:g} m/s and rad/s; look at the units'
         raise SignalError(msg)
 
 

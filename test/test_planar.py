@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import SignalError
 from agv_motion.planar import (
+    FASTEST,
     Pose,
     Twist,
     compose,
@@ -19,6 +20,7 @@ from agv_motion.planar import (
     inverse,
     logarithm,
     require_finite,
+    require_twist,
     without_minus_zero,
     wrap,
 )
@@ -100,3 +102,11 @@ def test_large_finite_numbers_pass():
 def test_no_zero_has_a_minus():
     assert str(without_minus_zero(Twist(-0.0, 0.0, -0.0))) == str(Twist(0.0, 0.0, 0.0))
     assert without_minus_zero(Twist(-0.5, 1e-300, -1e-300)) == Twist(-0.5, 1e-300, -1e-300)
+
+
+@pytest.mark.parametrize('bad', [nan, inf, -inf, 1.001 * FASTEST, -1e308])
+def test_a_twist_that_nobody_can_mean_is_refused(bad):
+    for part in range(3):
+        with pytest.raises(SignalError, match=r'must be finite|at most 1000 m/s and rad/s'):
+            require_twist(Twist(*(bad if i == part else 0.0 for i in range(3))))
+    require_twist(Twist(FASTEST, -FASTEST, FASTEST))

@@ -6,16 +6,13 @@ from typing import TYPE_CHECKING
 
 from agv_motion.arbitration.choice import FREE, Choice, HeldStop, Standing, Verdict
 from agv_motion.arbitration.source import DEAD_MEN, DRIVERS, RANKED, TwistSource
-from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.planar import REST, Twist, require_finite
+from agv_motion.errors import ConfigurationError
+from agv_motion.planar import REST, Twist, require_twist
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from agv_motion.arbitration.choice import Hold
-
-FASTEST = 1000.0
-"""[m/s], [rad/s] No robot is meant that would be faster: the number is a mistake."""
 
 
 class Arbiter:
@@ -60,10 +57,7 @@ class Arbiter:
         if source is TwistSource.STOP:
             self.stop('asked for', spoken)
             return
-        require_finite('twist (vx, vy, wz)', twist)
-        if max(map(abs, twist)) > FASTEST:
-            msg = f'twist {tuple(twist)}: at most {FASTEST:g} m/s and rad/s; look at the units'
-            raise SignalError(msg)
+        require_twist(twist)
         self._said[source] = twist, spoken
         if source in self.hold.lost:
             self.hold = self.hold._replace(lost=self.hold.lost - {source})

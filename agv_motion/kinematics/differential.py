@@ -18,6 +18,7 @@ from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError, SignalError
+from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
@@ -103,6 +104,7 @@ class DifferentialDrive:
 
         Raises:
             SignalError: ``twist`` is not finite, or goes sideways, which these wheels cannot.
+            ConfigurationError: ``max_wheel_speed`` is not above 0.
 
         """
         vx, vy, wz = twist
@@ -115,7 +117,8 @@ class DifferentialDrive:
             msg = f'vy = {vy} m/s: a differential drive cannot go sideways, give vx and wz only'
             raise SignalError(msg)
         fastest = max(abs(left), abs(right))
-        if fastest > max_wheel_speed:
+        if not fastest <= max_wheel_speed:  # also true when it is NaN
+            require_wheel_speed(max_wheel_speed)
             scale = max_wheel_speed / fastest
             return DifferentialCommand(WheelSpeeds(scale * left, scale * right), scale)
         return DifferentialCommand(WheelSpeeds(left, right), 1.0)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
+from agv_motion.kinematics.wheel_limits import require_wheel_speed
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.omniwheels import OmniWheels
@@ -28,11 +29,14 @@ def command_columns(
 
     Raises:
         SignalError: Another shape, or a value that is not finite (its row is named).
+        ConfigurationError: ``max_wheel_speed`` is not above 0.
 
     """
+    require_wheel_speed(max_wheel_speed)
+    limit = min(max_wheel_speed, float_info.max)  # an infinite one over itself is no number
     speeds = wheels.matrix @ require_columns('twist', twist, 3)
-    fastest = np.abs(speeds).max(axis=0, initial=max_wheel_speed)
-    speeds *= max_wheel_speed / fastest
+    fastest = np.abs(speeds).max(axis=0, initial=limit)
+    speeds *= limit / fastest
     return speeds
 
 

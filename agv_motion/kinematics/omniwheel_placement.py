@@ -19,6 +19,7 @@ from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError
+from agv_motion.kinematics.polar_positions import polar_positions
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,16 +83,11 @@ def wheels_on_circle(angles: Sequence[float], distances: Sequence[float]) -> lis
     ``(sin a_j, -cos a_j)`` and is free along ``(cos a_j, sin a_j)``.
 
     Raises:
-        GeometryError: The lengths differ.
+        GeometryError: The lengths differ, or a number is not finite.
 
     """
-    if len(angles) != len(distances):
-        msg = f'{len(angles)} angles and {len(distances)} distances: give both of every wheel'
-        raise GeometryError(msg)
-    return [
-        OmniWheel(d * cos(a), d * sin(a), a - pi / 2)
-        for a, d in zip(angles, distances, strict=True)
-    ]
+    places = polar_positions('wheel', angles, distances)
+    return [OmniWheel(x, y, a - pi / 2) for (x, y), a in zip(places, angles, strict=True)]
 
 
 def mecanum_wheels(half_length: float, half_width: float) -> list[OmniWheel]:

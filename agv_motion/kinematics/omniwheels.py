@@ -25,6 +25,7 @@ from agv_motion.kinematics.omniwheel_placement import (
     wheels_on_circle,
 )
 from agv_motion.kinematics.twist_fit import TwistFit
+from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
@@ -144,6 +145,7 @@ class OmniWheels:
 
         Raises:
             SignalError: ``twist`` is not finite.
+            ConfigurationError: ``max_wheel_speed`` is not above 0.
 
         """
         vx, vy, wz = twist
@@ -152,7 +154,8 @@ class OmniWheels:
         if not isfinite(vx + vy + wz + fastest):
             require_finite('twist', twist)
             require_finite('wheel speeds', tuple(speeds))
-        if fastest > max_wheel_speed:
+        if not fastest <= max_wheel_speed:  # also true when it is NaN
+            require_wheel_speed(max_wheel_speed)
             scale = max_wheel_speed / fastest
             return OmniCommand([scale * speed for speed in speeds], scale)
         return OmniCommand(speeds, 1.0)
@@ -220,8 +223,9 @@ class OmniWheels:
             missing: Numbers of the wheels, from 0, whose speeds are unknown and not looked at.
 
         Raises:
-            SignalError: The length differs from the number of wheels, a value is not finite, or
-                the wheels left cannot tell the twist (the message names the motion they miss).
+            SignalError: The length differs from the number of wheels, a value is not finite, there
+                is no wheel of a number in ``missing``, or the wheels left cannot tell the twist
+                (the message names the motion they miss).
 
         """
         vx, vy, wz, residual = self.solve(speeds, missing)
@@ -245,6 +249,7 @@ class OmniWheels:
             wz += to_z * speed
         if not isfinite(vx + vy + wz):
             require_finite('wheel speeds', tuple(speeds))
+            require_finite(f'the twist of wheel speeds {tuple(speeds)}', (vx, vy, wz))
         if not solution.checks:
             return vx, vy, wz, 0.0
         unexplained = 0.0
@@ -255,6 +260,9 @@ class OmniWheels:
 
     def _without(self, missing: Collection[int]) -> _Solution:
         present = tuple(i for i in range(len(self)) if i not in missing)
+        if len(present) + len(set(missing)) != len(self):
+            msg = f'missing = {sorted(missing)}: there are wheels 0 to {len(self) - 1}'
+            raise SignalError(msg)
         try:
             return self._solution(present)
         except GeometryError as error:

@@ -14,7 +14,8 @@ import numpy as np
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
-from agv_motion.planar import STANDSTILL
+from agv_motion.kinematics.wheel_limits import require_wheel_speed
+from agv_motion.planar import STANDSTILL, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,9 +66,12 @@ def command_columns(
         out: Result of an earlier call of the same size, to be overwritten.
 
     Raises:
-        SignalError: Columns differ in length or hold a value that is not finite.
+        SignalError: Columns differ in length, or a value of theirs or of ``held_angles`` is not
+            finite.
+        ConfigurationError: ``max_wheel_speed`` is not above 0.
 
     """
+    require_wheel_speed(max_wheel_speed)
     vx, vy, wz = (np.ascontiguousarray(column, dtype=float) for column in twist)
     if vx.ndim != 1 or not vx.shape == vy.shape == wz.shape:
         msg = f'twist columns have shapes {vx.shape}, {vy.shape}, {wz.shape}: give one shape (n,)'
@@ -77,6 +81,7 @@ def command_columns(
     if held.shape != shape[:1]:
         msg = f'{held.size} held angles for {len(turrets)} turrets: give one each'
         raise SignalError(msg)
+    require_finite('held_angles', tuple(held.tolist()))
     if out is None:
         out = TurretColumns(np.empty(shape), np.empty(shape))
     elif out.angle.shape != shape or out.speed.shape != shape:

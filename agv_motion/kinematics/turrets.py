@@ -21,7 +21,9 @@ import numpy as np
 
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.elementwise import elementwise
+from agv_motion.kinematics.polar_positions import polar_positions
 from agv_motion.kinematics.twist_fit import TwistFit
+from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
@@ -65,15 +67,14 @@ class Turrets:
         if n < 2:
             msg = f'{n} turret(s) given, at least 2 are needed: list the x and y of every turret'
             raise GeometryError(msg)
-        if not all(isfinite(x) and isfinite(y) for x, y in self.positions):
-            msg = f'turret positions must be finite, got {self.positions}: measure them in metres'
-            raise GeometryError(msg)
         self._straight = (0.0,) * n
         self._centre_x = sum(x for x, _ in self.positions) / n
         self._centre_y = sum(y for _, y in self.positions) / n
-        self._spread = sum(
-            (x - self._centre_x) ** 2 + (y - self._centre_y) ** 2 for x, y in self.positions
-        )
+        arms = [(x - self._centre_x, y - self._centre_y) for x, y in self.positions]
+        self._spread = sum(x * x + y * y for x, y in arms)
+        if not isfinite(self._spread):
+            msg = f'turret positions must be finite, got {self.positions}: measure them in metres'
+            raise GeometryError(msg)
         if self._spread < 1e-12:
             msg = f'all {n} turrets stand at {self.positions[0]}: set them apart'
             raise GeometryError(msg)
@@ -101,10 +102,7 @@ class Turrets:
             GeometryError: The lengths differ, or what the constructor refuses.
 
         """
-        if len(angles) != len(distances):
-            msg = f'{len(angles)} angles and {len(distances)} distances: give both of every turret'
-            raise GeometryError(msg)
-        return cls([(d * cos(a), d * sin(a)) for a, d in zip(angles, distances, strict=True)])
+        return cls(polar_positions('turret', angles, distances))
 
     def __len__(self) -> int:
         """Return the number of turrets."""
@@ -128,7 +126,9 @@ class Turrets:
             max_wheel_speed: Limit of every wheel [m/s].
 
         Raises:
-            SignalError: ``twist`` is not finite, or ``held_angles`` has another length.
+            SignalError: ``twist`` or an angle that is held is not finite, or ``held_angles`` has
+                another length.
+            ConfigurationError: ``max_wheel_speed`` is not above 0.
 
         """
         vx, vy, wz = twist
@@ -142,11 +142,17 @@ class Turrets:
             wheel_x, wheel_y = vx - wz * y, vy + wz * x
             speed = sqrt(wheel_x * wheel_x + wheel_y * wheel_y)
             speeds.append(speed)
-            angles.append(atan2(wheel_y, wheel_x) if speed > STANDSTILL else held)
+            if speed > STANDSTILL:
+                angles.append(atan2(wheel_y, wheel_x))
+                continue
+            if not isfinite(held):
+                require_finite('held_angles', tuple(held_angles))
+            angles.append(held)
         fastest = max(speeds)
         if not fastest <= max_wheel_speed:  # also true when NaN
             require_finite('twist', twist)
             require_finite('wheel speeds', tuple(speeds))
+            require_wheel_speed(max_wheel_speed)
             scale = max_wheel_speed / fastest
             return TurretCommand(angles, [scale * speed for speed in speeds], scale)
         return TurretCommand(angles, speeds, 1.0)
@@ -179,14 +185,16 @@ class Turrets:
         if len(angles) != n or len(speeds) != n:
             msg = f'{len(angles)} angles and {len(speeds)} speeds for {n} turrets: give one each'
             raise SignalError(msg)
-        if not (isfinite(sum(angles)) and isfinite(sum(speeds))):
+        if not isfinite(sum(angles)):
             require_finite('turret angles', tuple(angles))
-            require_finite('wheel speeds', tuple(speeds))
         velocities = [
             (speed * cos(angle), speed * sin(angle))
             for angle, speed in zip(angles, speeds)  # noqa: B905 - hot
         ]
         vx, vy, wz, square = self._fit(velocities)
+        if not isfinite(square):
+            require_finite('wheel speeds', tuple(speeds))
+            require_finite(f'the twist of wheel speeds {tuple(speeds)}', (vx, vy, wz, square))
         return vx, vy, wz, sqrt(square)
 
     def solve_columns(
@@ -229,7 +237,12 @@ def centre_of_rotation(twist: Twist) -> tuple[float, float] | None:
     """Return the ICR of ``twist`` in the base frame [m], or None where it lies at infinity.
 
     It is the point at ``(-vy / wz, vx / wz)``, where the velocity of the body vanishes.
+
+    Raises:
+        SignalError: ``twist`` is not finite.
+
     """
+    require_finite('twist', twist)
     if abs(twist.wz) <= 1e-12 * max(hypot(twist.vx, twist.vy), 1e-300):
         return None
     return -twist.vy / twist.wz, twist.vx / twist.wz

@@ -16,11 +16,11 @@ to what (1) asks for, again by one factor for all, and falls in time to be zero 
 
 from __future__ import annotations
 
-from math import floor, inf, isfinite, sqrt
+from math import floor, inf, sqrt
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import REST, THERE, Twist, require_finite
+from agv_motion.planar import REST, THERE, Twist, require_twist
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,10 +64,10 @@ class TwistRamp:
         """Aim at ``twist``; where a wheel would be too fast for it, at a scaled one.
 
         Raises:
-            SignalError: A number is not finite.
+            SignalError: A number is not finite, or beyond any robot.
 
         """
-        require_finite('twist', twist)
+        require_twist(twist)
         self.target = self._slowed(twist)
 
     def update(self, dt: float) -> Twist:
@@ -137,9 +137,6 @@ class TwistRamp:
     def _slowed(self, twist: Twist) -> Twist:
         """Return ``twist``, all of it slower by one factor where a wheel would be too fast."""
         fastest = self.fastest(twist)
-        if not isfinite(fastest):
-            msg = f'twist {tuple(twist)}: no wheel can be so fast; give less'
-            raise SignalError(msg)
         if fastest <= self._limits.max_wheel_speed:
             return twist
         scale = self._limits.max_wheel_speed / fastest

@@ -10,7 +10,7 @@ from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 
 from agv_motion.errors import SignalError
-from agv_motion.planar import FARTHEST, Pose, Twist, require_finite
+from agv_motion.planar import FARTHEST, Pose, Twist, require_finite, require_twist
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,12 +49,11 @@ def twist_of(message: Any) -> Twist:
     """Return the planar part of a geometry_msgs/Twist.
 
     Raises:
-        SignalError: One of its three planar numbers is not finite.
+        SignalError: One of its three planar numbers is not finite, or beyond any robot.
 
     """
     twist = Twist(message.linear.x, message.linear.y, message.angular.z)
-    if not isfinite(twist.vx + twist.vy + twist.wz):
-        require_finite('twist (vx, vy, wz)', twist)
+    require_twist(twist)
     return twist
 
 

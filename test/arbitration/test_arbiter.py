@@ -9,11 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.arbitration import Arbiter, TwistSource
-from agv_motion.arbitration.arbiter import FASTEST
 from agv_motion.arbitration.choice import HeldStop, Hold, Verdict
 from agv_motion.arbitration.source import DRIVERS, RANKED
 from agv_motion.errors import ConfigurationError, SignalError
-from agv_motion.planar import REST, Twist
+from agv_motion.planar import FASTEST, REST, Twist
 
 TIMEOUTS = dict.fromkeys(TwistSource, 1.0) | {TwistSource.MANUAL: 0.25}
 """Exact in binary: what is silent for its time-out is silent."""

@@ -215,3 +215,15 @@ def test_rates_need_radii_and_one_number_a_wheel():
 def test_a_motion_that_turns_no_wheel_is_named_forwards(rolling, message):
     with pytest.raises(GeometryError, match=f'moves along {message}'):
         OmniWheels([OmniWheel(cos(a), sin(a), rolling) for a in (0.0, 1.0, 2.0)])
+
+
+@pytest.mark.parametrize('missing', [(4,), (-1,), (0, 9)])
+def test_a_missing_wheel_that_there_is_not_is_refused(missing):
+    """It was passed over, and the wheel that was meant believed."""
+    with pytest.raises(SignalError, match=r'missing = .*: there are wheels 0 to 3'):
+        OmniWheels(mecanum_wheels(0.3, 0.2)).twist([0.0] * 4, missing)
+
+
+def test_speeds_whose_twist_no_number_can_hold_are_refused():
+    with pytest.raises(SignalError, match=r'the twist of wheel speeds .* must be finite'):
+        OmniWheels(mecanum_wheels(0.3, 1e-3)).twist([1e308, -1e308, 1e308, -1e308])

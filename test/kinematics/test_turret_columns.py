@@ -88,3 +88,8 @@ def test_measured_columns_must_fit_the_platform():
         twist_columns(TREE, zeros, zeros[:, :3])
     with pytest.raises(SignalError, match='3 held angles for 2 turrets'):
         command_columns(Turrets([(1.0, 0.0), (-1.0, 0.0)]), zeros, [0.0] * 3)
+
+
+def test_angles_that_are_held_are_finite():
+    with pytest.raises(SignalError, match='held_angles must be finite'):
+        command_columns(TREE, np.zeros((3, 4)), [0.0, np.nan, 0.0])

@@ -108,8 +108,12 @@ def test_a_wheel_at_standstill_keeps_its_angle(turrets, angles):
 
 
 @pytest.mark.parametrize(
-    'positions', [[], [(0.0, 0.0)], [(1.0, 1.0)] * 3, [(0.0, nan), (1.0, 0.0)], [(0, 0), (inf, 0)]]
-)
+    'positions',
+    [
+        [], [(0.0, 0.0)], [(1.0, 1.0)] * 3, [(0.0, nan), (1.0, 0.0)], [(0, 0), (inf, 0)],
+        [(1e200, 0.0), (-1e200, 0.0)],
+    ],
+)  # fmt: skip
 def test_an_impossible_platform_is_refused(positions):
     with pytest.raises(GeometryError, match='turret'):
         Turrets(positions)
@@ -148,3 +152,21 @@ def test_columns_are_solved_to_the_bit_as_one_by_one():
     found = np.array(TREE.solve_columns(angles, speeds)).T.tolist()
     pairs = zip(angles.T.tolist(), speeds.T.tolist(), strict=True)
     assert found == [list(TREE.solve(angle, speed)) for angle, speed in pairs]
+
+
+@pytest.mark.parametrize('bad', [nan, inf])
+def test_no_number_that_is_none_comes_out(bad):
+    with pytest.raises(SignalError, match='held_angles must be finite'):
+        TREE.command(REST, [0.0, bad, 0.0])
+    with pytest.raises(SignalError, match='turret angles must be finite'):
+        TREE.twist([0.0, bad, 0.0], [0.0] * 3)
+    with pytest.raises(SignalError, match='wheel speeds must be finite'):
+        TREE.twist([0.0] * 3, [0.0, 0.0, bad])
+    for twist in (Twist(bad, 0.0, 1.0), Twist(0.0, bad, 0.0), Twist(1.0, 0.0, bad)):
+        with pytest.raises(SignalError, match='twist must be finite'):
+            centre_of_rotation(twist)
+
+
+def test_speeds_whose_twist_no_number_can_hold_are_refused():
+    with pytest.raises(SignalError, match=r'the twist of wheel speeds .* must be finite'):
+        TREE.twist([0.0, 1.0, 0.0], [1e200] * 3)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import tau
 from typing import TYPE_CHECKING
 
-from agv_motion.errors import ConfigurationError
+from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.kinematics.steering.alignment import RollingShare
 from agv_motion.kinematics.steering.planner import SteeringPlanner
 from agv_motion.kinematics.steering.readings import TurretReadings
 from agv_motion.kinematics.steering.state import AtRest, Rolling
 from agv_motion.kinematics.steering.step_clock import StepClock
 from agv_motion.kinematics.steering.unwinding import Unwinding, describe, is_wound
-from agv_motion.planar import REST, Twist
+from agv_motion.planar import REST, Twist, require_twist
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.limits import SteeringLimits
@@ -67,10 +67,13 @@ class SteeringController:
         """Take up the angles as they are, (n,) [rad].
 
         Raises:
-            SignalError: One is no angle of a turret; until better ones come, a platform of which
-                nothing else is known stands.
+            SignalError: Their number is wrong, or one is no angle of a turret; until better ones
+                come, a platform of which nothing else is known stands.
 
         """
+        if len(angles) != len(self.planner.turrets):
+            msg = f'{len(angles)} angles for {len(self.planner.turrets)} turrets: give one each'
+            raise SignalError(msg)
         first = self._readings.angles is None
         self._readings.update(angles, self.planner.limits.turn_limit)
         if first:
@@ -89,7 +92,13 @@ class SteeringController:
         )
 
     def set_target(self, twist: Twist) -> None:
-        """Aim at ``twist`` from now on; turrets that nobody measures are taken for straight."""
+        """Aim at ``twist`` from now on; turrets that nobody measures are taken for straight.
+
+        Raises:
+            SignalError: A number of it is not finite, or beyond any robot; the last one holds.
+
+        """
+        require_twist(twist)
         self._target = twist
         if any(twist):
             self._unwinding.asked = False

@@ -32,7 +32,7 @@ from agv_motion.kinematics.steering.at_rest import align, hold, may_roll, unwind
 from agv_motion.kinematics.steering.chassis import measure
 from agv_motion.kinematics.steering.rolling import roll
 from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
-from agv_motion.planar import STANDSTILL, Twist, require_finite
+from agv_motion.planar import STANDSTILL, Twist, require_twist
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.limits import SteeringLimits
@@ -75,15 +75,13 @@ class SteeringPlanner:
             The phase after the step, whose ``setpoints`` are to be commanded.
 
         Raises:
-            SignalError: The twist is not finite, the period not positive, or the phase of another
-                platform.
+            SignalError: The twist is not finite, or beyond any robot, the period not positive, or
+                the phase of another platform.
 
         """
         vx, vy, wz = twist
         chassis, setpoints = self._chassis, phase.setpoints
         arms, limits, x, y, length = chassis
-        if not isfinite(vx + vy + wz):
-            require_finite('twist (vx, vy, wz)', twist)
         if not 0.0 < period < inf:
             msg = f'period = {period} s: must be positive and finite'
             raise SignalError(msg)
@@ -92,6 +90,8 @@ class SteeringPlanner:
             raise SignalError(msg)
         a, b, c = vx - wz * y, vy + wz * x, wz * length
         size = sqrt(a * a + b * b + c * c)
+        if not isfinite(size):
+            require_twist(twist)
         wanted = (a / size, b / size, c / size) if size > STANDSTILL else None
         if isinstance(phase, Rolling):
             phase = roll(chassis, phase, wanted, size, period)

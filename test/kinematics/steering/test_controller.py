@@ -255,3 +255,26 @@ def test_turrets_that_turn_are_not_astray():
     before = one.setpoints.angles[1]
     steps(one, 1, now)
     assert one.setpoints.angles[1] > before > 0.0
+
+
+@pytest.mark.parametrize('bad', [nan, inf, 1e200, -1001.0])
+def test_a_target_beyond_any_robot_is_refused_and_the_last_one_holds(bad):
+    one = drive()
+    one.set_target(AHEAD)
+    now = steps(one, 20)
+    before = list(one.setpoints.speeds)
+    for part in range(3):
+        with pytest.raises(SignalError, match=r'twist .*(must be finite|look at the units)'):
+            one.set_target(Twist(*(bad if i == part else 0.1 for i in range(3))))
+    steps(one, 5, now)
+    assert one.setpoints.speeds == pytest.approx(before)
+
+
+@pytest.mark.parametrize('count', [0, 1, 3])
+def test_angles_of_another_platform_are_refused(count):
+    one = drive()
+    for _ in range(2):  # before and after those of this one
+        with pytest.raises(SignalError, match=f'{count} angles for 2 turrets: give one each'):
+            one.set_measured([0.0] * count)
+        one.set_measured([0.1, 0.2])
+    assert one.measured == [0.1, 0.2]

@@ -242,3 +242,11 @@ def test_a_period_must_be_positive(period):
 def test_the_state_of_another_platform_is_refused():
     with pytest.raises(SignalError, match='a state of 2 turrets for 3'):
         Platform([0.0] * 2).step(FORWARD)
+
+
+@pytest.mark.parametrize('twist', [(1e200, 0, 0), (0, -1e160, 0), (0, 0, 1e300), (1e308, 1e308, 0)])
+def test_a_twist_beyond_any_robot_is_refused(twist):
+    """It made the platform stand without an end, as if its turrets were turning."""
+    planner = SteeringPlanner(Turrets([(0.5, 0.0), (-0.5, 0.0)]), SteeringLimits())
+    with pytest.raises(SignalError, match='at most 1000 m/s and rad/s; look at the units'):
+        planner.step(AtRest.at([0.0, 0.0]), Twist(*twist), 0.05)
