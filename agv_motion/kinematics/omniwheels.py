@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.omniwheel_placement import (
     OmniWheel,
-    Row,
     require_driven,
     wheels_on_circle,
 )
 from agv_motion.kinematics.twist_fit import TwistFit
 from agv_motion.kinematics.wheel_limits import require_wheel_speed
+from agv_motion.kinematics.wheel_solution import WheelSolution, solve_wheels
 from agv_motion.planar import Twist, require_finite
 
 if TYPE_CHECKING:
@@ -35,9 +35,6 @@ if TYPE_CHECKING:
 
 Matrix = NDArray[np.float64]
 
-SINGULAR = 1e-6
-"""[-] Ratio of the least to the greatest singular value below which a placement is refused."""
-
 
 class OmniCommand(NamedTuple):
     """What each wheel must do, in the order of the wheels."""
@@ -46,16 +43,6 @@ class OmniCommand(NamedTuple):
     """(n,) [m/s] rim speed along the rolling direction"""
     scale: float
     """[-] in (0, 1]: the factor by which the twist was reduced to hold the wheel speed limit"""
-
-
-class _Solution(NamedTuple):
-    """The least-squares way back from the speeds of some of the wheels."""
-
-    rows: tuple[Row, ...]
-    """One a wheel: what 1 m/s at its rim adds to vx, vy, wz; zeros where the wheel is missing"""
-    checks: tuple[tuple[float, ...], ...]
-    """Orthonormal combinations of the wheel speeds that every twist leaves zero"""
-    wheels: int
 
 
 class OmniWheels:
@@ -84,7 +71,7 @@ class OmniWheels:
             require_driven(number, wheel)
         self._driven = tuple(wheel.driven() for wheel in self.wheels)
         self._free = tuple(wheel.free() for wheel in self.wheels)
-        self._solutions: dict[tuple[int, ...], _Solution] = {}
+        self._solutions: dict[tuple[int, ...], WheelSolution] = {}
         self._whole = self._solution(tuple(range(len(self.wheels))))
 
     @classmethod
@@ -258,7 +245,7 @@ class OmniWheels:
             unexplained += part * part
         return vx, vy, wz, sqrt(unexplained / solution.wheels)
 
-    def _without(self, missing: Collection[int]) -> _Solution:
+    def _without(self, missing: Collection[int]) -> WheelSolution:
         present = tuple(i for i in range(len(self)) if i not in missing)
         if len(present) + len(set(missing)) != len(self):
             msg = f'missing = {sorted(missing)}: there are wheels 0 to {len(self) - 1}'
@@ -269,39 +256,9 @@ class OmniWheels:
             msg = f'only wheels {present} of {len(self)} measure, and {error}'
             raise SignalError(msg) from error
 
-    def _solution(self, present: tuple[int, ...]) -> _Solution:
+    def _solution(self, present: tuple[int, ...]) -> WheelSolution:
         """Return the pseudo-inverse for some of the wheels, from memory after the first time."""
         if present not in self._solutions:
-            self._solutions[present] = self._solve(present)
+            places = [complex(wheel.x, wheel.y) for wheel in self.wheels]
+            self._solutions[present] = solve_wheels(self._driven, places, present)
         return self._solutions[present]
-
-    def _solve(self, present: tuple[int, ...]) -> _Solution:
-        if len(present) < 3:
-            msg = f'{len(present)} wheel(s) cannot tell a twist: at least 3 are needed'
-            raise GeometryError(msg)
-        some = self.matrix[list(present)]
-        reach = sqrt(float(np.mean([(w.x * w.x + w.y * w.y) for w in self.wheels]))) or 1.0
-        left, values, right = np.linalg.svd(some / (1.0, 1.0, reach))  # all columns in m/s
-        if values[-1] < SINGULAR * values[0]:
-            missed = right[-1] / (1.0, 1.0, reach)
-            msg = f'no wheel turns when the base {_motion(missed)}: turn or move a wheel'
-            raise GeometryError(msg)
-        rows, checks = np.zeros((len(self), 3)), np.zeros((len(present) - 3, len(self)))
-        rows[list(present)] = np.linalg.pinv(some).T
-        checks[:, list(present)] = left.T[3:]
-        return _Solution(
-            tuple((float(a), float(b), float(c)) for a, b, c in rows),
-            tuple(tuple(map(float, check)) for check in checks),
-            len(present),
-        )
-
-
-def _motion(twist: Matrix) -> str:
-    """Return the motion of ``twist`` in words."""
-    vx, vy, wz = map(float, twist)
-    speed = sqrt(vx * vx + vy * vy)
-    if abs(wz) < SINGULAR * speed:
-        if vx < -SINGULAR * speed or (vx < SINGULAR * speed and vy < 0.0):
-            vx, vy = -vx, -vy  # the sign that the decomposition gives depends on the processor
-        return f'moves along ({vx / speed + 0.0:.4g}, {vy / speed + 0.0:.4g})'
-    return f'rotates about ({-vy / wz + 0.0:.4g}, {vx / wz + 0.0:.4g}) m'
