@@ -18,7 +18,7 @@ from sys import float_info
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import GeometryError, SignalError
-from agv_motion.kinematics.wheel_limits import require_wheel_speed
+from agv_motion.kinematics.speed_limit import require_wheel_speed
 from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:

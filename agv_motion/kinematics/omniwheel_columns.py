@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from agv_motion.kinematics.speed_limit import require_wheel_speed
 from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
-from agv_motion.kinematics.wheel_limits import require_wheel_speed
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.omniwheels import OmniWheels

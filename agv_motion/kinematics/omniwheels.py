@@ -23,8 +23,8 @@ from agv_motion.kinematics.omniwheel_placement import (
     require_driven,
     wheels_on_circle,
 )
+from agv_motion.kinematics.speed_limit import require_wheel_speed
 from agv_motion.kinematics.twist_fit import TwistFit
-from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.kinematics.wheel_solution import WheelSolution, solve_wheels
 from agv_motion.planar import Twist, require_finite
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from agv_motion.errors import SignalError
+from agv_motion.kinematics.speed_limit import require_wheel_speed
 from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
-from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.planar import STANDSTILL, require_finite
 
 if TYPE_CHECKING:

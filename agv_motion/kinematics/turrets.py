@@ -22,8 +22,8 @@ import numpy as np
 from agv_motion.errors import GeometryError, SignalError
 from agv_motion.kinematics.elementwise import elementwise
 from agv_motion.kinematics.polar_positions import polar_positions
+from agv_motion.kinematics.speed_limit import require_wheel_speed
 from agv_motion.kinematics.twist_fit import TwistFit
-from agv_motion.kinematics.wheel_limits import require_wheel_speed
 from agv_motion.planar import STANDSTILL, Twist, require_finite
 
 if TYPE_CHECKING:
