@@ -42,7 +42,7 @@ class CdrReader:
     def text(self) -> str:
         """Return a string."""
         length = self.count()
-        content = self._bytes(length)
+        content = self.octets(length)
         try:
             return content[:-1].decode()
         except UnicodeDecodeError as fault:
@@ -60,7 +60,8 @@ class CdrReader:
         """Return the length of a list, which stands before it."""
         return self._take('I', 4)[0]
 
-    def _bytes(self, length: int) -> bytes:
+    def octets(self, length: int) -> bytes:
+        """Return as many bytes as they are."""
         content = self._data[self.at : self.at + length]
         if len(content) < length:
             self._end()

@@ -1,19 +1,18 @@
 """When enough of the ROS graph has been heard to say what is on it.
 
-What is known of a participant comes in bursts: its name, its publishers, its subscriptions, and by
-another way the names of its nodes. A list made between two of them lacks something, and does not
-look so. Here it is told by what must go together: each participant of ROS writes and reads the
-graph's own topic, each server of a service reads requests and writes responses, each end belongs to
-a node. So an answer need not wait for a time in which surely all must have come.
+What is known of a participant comes in bursts, by several ways, and a list made between two of them
+lacks something and does not look so. But each participant of ROS says of what it consists: whoever
+is here has been heard when all is known that they name. No time need be waited in which surely all
+must have come.
 """
 
 from __future__ import annotations
 
 import os
 import time
-from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from agv_motion.cli.graph.participant_entities import ParticipantEntities
 from agv_motion.cli.graph.participants import (
     GRAPH_TOPIC,
     PREFIX,
@@ -26,17 +25,16 @@ from agv_motion.cli.graph.participants import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from agv_motion.cli.graph.participant_entities import Told
+
 DISCOVERY = 0.5
 """[s] How long to listen to the graph before telling what is there, as `ros2` does,"""
 
-SETTLED, BRIEF = 0.2, 0.1
-"""[s] ... and on until nothing new has come for so long; where no end's number is left out, less"""
+SETTLED = 0.2
+"""[s] ... and on until nothing new has come for so long, where somebody does not say what it is,"""
 
 LONGEST = 10.0
 """[s] but no longer than this in all: somebody is here who does not answer,"""
-
-DOUBTFUL = 4.0
-"""[s] or than this where all have been heard and something does not go together,"""
 
 ALONE = 1.5
 """[s] or than this where nobody was heard, who may be on another machine."""
@@ -47,15 +45,12 @@ CALLS = 0.1, 0.3, 0.9, 2.7
 LOOK, EXAMINE = 0.01, 0.04
 """[s] between two looks whether it is enough, and between two at all ends: those cost 5 to 20 ms"""
 
-STRANGE = '_NODE_NAME_UNKNOWN_', '_CREATED_BY_BARE_DDS_APP_'
-"""What stands for the name of a node that is not known yet"""
 
-
-def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: False) -> None:
+def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: False) -> int:
     """Spin ``node`` for ``spin_time`` [s] and on until all are heard; or until ``until()``.
 
     Where all who can be heard are on this machine they are counted, and `DISCOVERY` is not
-    waited for. Who is missing is called.
+    waited for. Who is missing is called. Returns how many could not be heard out.
     """
     import rclpy
 
@@ -66,20 +61,27 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
     if spin_time <= DISCOVERY and counted:
         spin_time = 0.0
     known: Ends | None = None
-    while not until():
-        rclpy.spin_once(node, timeout_sec=LOOK)
-        now = time.monotonic()
-        if now < due:
-            continue
-        found = ends_of(node)
-        if found != known:
-            known, changed = found, now
-        if now - start >= spin_time and _is_enough(node, found, now - changed, now - start):
-            return
-        if calls and now - start >= calls[0] and (missing(node, found) or not counted):
-            call(domain)
-            del calls[0]
-        due = time.monotonic() + EXAMINE
+    with ParticipantEntities(node) as graph:
+        while not until():
+            rclpy.spin_once(node, timeout_sec=LOOK)
+            now = time.monotonic()
+            if now < due:
+                continue
+            told = graph.told()  # before the ends: what is told of is known soon after
+            found = ends_of(node)
+            if found != known:
+                known, changed = found, now
+            listened, calm = now - start, now - changed
+            unheard = missing(node, found) + len(unfinished(found, told))
+            if told is not None and not strangers(found):
+                calm = SETTLED  # who says of what it consists has no need of it
+            if listened >= spin_time and _is_enough(node, unheard, calm, listened):
+                return unheard
+            if calls and listened >= calls[0] and (missing(node, found) or not counted):
+                call(domain)
+                del calls[0]
+            due = time.monotonic() + EXAMINE
+    return 0
 
 
 def call(domain: int) -> None:
@@ -105,15 +107,13 @@ def call(domain: int) -> None:
     context.shutdown()
 
 
-def _is_enough(node: Any, ends: Ends, calm: float, listened: float) -> bool:
+def _is_enough(node: Any, unheard: int, calm: float, listened: float) -> bool:
     """Return whether nothing more is to be expected after a time [s] without news."""
-    if missing(node, ends):
+    if unheard:
         return listened >= LONGEST
     if is_alone(node):
         return listened >= ALONE
-    if not whole(ends):
-        return listened >= DOUBTFUL
-    return calm >= (BRIEF if is_gapless(ends) else SETTLED)
+    return calm >= SETTLED
 
 
 def is_alone(node: Any) -> bool:
@@ -123,35 +123,19 @@ def is_alone(node: Any) -> bool:
     return len(node.get_node_names()) < 2
 
 
-def is_gapless(ends: Ends) -> bool:
-    """Return whether each participant's ends bear the numbers from 1 on, as Fast DDS deals them.
-
-    What has been closed again leaves a gap too, which no waiting fills.
-    """
-    numbers: dict[bytes, set[int]] = {}
-    for _, identity, *_ in ends:
-        numbers.setdefault(identity[:PREFIX], set()).add(int.from_bytes(identity[PREFIX:-1], 'big'))
-    return all(max(dealt) == len(dealt) for dealt in numbers.values())
+def unfinished(ends: Ends, told: Told | None) -> set[bytes]:
+    """Return the participants of ROS of which less is known than they say, or that said nothing."""
+    if told is None:
+        return set()
+    known = {(identity, name) for _, identity, _, name in ends}
+    return {one for one in _of_ros(ends) if one not in told or not told[one] <= known}
 
 
-def whole(ends: Ends) -> bool:
-    """Return whether ends go together: nothing is told of one half that lacks the other."""
-    of_ros: dict[bool, set[bytes]] = {True: set(), False: set()}
-    halves: dict[str, Counter[tuple[str, bytes, bool]]] = {'rq': Counter(), 'rr': Counter()}
-    strangers: set[bytes] = set()
-    for topic, identity, writes, name in ends:
-        kind, _, service = topic.partition('/')
-        participant = identity[:PREFIX]
-        if topic == GRAPH_TOPIC:
-            of_ros[writes].add(participant)
-        elif kind in halves:  # a server reads requests and writes responses, a client the reverse
-            serves = writes is (kind == 'rr')
-            service = service.removesuffix('Reply' if kind == 'rr' else 'Request')
-            halves[kind][service, participant, serves] += 1
-        if name in STRANGE and kind in {'rt', *halves}:
-            strangers.add(participant)
-    return (
-        of_ros[True] == of_ros[False]
-        and halves['rq'] == halves['rr']
-        and not strangers & of_ros[True]
-    )
+def strangers(ends: Ends) -> set[bytes]:
+    """Return the participants that do not say of what they consist: what is no ROS."""
+    return {identity[:PREFIX] for _, identity, *_ in ends} - _of_ros(ends)
+
+
+def _of_ros(ends: Ends) -> set[bytes]:
+    """Return the participants that have the graph's topic: their first end, known before others."""
+    return {identity[:PREFIX] for topic, identity, *_ in ends if topic == GRAPH_TOPIC}

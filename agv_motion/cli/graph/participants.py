@@ -50,10 +50,15 @@ def are_all_on_this_machine(domain: int) -> bool:
 
 
 def ends_of(node: Any) -> Ends:
-    """Return all ends that a node knows."""
+    """Return all ends that a node knows.
+
+    The graph's topic is looked at last: each participant has opened it first, and whoever comes
+    meanwhile would seem not to have it.
+    """
+    names = [name for name, _ in node.get_topic_names_and_types(no_demangle=True)]
     return frozenset(
         (topic, bytes(end.endpoint_gid), writes, end.node_name)
-        for topic, _ in node.get_topic_names_and_types(no_demangle=True)
+        for topic in [*(name for name in names if name != GRAPH_TOPIC), GRAPH_TOPIC]
         for writes, ends in (
             (True, node.get_publishers_info_by_topic(topic, no_mangle=True)),
             (False, node.get_subscriptions_info_by_topic(topic, no_mangle=True)),
@@ -63,8 +68,8 @@ def ends_of(node: Any) -> Ends:
 
 
 def heard(ends: Ends) -> int:
-    """Return of how many participants more is known than that they look at the graph."""
-    return len({identity[:PREFIX] for topic, identity, *_ in ends if topic != GRAPH_TOPIC})
+    """Return of how many participants anything is known."""
+    return len({identity[:PREFIX] for _, identity, *_ in ends})
 
 
 def missing(node: Any, ends: Ends | None = None) -> int:

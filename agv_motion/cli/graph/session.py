@@ -62,12 +62,11 @@ def joined(
         ],
     )
     try:
-        if spin_time > 0.0:
-            settle(node, spin_time)
+        unheard = settle(node, spin_time) if spin_time > 0.0 else missing(node)
         yield node
-        if whole and missing(node):
+        if whole and unheard:
             typer.echo(
-                f'warning: {missing(node)} of the DDS participants on this machine were not heard '
+                f'warning: {unheard} of the DDS participants on this machine were not heard '
                 'in time, so something may be missing above: try again with --spin-time 10',
                 err=True,
             )
