@@ -128,9 +128,8 @@ class FixBuffer:
         However often they come: the one whose neighbours are nearest in time is left out.
         """
         entries = self._entries
-        newest = entries[-1].sighting.fix.stamp if entries else 0.0
         while len(entries) - streak > self._fewest and (
-            newest - entries[streak + 1].sighting.fix.stamp >= self._span
+            entries[-1].sighting.fix.stamp - entries[streak + 1].sighting.fix.stamp >= self._span
         ):
             del entries[streak]
         while len(entries) - streak > LONGEST_STREAK:

@@ -151,3 +151,15 @@ def test_a_stamp_that_is_not_finite_is_refused(stamp):
 def test_an_impossible_radius_is_refused(radius):
     with pytest.raises(ConfigurationError, match='above 0'):
         Encoders([0.1, radius], OdometryParameters())
+
+
+@pytest.mark.parametrize('durations', [(0.1, 0.2), (0.2, 0.1)])
+def test_rates_that_stay_the_same_leave_no_doubt_however_long_a_step(durations):
+    """1 rad/s and -2 rad/s; then twice as fast: each wheel may be wrong by what it gained."""
+    encoders, (first, second) = started(), durations
+    encoders.read(10.0 + first, [1.0 + first, 2.0 - 2.0 * first], by_rate=True)
+    now, angles = 10.0 + first + second, [1.0 + first + second, 2.0 - 2.0 * (first + second)]
+    encoders.read(now, angles, by_rate=True)
+    assert encoders.doubt == pytest.approx(0.0, abs=1e-12)
+    encoders.read(now + first, [angles[0] + 2.0 * first, angles[1] - 4.0 * first], by_rate=True)
+    assert encoders.doubt == pytest.approx(2.0 * first * RADII[1], abs=1e-12)

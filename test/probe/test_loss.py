@@ -110,3 +110,9 @@ def test_a_course_that_is_none_is_refused(state):
 def test_steps_that_make_no_sense_are_refused(change):
     with pytest.raises(ConfigurationError, match=next(iter(change))):
         LossParameters(**change)
+
+
+@pytest.mark.parametrize('name', ['hold', 'trend', 'climatology'])
+def test_each_step_alone_stands_in(name):
+    assert LossParameters(**{name: 1.0}).stands_in
+    assert not LossParameters().stands_in

@@ -23,6 +23,10 @@ def reading(index, difference=20.0):
     return ProbeReading(0.0, difference, Quality.GOOD, 22.0, index, flux, 0.5)
 
 
+def test_nothing_is_told_where_no_area_is():
+    assert WaterParameters().sapwood_area == 0.0
+
+
 def test_an_hour_by_hand():
     """K 0.1: F = 118.99e-6 * 0.1**1.231 = 6.9905e-6 m/s; over 200 cm2 0.50332 litres an hour."""
     told = WaterMeter(AREA, EXACT, 0.0).update(0.0, [reading(0.1), None, reading(0.1)])

@@ -79,3 +79,8 @@ def test_multipath_shifts_to_any_side_and_no_farther_than_told():
     found = errors(fixes(position_noise=0.001, **given))
     assert 1.8 < np.hypot(*found.T).max() < 2.01
     assert (abs(found) > 1.5).any(axis=0).all()
+
+
+def test_drop_outs_may_be_more_than_one_a_second():
+    assert len(fixes(100, dropout_interval=0.5, dropout_duration=10.0)) < 30
+    assert len(fixes(100)) == 100

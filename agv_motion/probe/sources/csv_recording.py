@@ -105,9 +105,8 @@ def _shifted(
 ) -> NDArray[np.float64]:
     """Return what a column tells ``offset`` [s] later, or at most ``reach`` [s] from that."""
     wanted = times + offset
-    after = np.clip(np.searchsorted(times, wanted), 1, max(len(times) - 1, 1))
-    nearest = np.minimum(after, len(times) - 1)
-    before = np.maximum(after - 1, 0)
+    after = np.maximum(np.searchsorted(times, wanted), 1)
+    nearest, before = np.minimum(after, len(times) - 1), after - 1
     nearest = np.where(
         np.abs(times[before] - wanted) <= np.abs(times[nearest] - wanted), before, nearest
     )

@@ -56,3 +56,10 @@ def test_more_than_a_file_can_have_is_refused():
     new.add(many, range(1 << 16))
     with pytest.raises(ConfigurationError, match='filter the bags before'):
         new.add(file([(1, 0, '/more')]), [1])
+
+
+def test_of_several_channels_alike_the_first_is_taken():
+    new = NewChannels()
+    new.add(file([(2, 1, '/a'), (1, 1, '/a')]), [1, 2])
+    assert new.add(file([(5, 1, '/a')]), [5]) == ({5: 1}, {5})
+    assert new.add(file([(2, 1, '/a')]), [2]) == ({2: 2}, frozenset())

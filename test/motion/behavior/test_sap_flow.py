@@ -25,7 +25,14 @@ def test_rest_has_hysteresis():
     assert states == [True, False, False, False, True, True, True, False]
 
 
-@pytest.mark.parametrize('flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01)])
+@pytest.mark.parametrize('flow', [(0.0, 0.5, 1.0), (1.0, 0.0, 0.5), (0.5, 1.0, 0.0)])
+def test_both_ends_of_the_range_belong_to_it(flow):
+    assert checked_sap_flow(SapFlow(*flow)) == flow
+
+
+@pytest.mark.parametrize(
+    'flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01), (-0.01, 0, 0), (0, nan, 0), (0, 0, 1.01)]
+)
 def test_a_sap_flow_out_of_range_is_refused(flow):
     with pytest.raises(SignalError, match='sap flow'):
         checked_sap_flow(SapFlow(*flow))

@@ -33,3 +33,9 @@ def test_no_point_of_the_inset_is_nearer_to_an_edge_than_the_clearance(clearance
 
 def test_no_clearance_leaves_all():
     assert inset(AROUND, 0.0).area == pytest.approx(96.0)
+
+
+def test_a_corner_is_judged_by_its_two_edges_alone():
+    """An arrow head: the notch points into the floor, the points beside it do not."""
+    (ring,) = rings(shapely.Polygon([(3, 8), (0, 0), (7, 6), (2, 2)]))
+    assert reflex(ring).tolist() == [[2.0, 2.0]]

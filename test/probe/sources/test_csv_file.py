@@ -10,7 +10,7 @@ import pytest
 from agv_motion.errors import ConfigurationError, SourceError
 from agv_motion.probe.sources.csv_file import CsvSource, GrowingSource
 from agv_motion.probe.sources.csv_parameters import CsvParameters
-from agv_motion.probe.sources.csv_recording import load
+from agv_motion.probe.sources.csv_recording import ROUNDED, load, start_of
 from agv_motion.probe.sources.source import kelvin_per
 
 DAY = 86400.0
@@ -306,3 +306,23 @@ def test_columns_of_the_air_come_with_the_probes_and_in_their_own_units(
     assert first.values == pytest.approx((17.5, 20.0))
     assert tuple(first.environment) == pytest.approx(air, nan_ok=True)
     assert isnan(second.environment.vapour_pressure_deficit)
+
+
+@pytest.mark.parametrize(('moment', 'row'), [(-0.5 * ROUNDED, 0), (0.5 * ROUNDED, -1)])
+def test_a_start_may_lie_outside_by_rounding_alone(tmp_path, moment, row):
+    table = tmp_path / 'table.csv'
+    table.write_text(seconds((0, 1, 2), (900, 3, 4)))
+    found = load(CsvParameters(file=str(table), columns=('a',), day_offsets=(0.0,)))
+    beyond = found.times[row] + moment
+    assert start_of(f'{beyond:.4f}', found, 'table.csv') == found.times[row]
+    with pytest.raises(SourceError, match='choose one from'):
+        start_of(f'{beyond + 2.0 * moment:.4f}', found, 'table.csv')
+
+
+def test_a_file_that_is_empty_yet_is_followed_from_its_first_row(tmp_path):
+    file = tmp_path / 'live.csv'
+    file.write_text('')
+    source = follow(file)
+    assert list(source.history(0.0)) == []
+    file.write_text(seconds((0, 1, 2), (900, 3, 4)))
+    assert [s.values for s in source.read(1e9)] == [(1.0, 2.0), (3.0, 4.0)]

@@ -117,6 +117,8 @@ def test_what_stands_for_no_value_is_missing():
         ('01+0110. 02+0161.7 03+1230. 04+1', 'campbell_printable', 'day 161.7, clock 1230 is no'),
         ('D,1,"J",2013/06/10,12:30:00,x,0;A,0,1', 'datataker', "'x' is no fraction"),
         ('D,1,"J",2013/06/10,12:30:00,1e9,0;A,0,1', 'datataker', "'1e9' is no fraction"),
+        ('D,1,"J",2013/06/10,12:30:00,1.0,0;A,0,1', 'datataker', "'1.0' is no fraction"),
+        ('D,1,"J",2013/06/10,12:30:00,-0.1,0;A,0,1', 'datataker', "'-0.1' is no fraction"),
         ('D,1,"J",2000/01/01,00:00:05,0,0;A,0,1', 'datataker', 'the clock of the logger was not'),
         ('none', r'(?P<v1>\d+)', 'not of the form'),
         ('ch1 0.41 ch2 0.52 ch3 0.63', 'arrival', "a word stands beside each value .'ch1 0.41'"),

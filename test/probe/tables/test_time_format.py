@@ -83,6 +83,7 @@ def test_ten_digits_of_a_date_and_days_with_several_rows_are_refused():
     assert 'date + clock' in without_clock(['2013-06-10'] * 2, [86400.0, 86400.0])
     assert not without_clock(['2013-06-10', '2013-06-11'], [0.0, 86400.0])
     assert not without_clock(['2013-06-10 00:00'] * 2, [0.0, 0.0])
+    assert not without_clock(['20130610', '2013061006', '2013061006'], [0.0, 21600.0, 21600.0])
 
 
 def test_names():

@@ -35,6 +35,7 @@ NOON = 43200.0
         ('epoch_ms', '1370822400250', 0.25),
         ('excel', '41435.5', NOON),
         ('excel', '41435.0208333', 1800.0),
+        ('excel', '41435.521', NOON + 1800.0),  # three digits tell 86 s: a whole minute is meant
         ('matlab', '735395.5', NOON),
         ('year_day', '2013 161 1200', NOON),
         ('year_day', '2013 161 2400', 86400.0),

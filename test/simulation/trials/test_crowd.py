@@ -33,7 +33,7 @@ def test_no_two_come_too_near_and_all_arrive(kind, seed, gap, arrivals, stands):
     crowd = Crowd(plan_of(kind, seed).zone(), CrowdParameters(trees=len(arrivals), seed=seed))
     crowd.run(HALF_AN_HOUR)
     assert crowd.least_gap >= 0.0
-    assert crowd.least_held_gap >= -1e-6
+    assert -1e-6 <= crowd.least_held_gap < 0.1  # they use what they may
     assert max(walker.longest_stand for walker in crowd.walkers) < QUARTER
     assert all(walker.arrivals for walker in crowd.walkers)
     # a seed tells the same story again
