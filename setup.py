@@ -134,7 +134,7 @@ setup(
             for folder, suffix in (('foxglove', 'json'), ('rviz', 'rviz'), ('plotjuggler', 'xml'))
         ),
         (f'{SHARE}/config/ros2_control', files('config/ros2_control', 'tree_*')),
-        (f'{SHARE}/launch', files('launch_scripts', '*.launch.py')),
+        (f'{SHARE}/launch', files('launch_scripts/launch', '*.launch.py')),
         (f'lib/{NAME}', executables()),
     ],
     entry_points={

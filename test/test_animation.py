@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from importlib import import_module
 from itertools import pairwise
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -23,10 +21,11 @@ SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
 
 
 @pytest.fixture
-def animation(monkeypatch):
+def animation():
     """Return the script; it imports all of pyplot, so not in each process that lists the tests."""
-    monkeypatch.syspath_prepend(Path(__file__).parents[1] / 'launch_scripts')
-    return import_module('animation')
+    import animation
+
+    return animation
 
 
 def walk():

@@ -1,18 +1,15 @@
-"""Every door: damaged and hostile inputs are used or refused; launch_scripts/fuzz_doors.py is long.
+"""Every door: damaged and hostile inputs are used or refused.
 
-Here few inputs a door, so that each is opened; the numbers are seeded.
+Here few inputs a door, so that each is opened; the numbers are seeded. The long form is
+launch_scripts/fuzz/fuzz_doors.py.
 """
 
 from __future__ import annotations
-
-import sys
-from pathlib import Path
 
 import pytest
 
 pytest.importorskip('rclpy')
 
-sys.path.insert(0, str(Path(__file__).parents[1] / 'launch_scripts'))
 import fuzz_doors
 
 FILES, NODES, DATABASES = 150, 60, 8

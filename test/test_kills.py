@@ -1,4 +1,4 @@
-"""Commands that are ended while they write; launch_scripts/trial_kills.py is the long form.
+"""Commands that are ended while they write; launch_scripts/trials/trial_kills.py is the long form.
 
 Each is ended at the same changes of files in every run, however fast the machine is: by kill -9,
 Ctrl-C, SIGTERM and a full disk.
@@ -14,7 +14,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-TRIAL = Path(__file__).parents[1] / 'launch_scripts' / 'trial_kills.py'
+TRIAL = Path(__file__).parents[1] / 'launch_scripts' / 'trials' / 'trial_kills.py'
 
 
 def test_nothing_half_is_left_nothing_is_gone_and_a_rerun_completes():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import json
-import sys
 from itertools import chain
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -14,6 +13,7 @@ import yaml
 
 pytest.importorskip('rclpy')
 
+import layouts
 from nav_msgs.msg import Path as PathMessage
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
@@ -23,9 +23,6 @@ from agv_motion.demo import differential, omni, tree, trees
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / 'agv_motion' / 'nodes' / 'README.md'
 """Tells what a node takes: goals and poses that a person clicks are in no bag"""
-sys.path.append(str(ROOT / 'launch_scripts'))
-
-import layouts
 
 PANELS = {'3D', 'Plot', 'StateTransitions'}
 """Panels of Foxglove 1 and 2 and of Lichtblick alike"""
@@ -66,7 +63,7 @@ def require_path(topics, path, types):
 
 def test_the_files_are_as_the_table_says():
     stale = [p.name for p, text in layouts.written().items() if p.read_text('utf-8') != text]
-    assert stale == [], 'run python launch_scripts/layouts.py'
+    assert stale == [], 'run python launch_scripts/generate/layouts.py'
 
 
 def test_they_are_installed():

@@ -8,8 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-FOLDER = Path(__file__).parents[1] / 'launch_scripts'
-sys.path.insert(0, str(FOLDER))
+ROOT = Path(__file__).parents[1]
 import mutation
 from mutants import mutated, sites
 
@@ -124,7 +123,9 @@ mutation.PATIENCE = 120
 judged = draw([ROOT / 'agv_motion/kinematics/steering/rolling.py'], 2, 0)
 print(judge(judged, 1, 1))
 """
-    environment = os.environ | {'PYTHONPATH': os.pathsep.join([str(FOLDER), str(FOLDER.parent)])}
+    environment = os.environ | {
+        'PYTHONPATH': os.pathsep.join([str(ROOT / 'launch_scripts' / 'mutants'), str(ROOT)])
+    }
     result = subprocess.run(  # noqa: S603 - our own interpreter
         [sys.executable, '-c', code],
         capture_output=True, text=True, check=False, timeout=200, env=environment,

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import ast
 import re
-import sys
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip('rclpy')
 
+from node_tables import PAGE, written
+
 from agv_motion.nodes.catalogue import available
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / 'launch_scripts'))
-
-from node_tables import PAGE, written
 
 PAGES = [
     ROOT / 'README.md',
@@ -30,7 +28,7 @@ def test_the_tables_of_the_nodes_are_as_their_parameters_are_declared():
     page = PAGE.read_text(encoding='utf-8')
     told, meant = page.splitlines(), written(page).splitlines()
     wrong = [line for line in meant if line not in told]
-    assert told == meant, f'run python launch_scripts/node_tables.py, for {wrong[:3]}'
+    assert told == meant, f'run python launch_scripts/generate/node_tables.py, for {wrong[:3]}'
 
 
 def test_a_node_without_a_section_is_named():

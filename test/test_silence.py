@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import pytest
 
 pytest.importorskip('rclpy')
 
-SCRIPT = Path(__file__).parents[1] / 'launch_scripts' / 'endurance_silence.py'
-spec = importlib.util.spec_from_file_location('endurance_silence', SCRIPT)
-script = sys.modules['endurance_silence'] = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(script)
+import endurance_silence as script
 
 
 @pytest.mark.parametrize('name', script.CASES)

@@ -1,16 +1,15 @@
 """Hostile files: an error that names file and byte, in bounded time and memory.
 
-launch_scripts/fuzz_bags.py is the long form.
+launch_scripts/fuzz/fuzz_bags.py is the long form.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import time
 import tracemalloc
-from pathlib import Path
 from struct import pack
 
+import fuzz_bags
 import pytest
 import zstandard
 
@@ -24,16 +23,6 @@ from agv_motion.errors import AgvMotionError, ConfigurationError
 MOST = 80 << 20
 """[bytes] that refusing a hostile file may take"""
 TOPIC = records.Channel(1, 1, '/a', 'cdr', {})
-
-
-@pytest.fixture(scope='module')
-def fuzz_bags():
-    """Return the command of the long form."""
-    path = Path(__file__).parents[2] / 'launch_scripts' / 'fuzz_bags.py'
-    spec = importlib.util.spec_from_file_location('fuzz_bags', path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def by_hand(path, text, *rest):
@@ -59,12 +48,12 @@ def refused(path):
     return caught.value
 
 
-def test_bags_damaged_at_random_are_read_or_refused(fuzz_bags):
+def test_bags_damaged_at_random_are_read_or_refused():
     assert fuzz_bags.fuzz(20.0, seed=7, rounds=30) > 10
 
 
 @pytest.mark.parametrize('length', [2**31, 2**32 - 1, 2**63 - 1, 2**63, 2**64 - 1])
-def test_lengths_that_cannot_be_anywhere_in_a_file(fuzz_bags, tmp_path, length):
+def test_lengths_that_cannot_be_anywhere_in_a_file(tmp_path, length):
     data = fuzz_bags.sound(tmp_path, 'none')
     path = tmp_path / 'bag.mcap'
     size = 8 if length >= 2**32 else 4

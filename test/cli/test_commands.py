@@ -1,19 +1,17 @@
 """Every command over bags that are damaged, odd or foreign.
 
-launch_scripts/fuzz_commands.py is the long form. Here some bags of the kinds that once gave a wrong
-answer, a traceback or none at all.
+launch_scripts/fuzz/fuzz_commands.py is the long form. Here some bags of the kinds that once gave
+a wrong answer, a traceback or none at all.
 """
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip('rclpy')
 
-sys.path.insert(0, str(Path(__file__).parents[2] / 'launch_scripts'))
 import fuzz_commands
 
 ONCE_WRONG = (

@@ -61,7 +61,7 @@ def test_the_turrets_stand_where_the_tree_has_them():
 
 
 def test_the_launch_file_joins_what_wheel_kinematics_says_and_hears():
-    text = (ROOT / 'launch_scripts' / 'ros2_control.launch.py').read_text('utf-8')
+    text = (ROOT / 'launch_scripts' / 'launch' / 'ros2_control.launch.py').read_text('utf-8')
     found = {n.targets[0].id: ast.literal_eval(n.value) for n in ast.parse(text).body
              if isinstance(n, ast.Assign)}  # fmt: skip
     assert {*found['CONTROLLERS']} == {*CONTROLLERS['controller_manager']['ros__parameters']} - {

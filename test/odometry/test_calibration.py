@@ -40,7 +40,7 @@ def wandering(rng, steps):
 @pytest.mark.parametrize('heading', [True, False], ids=['poses', 'positions'])
 @pytest.mark.parametrize('base', BASES)
 def test_the_truth_lies_within_the_stated_interval_in_95_of_100_drives(base, heading, carried):
-    """The long form is launch_scripts/trial_calibration.py."""
+    """The long form is launch_scripts/trials/trial_calibration.py."""
     found = coverage(base, range(4), heading=heading, carried=carried)
     assert found.told >= 4 * 3
     assert found.held / found.told > 0.8

@@ -1,11 +1,7 @@
-"""Lines and tables of loggers at random; launch_scripts/fuzz_probes.py is the long form."""
+"""Lines and tables of loggers at random; launch_scripts/fuzz/fuzz_probes.py is the long form."""
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parents[2] / 'launch_scripts'))
 import fuzz_probes
 
 

@@ -38,6 +38,6 @@ def test_every_law_has_gains_of_its_name_and_says_whether_it_goes_sideways(name)
 @pytest.mark.parametrize('name', LAWS)
 def test_every_law_is_told_to_users(name):
     page = (ROOT / 'agv_motion' / 'nodes' / 'README.md').read_text()
-    assert f'| `follow.{name}.' in page, f'run launch_scripts/node_tables.py for {name}'
+    assert f'| `follow.{name}.' in page, f'run launch_scripts/generate/node_tables.py for {name}'
     words = (ROOT / 'config' / 'differential.yaml').read_text()
     assert f'      {name}:' in words, f'add the gains of {name} to config/differential.yaml'

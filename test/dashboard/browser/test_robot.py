@@ -1,20 +1,17 @@
 """A real tree behind the page: STOP and the dead-man, from the hand to the wheels' command.
 
-launch_scripts/trial_page.py is the long form, with figures.
+launch_scripts/page/trial_page.py is the long form, with figures.
 """
 
 from __future__ import annotations
 
 import signal
-import sys
 import time
 from contextlib import ExitStack
-from pathlib import Path
 
 import pytest
 
 pytest.importorskip('rclpy')
-sys.path.insert(0, str(Path(__file__).parents[3] / 'launch_scripts'))
 
 BUSY = 3.0
 """[s] that a machine busy with other things may take; the long form has the true limits"""

@@ -43,7 +43,9 @@ def test_every_source_has_a_group_of_parameters_of_its_name(name):
 @pytest.mark.parametrize('name', SOURCES)
 def test_every_source_is_told_to_users(name):
     page = (ROOT / 'agv_motion' / 'nodes' / 'README.md').read_text()
-    assert f'| `{name}.' in page, f'run launch_scripts/node_tables.py: {name} is not in its tables'
+    assert f'| `{name}.' in page, (
+        f'run launch_scripts/generate/node_tables.py: {name} is not in its tables'
+    )
     words = (ROOT / 'config' / 'tree.yaml').read_text()
     line = next(line for line in words.splitlines() if 'readings come from' in line)
     assert name in line, f'name {name} beside `source` in config/tree.yaml'

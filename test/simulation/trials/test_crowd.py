@@ -28,7 +28,7 @@ QUARTER = 900.0
 def test_no_two_come_too_near_and_all_arrive(kind, seed, gap, arrivals, stands):
     """One message in ten is lost, others come late, clocks differ by seconds.
 
-    The long form is launch_scripts/endurance_traffic.py.
+    The long form is launch_scripts/trials/endurance_traffic.py.
     """
     crowd = Crowd(plan_of(kind, seed).zone(), CrowdParameters(trees=len(arrivals), seed=seed))
     crowd.run(HALF_AN_HOUR)

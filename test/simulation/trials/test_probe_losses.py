@@ -1,4 +1,4 @@
-"""Losses of probes over some days; the long form is launch_scripts/trial_probe_losses.py."""
+"""Losses of probes over some days; the long form is launch_scripts/trials/trial_probe_losses.py."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from agv_motion.simulation.trials.season import PERIOD, Season, SeasonParameters
 def test_what_must_hold_on_every_day(kind, trees, days, told):
     """What must hold, and all else as it was: a seed tells the same story again.
 
-    Two hours of a day, or of two; the long form is launch_scripts/endurance_season.py.
+    Two hours of a day, or of two; the long form is launch_scripts/trials/endurance_season.py.
     """
     tally = Season(SeasonParameters(kind=kind, trees=trees, days=days, hours=2.0, seed=7)).run()
     assert tally.least_inside >= 0.0

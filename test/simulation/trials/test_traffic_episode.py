@@ -1,4 +1,4 @@
-"""Episodes over the worst of networks; the long form is launch_scripts/endurance_traffic.py."""
+"""Episodes over the worst of networks; launch_scripts/trials/endurance_traffic.py is long."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Every order of events between two and three trees, as far as a test may look; and does it see?
 
-The long form is launch_scripts/search_traffic.py.
+The long form is launch_scripts/trials/search_traffic.py.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ EVERY = pytest.mark.parametrize('name', STRATEGIES)
 def test_each_is_told_on_the_page_of_the_nodes_and_can_be_chosen(name):
     told = (ROOT / 'agv_motion' / 'nodes' / 'README.md').read_text()
     row = next(line for line in told.splitlines() if line.startswith('| `goals.strategy`'))
-    missing = f"tell of strategy '{name}': run python launch_scripts/node_tables.py"
+    missing = f"tell of strategy '{name}': run python launch_scripts/generate/node_tables.py"
     assert f'{name}: {STRATEGIES[name].text}' in row, missing
     assert GoalParameters(strategy=name).kind is STRATEGIES[name]
 
