@@ -57,7 +57,8 @@ class Mutant(NamedTuple):
     def tests(self) -> list[list[str]]:
         """Return the tests to ask, the nearest first, each once.
 
-        The file that mirrors the module, those of the core that name it, those beside it, its room.
+        The file that mirrors the module, those of the core that name it, those beside it, its room,
+        and last the one that holds the defaults of parameters to their tables.
         """
         inside = self.path.relative_to(ROOT / 'agv_motion')
         folder, room = ROOT / 'test' / inside.parent, ROOT / 'test' / inside.parts[0]
@@ -67,7 +68,8 @@ class Mutant(NamedTuple):
         named = [path for path, text in texts().items() if name.search(text)]
         asked: set[Path] = set()
         stages = []
-        for paths in (near, named, beside, sorted(room.rglob('test_*.py'))):
+        tables = [ROOT / 'test' / 'test_readme.py']
+        for paths in (near, named, beside, sorted(room.rglob('test_*.py')), tables):
             stages.append([str(path) for path in paths if path.exists() and path not in asked])
             asked.update(paths)
         return [stage for stage in stages if stage]
