@@ -24,6 +24,7 @@ _FIELD = re.compile(
     r'(?P<array>\[(?:<=)?(?P<size>\d{0,18})\])?'
     r'[ \t]+(?P<name>[A-Za-z]\w*)[ \t]*(?P<constant>=)?'
 )
+_TYPE = re.compile(r'\w+(?:/\w+)+')
 _NAME = re.compile(r'(?:MSG|SRV|ACTION):[ \t]*([\w/]+)[ \t]*')
 
 
@@ -61,6 +62,9 @@ def declared(message_type: str, definition: str, encoding: str) -> dict[str, lis
     """
     if len(definition) > LONGEST_TEXT:
         msg = f'definition of {message_type}: {len(definition)} characters, at most {LONGEST_TEXT}'
+        raise ConfigurationError(msg)
+    if not _TYPE.fullmatch(message_type):  # rosbags makes code of names
+        msg = f'type {message_type!r:.80}: expected a name such as geometry_msgs/msg/Twist'
         raise ConfigurationError(msg)
     root = short(message_type)
     if encoding == 'ros2msg':

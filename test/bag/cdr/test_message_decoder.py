@@ -43,6 +43,17 @@ def test_what_cannot_be_decoded_is_told_with_bag_and_topic(change, words):
         MessageDecoder(TOPIC._replace(**change), 'walk')
 
 
+@pytest.mark.parametrize('kind', [
+    'a/msg/A({} or object)', "a/msg/A': {}, 'b", 'a/msg/A:\n {}\nclass B', 'a/msg/A;{};',
+])  # fmt: skip
+def test_no_name_of_a_type_is_run_as_code(tmp_path, monkeypatch, kind):
+    monkeypatch.chdir(tmp_path)
+    evil = TOPIC._replace(type=kind.format('open("run", "w").close()'), definition='int32 x')
+    with pytest.raises(ConfigurationError, match='expected a name such as'):
+        MessageDecoder(evil)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_message_of_another_type_is_told_with_its_time():
     with pytest.raises(SourceError, match='the message at 77 ns is no mine/msg/Outer'):
         MessageDecoder(TOPIC)(message(DATA[:-6]))
