@@ -12,10 +12,9 @@ import time
 from typing import Annotated, NamedTuple
 
 import typer
-from rich.table import Table
 from rich.text import Text
 
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 
 
 class DoctorFinding(NamedTuple):
@@ -151,7 +150,7 @@ def _talk() -> DoctorFinding:
 
 
 def _print(findings: list[DoctorFinding]) -> None:
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for column in ('what', 'state', 'what to do'):
         table.add_column(column, overflow='fold')
     for finding in findings:

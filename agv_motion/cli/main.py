@@ -13,6 +13,7 @@ import typer
 
 from agv_motion.cli import INTERRUPTED
 from agv_motion.cli.lazy_group import HELP, lazy_group
+from agv_motion.cli.visible import guard, indented
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.stop import interrupt
 
@@ -54,7 +55,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode='rich',
-    context_settings=HELP,
+    context_settings=HELP | {'color': True},  # else typer leaves ESC and more out in a pipe
 )
 
 
@@ -80,6 +81,10 @@ def name_shell(words: Sequence[str]) -> None:
             os.environ['_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION'] = '1'
 
 
+def _tell_error(error: object) -> None:
+    typer.echo(f'error: {indented(error)}', err=True, color=True)
+
+
 def main() -> None:
     """Run the command; errors are told in one line, and a closed pipe or terminal is no error.
 
@@ -90,10 +95,11 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors='backslashreplace')  # names of files may be no UTF-8
+    guard()
     try:
         typer.main.get_command(app)()
     except AgvMotionError as error:
-        typer.echo(f'error: {error}', err=True)
+        _tell_error(error)
         sys.exit(1)
     except ModuleNotFoundError as error:
         from agv_motion.cli import doctor
@@ -112,7 +118,7 @@ def main() -> None:
         sys.exit(INTERRUPTED)
     except OSError as error:
         if error.errno not in {errno.EPIPE, errno.EIO}:  # nobody reads on; the terminal is gone
-            typer.echo(f'error: {error}', err=True)
+            _tell_error(error)
             sys.exit(1)
         for stream in (sys.stdout, sys.stderr) if error.errno == errno.EIO else (sys.stdout,):
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.progress import Progress
-from rich.table import Table
 
 from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.bag.options import moment
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def index(folder: Folder = Path(), *, workers: Workers = 1, scheduler: Scheduler
         done = f'{report.read} read, {report.gone} gone, {report.damaged} damaged'
         typer.echo(f'{report.bags} bags, {done}: {found.path}')
         for path, fault in found.ask("SELECT path, fault FROM bag WHERE fault != '' ORDER BY path"):
-            typer.echo(f'damaged: {found.decoded(path)}: {fault}')
+            typer.echo(f'damaged: {found.decoded(path)}: {indented(fault)}')
 
 
 def find(
@@ -82,7 +82,7 @@ def find(
 
     asked = Question(tuple(topic or ()), tuple(kind or ()), begin, end, where)
     with _indexed(folder) as (index_, _), _bar('Looking') as show:
-        found = list(ask(index_, asked, show, lambda text: typer.echo(f'error: {text}', err=True)))
+        found = list(ask(index_, asked, show, _complain))
     if as_json:
         typer.echo(
             json.dumps([{**one._asdict(), 'path': str(one.path)} for one in found], indent=1)
@@ -134,7 +134,7 @@ def stats(
 
 
 def _complain(text: str) -> None:
-    typer.echo(f'error: {text}', err=True)
+    typer.echo(f'error: {indented(text)}', err=True)
 
 
 @contextmanager
@@ -209,7 +209,7 @@ def _print_topics(topics: list[TopicAmount]) -> None:
 
 
 def _table(*titles: str) -> Table:
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for title in titles:
         left = title in ('bag', 'begins', 'topic', 'type', 'day', 'month', 'bags')
         table.add_column(title, justify='left' if left else 'right', overflow='fold')

@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Annotated
 
 import typer
+from rich.text import Text
 
 from agv_motion.cli.bag.options import Bag
 from agv_motion.cli.terminal import terminal
+from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
 
@@ -43,9 +45,13 @@ def check(
     limits = Limits(_rates(rate or []), tolerance, gap)
     counts = {'error': 0, 'warning': 0}
     with BagReader(bag) as reader, terminal(stderr=True).status('Looking') as status:
-        for found in findings(reader, limits, lambda what: status.update(f'Looking at {what}')):
+
+        def show(what: str) -> None:
+            status.update(Text(f'Looking at {in_line(what)}'))
+
+        for found in findings(reader, limits, show):
             counts[found.severity] += 1
-            typer.echo(f'{found.severity}: {found.where}: {found.text}')
+            typer.echo(f'{found.severity}: {in_line(found.where)}: {in_line(found.text)}')
         total, told = reader.message_count, completeness(reader)
     typer.echo(
         f'{counts["error"]} errors and {counts["warning"]} warnings in {total} messages of '

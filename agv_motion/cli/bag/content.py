@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.table import Table
 
 from agv_motion.cli.bag.options import Bag, moment, opened
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
 
@@ -37,15 +37,15 @@ def contents(
             if isinstance(extra, DamagedBagError):
                 raise extra
             if isinstance(extra, Attachment):
-                about = f'{extra.media_type or "unknown type"}, {len(extra.data)} bytes'
-                typer.echo(f'attachment {extra.name}: {about}, {moment(extra.log_time)}')
+                about = f'{in_line(extra.media_type) or "unknown type"}, {len(extra.data)} bytes'
+                typer.echo(f'attachment {in_line(extra.name)}: {about}, {moment(extra.log_time)}')
                 attached.append(extra)
             elif extra.name != 'rosbag2':
-                typer.echo(f'metadata {extra.name}:')
+                typer.echo(f'metadata {in_line(extra.name)}:')
                 for key, value in extra.entries.items():
-                    typer.echo(f'  {key}: {value}')
+                    typer.echo(f'  {in_line(key)}: {in_line(value)}')
         for note in notes_of(bag):
-            typer.echo(f'note {moment(note.stamp)}: {note.text}')
+            typer.echo(f'note {moment(note.stamp)}: {in_line(note.text)}')
     if extract is None:
         return
     names = [Path(one.name.replace('\0', '')).name for one in attached]
@@ -67,7 +67,7 @@ def du(bag: Bag) -> None:
     """
     from agv_motion.bag.checks.sizes import sizes
 
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for title in ('topic', 'messages', 'bytes', 'mean', 'stored, about', 'share'):
         table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     with opened(bag, validate=False) as reader:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.progress import track
-from rich.table import Table
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def _tell(found: list[TopicDiff], start: int, *, by_stamp: bool) -> None:
 
 
 def _overview(found: list[TopicDiff]) -> Table:
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for title in ('topic', 'first', 'second', 'differ', 'unpaired', ''):
         table.add_column(
             title,
@@ -123,7 +123,7 @@ def _details(console: Console, topic: TopicDiff, start: int) -> None:
     if topic.since is None:
         return
     since = (topic.since - start) * 1e-9
-    console.print(f'\n{topic.topic}, from {since:.3f} s on', highlight=False)
+    console.print(f'\n{in_line(topic.topic)}, from {since:.3f} s on', highlight=False)
 
     def size(difference: Difference) -> float:
         return distance(difference.first, difference.second)
@@ -131,7 +131,8 @@ def _details(console: Console, topic: TopicDiff, start: int) -> None:
     worst = sorted(topic.worst.values(), key=size, reverse=True)
     for path, stamp, a, b in worst[:MOST_FIELDS]:
         console.print(
-            f'  {path}: {a} against {b} at {(stamp - start) * 1e-9:.3f} s', highlight=False
+            f'  {in_line(f"{path}: {a} against {b}")} at {(stamp - start) * 1e-9:.3f} s',
+            highlight=False,
         )
     if len(worst) > MOST_FIELDS:
         console.print(f'  and {len(worst) - MOST_FIELDS} fields more')

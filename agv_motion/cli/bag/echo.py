@@ -21,6 +21,7 @@ from agv_motion.cli.topic.echo_options import (
 )
 from agv_motion.cli.topic.message_printer import MessagePrinter
 from agv_motion.cli.topic.message_text import MessageText
+from agv_motion.cli.visible import in_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -91,4 +92,4 @@ class _Notes:
         """Show those up to a log time [ns]."""
         while self._left and self._left[0].stamp <= stamp:
             note = self._left.pop(0)
-            typer.echo(f'# {moment(note.stamp)}: {note.text}', err=self._aside)
+            typer.echo(f'# {moment(note.stamp)}: {in_line(note.text)}', err=self._aside)

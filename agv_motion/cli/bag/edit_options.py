@@ -11,6 +11,7 @@ from rich.progress import Progress
 from agv_motion.cli.bag.many import jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.terminal import terminal
+from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -84,9 +85,9 @@ def tell_outcomes(found: Sequence[EditOutcome]) -> None:
     for one in found:
         tell(one.problems)
         for note in one.notes:
-            typer.echo(f'note: {note}', err=True)
+            typer.echo(f'note: {indented(note)}', err=True)
         if one.report is None:
-            typer.echo(f'error: {one.source}: {one.failure}', err=True)
+            typer.echo(f'error: {one.source}: {indented(one.failure)}', err=True)
             continue
         report = one.report
         files = f' in {report.files} files' if report.files > 1 else ''

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar
 
 import typer
-from rich.table import Table
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -192,7 +191,7 @@ def _table(judged: list[Judged], metric: str) -> Table:
     """Return a row for each relation of each topic of each bag, the relations together."""
     from agv_motion.report.trajectory_errors import ErrorStatistics, statistics
 
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     left = ('bag', 'topic', 'error')
     for title in (*left, 'n', *ErrorStatistics._fields):
         table.add_column(title, justify='left' if title in left else 'right', overflow='fold')

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from agv_motion.cli.bag.options import Bag, moment, opened
+from agv_motion.cli.visible import in_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,7 +34,7 @@ def info(
     """
     with opened(bag, validate=False) as reader:
         if topic_name:
-            typer.echo('\n'.join(sorted(reader.topics)))
+            typer.echo('\n'.join(map(in_line, sorted(reader.topics))))
             return
         _head(reader)
         _topics(reader, verbose=verbose)
@@ -47,7 +48,7 @@ def _head(bag: BagReader) -> None:
     files = [file.path for file in bag.files]
     length = (bag.end - bag.start) * 1e-9
     rows = {
-        'Files': '\n                   '.join(path.name for path in files),
+        'Files': '\n                   '.join(in_line(path.name) for path in files),
         'Bag size': _size(sum(path.stat().st_size for path in files)),
         'Storage id': 'sqlite3' if files[0].suffix == '.db3' else 'mcap',
         'Duration': f'{length:.9f}s',
@@ -67,8 +68,8 @@ def _head(bag: BagReader) -> None:
 def _told(event: Event) -> str:
     others = len(event.moments) + event.more - 1
     more = f' and {others} more' if others else ''
-    short = f'; cut short: {event.cut_short}' if event.cut_short else ''
-    return f'{event.first.reason}{more}, {moment(event.first.stamp)}{short}'
+    short = f'; cut short: {in_line(event.cut_short)}' if event.cut_short else ''
+    return f'{in_line(event.first.reason)}{more}, {moment(event.first.stamp)}{short}'
 
 
 def _topics(bag: BagReader, *, verbose: bool) -> None:
@@ -86,7 +87,7 @@ def _topics(bag: BagReader, *, verbose: bool) -> None:
                 f' | QoS: {qos.reliability}, {qos.durability}, depth {qos.depth}'
                 for qos in connection.qos
             )
-        typer.echo(row)
+        typer.echo(in_line(row))
         title = ''
 
 
@@ -95,7 +96,7 @@ def _notes(bag: Path) -> None:
 
     title = 'Notes:'
     for note in notes_of(bag):
-        typer.echo(f'{title:<19}{moment(note.stamp)}: {note.text}')
+        typer.echo(f'{title:<19}{moment(note.stamp)}: {in_line(note.text)}')
         title = ''
 
 

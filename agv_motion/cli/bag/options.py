@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
+from agv_motion.cli.visible import indented
 from agv_motion.errors import AgvMotionError, SourceError
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def opened(path: Path, *, validate: bool = True) -> Iterator[BagReader]:
 def tell(problems: Iterable[object]) -> None:
     """Tell on stderr what is amiss in a bag."""
     for problem in problems:
-        typer.echo(f'warning: {problem}', err=True)
+        typer.echo(f'warning: {indented(problem)}', err=True)
 
 
 def readable(
@@ -80,7 +81,7 @@ def _skipping(bag: BagReader, topic: str) -> Iterator[None]:
         yield
     except AgvMotionError as error:
         bag.problems.append(SourceError(f'{topic} is skipped: {error}'))
-        typer.echo(f'error: {bag.problems[-1]}', err=True)
+        typer.echo(f'error: {indented(bag.problems[-1])}', err=True)
 
 
 def span(bag: BagReader, start_offset: float, duration: float) -> tuple[int | None, int | None]:

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
-from rich.table import Table
 
 from agv_motion.cli.bag.options import Bag, Topics, opened, readable
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -80,7 +79,7 @@ def gaps(
 
 
 def _table(*titles: str) -> Table:
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for title in titles:
         justify = 'left' if title == 'topic' else 'right'
         table.add_column(

@@ -9,6 +9,7 @@ import typer
 from rich.progress import Progress
 
 from agv_motion.cli.terminal import terminal
+from agv_motion.cli.visible import indented
 
 MOST_PROBLEMS = 20
 """that are told"""
@@ -49,7 +50,7 @@ def recover(
             recovery.save(damaged, lambda share: bar.update(task, completed=share))
         carry([damaged], made, None)
     for problem in recovery.problems[:MOST_PROBLEMS]:
-        typer.echo(f'found: {problem}', err=True)
+        typer.echo(f'found: {indented(problem)}', err=True)
     if len(recovery.problems) > MOST_PROBLEMS:
         typer.echo(f'found: {len(recovery.problems) - MOST_PROBLEMS} more', err=True)
     lost = f'; at least {recovery.missing} of {damaged} are lost' if recovery.missing else ''

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 
 if TYPE_CHECKING:
     from agv_motion.probe.parameters import ProbeParameters
@@ -30,12 +30,10 @@ def tell_water(
         area: Of the sapwood [cm2].
 
     """
-    from rich.table import Table
-
     from agv_motion.probe.water import DAY
 
     days = water_days(found, factor, given, area)
-    table = Table('day', 'litres', '95 %', 'most [l/h]', 'known', box=None)
+    table = Table('day', 'litres', '95 %', 'most [l/h]', 'known')
     for day in days:
         low_high = f'{day.drunk.low:.2f} to {day.drunk.high:.2f}'
         numbers = [f'{day.drunk.value:.2f}', low_high, f'{day.highest.value:.3f}']

@@ -138,7 +138,10 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
         start(node)
         player = node.plain
         bar = Progress(
-            BarColumn(), TextColumn('{task.description}'), console=console, transient=True
+            BarColumn(),
+            TextColumn('{task.description}', markup=False),
+            console=console,
+            transient=True,
         )
         task = bar.add_task(
             _progress(player), total=player.playing.excerpt.end - player.playing.excerpt.begin

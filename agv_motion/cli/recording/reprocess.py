@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.table import Table
 
 from agv_motion.cli.bag.many import Scheduler, Workers, jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.recording.storage_options import Compression
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -136,13 +136,13 @@ def _pair(remap: str) -> tuple[str, str]:
 
 def _tell(found: list[ReprocessOutcome]) -> None:
     """Print what came of each bag, then what the nodes warned of."""
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for title in ('bag', 'in', 'out', 'of time', 'took'):
         table.add_column(title, justify='left' if title == 'bag' else 'right')
     for one in found:
         tell(one.problems)
         if one.failure:
-            typer.echo(f'error: {one.source}: {one.failure}', err=True)
+            typer.echo(f'error: {one.source}: {indented(one.failure)}', err=True)
             continue
         if one.made_before:
             table.add_row(one.source, '', 'there already', '', '')

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 import yaml
-from rich.table import Table
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.files.unfinished import replacing
 
@@ -125,7 +124,7 @@ def _sections(drawing: Drawing, found: Calibration, prefix: str, node: str) -> d
 def _print(found: Calibration, topic: str) -> None:
     table = Table(
         title=f'From {found.references} places of {topic}, {found.outliers} outliers left out',
-        title_justify='left', box=None, pad_edge=False,
+        title_justify='left',
     )  # fmt: skip
     for column in ('measure', 'drawn', 'calibrated', '95 % interval', ''):
         table.add_column(column)

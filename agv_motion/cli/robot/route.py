@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.table import Table
 
 from agv_motion.cli.robot.pose_text import parse_pose
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 from agv_motion.planar import Pose
 
 if TYPE_CHECKING:
@@ -96,7 +95,7 @@ def _unfinished(found: Route, run: Prediction) -> str:
 
 
 def _summary(found: Route, run: Prediction) -> Table:
-    table = Table(box=None, show_header=False, pad_edge=False)
+    table = Table(show_header=False)
     rms, most = run.cross_track(found)
     laps = '' if found.laps == 1 else f', {found.laps or "endless"} laps'
     table.add_row('route', f'{len(found.waypoints)} waypoints, {found.length:.2f} m{laps}')

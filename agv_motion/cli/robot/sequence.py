@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.table import Table
 
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.cli.robot.pose_text import parse_pose
-from agv_motion.cli.terminal import terminal
+from agv_motion.cli.terminal import Table, terminal
 
 if TYPE_CHECKING:
     from agv_motion.nodes.sequence import SequenceParameters
@@ -115,7 +114,7 @@ def _predict(file: str, config: Path | None, start: str, plot: Path | None) -> N
 
 
 def _summary(predicted: list[Predicted]) -> Table:
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     table.add_column('action', overflow='fold')
     for column in ('begin', 'takes', 'way', 'ends at', 'timeout'):
         table.add_column(column, justify='right', no_wrap=True)
@@ -134,7 +133,7 @@ def _explain() -> None:
     """Print every key of every action."""
     from agv_motion.cli.robot.sequence_keys import keys
 
-    table = Table(box=None, pad_edge=False)
+    table = Table()
     for column in ('action', 'key', 'default', 'range', 'meaning'):
         table.add_column(column, overflow='fold')
     for row in keys():

@@ -8,7 +8,7 @@ from typing import Any
 import typer
 import yaml
 
-from agv_motion.cli.topic.message_text import MessageText, is_message
+from agv_motion.cli.topic.message_text import MessageText, csv_row, is_message
 from agv_motion.errors import ConfigurationError
 
 
@@ -39,7 +39,7 @@ class MessagePrinter:
             return False
         about = about if self._info else {}
         if self._csv:
-            values = self._text.csv(part) if is_message(part) else str(part)
+            values = self._text.csv(part) if is_message(part) else csv_row([part])
             typer.echo(','.join([*map(str, about.values()), values]))
             return True
         if about:

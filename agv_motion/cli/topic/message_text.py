@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import array
+import csv
 import re
 import sys
+from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +17,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
     from typing import TypeGuard
 
 Sequence = (list, tuple, array.array, np.ndarray)
@@ -52,8 +54,8 @@ class MessageText:
         )
 
     def csv(self, message: Any) -> str:
-        """Return all values of a message, separated by commas."""
-        return ','.join(self._flat(self._plain(message)))
+        """Return all values of a message, separated by commas; those with commas are quoted."""
+        return csv_row(self._flat(self._plain(message)))
 
     def _flat(self, value: Any) -> list[str]:
         if isinstance(value, dict):
@@ -82,6 +84,13 @@ class MessageText:
         if self._length is None or len(text) <= self._length:
             return text
         return text[: self._length] + '...'
+
+
+def csv_row(values: Iterable[object]) -> str:
+    """Return values as one record of CSV: what has commas, quotes or lines in it is quoted."""
+    row = StringIO()
+    csv.writer(row).writerow(values)
+    return row.getvalue().removesuffix('\r\n')
 
 
 def _abbreviated(value: Any, field_type: str) -> str:

@@ -11,7 +11,7 @@ from nav_msgs.msg import Path
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, ByteMultiArray, UInt8MultiArray
 
-from agv_motion.cli.topic.message_text import MessageText, fill
+from agv_motion.cli.topic.message_text import MessageText, csv_row, fill
 from agv_motion.errors import ConfigurationError
 
 
@@ -26,6 +26,7 @@ def test_yaml_in_the_order_of_the_fields():
 def test_an_empty_array_is_an_empty_cell():
     message = JointState(name=['a', 'b'], position=[1.0, 2.5])
     assert MessageText().csv(message) == '0,0,,a,b,1.0,2.5,,'
+    assert csv_row(['a,b', '1\n2', 'c"', 3]) == '"a,b","1\n2","c""",3'
 
 
 def test_long_arrays_are_cut_or_hidden():
