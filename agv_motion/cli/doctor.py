@@ -14,7 +14,7 @@ from typing import Annotated, NamedTuple
 import typer
 from rich.text import Text
 
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 
 
 class DoctorFinding(NamedTuple):
@@ -150,7 +150,7 @@ def _talk() -> DoctorFinding:
 
 
 def _print(findings: list[DoctorFinding]) -> None:
-    table = Table()
+    table = LineTable()
     for column in ('what', 'state', 'what to do'):
         table.add_column(column, overflow='fold')
     for finding in findings:

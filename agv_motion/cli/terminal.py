@@ -24,7 +24,7 @@ UNBROKEN = 10_000
 """Columns of what is no terminal: who reads it (`grep`, a file) has lines of any length"""
 
 
-class Table(table.Table):
+class LineTable(table.Table):
     """Columns without a frame, and rows of one line: no name in a cell begins another."""
 
     def __init__(self, *titles: str, **options: Any) -> None:

@@ -10,7 +10,7 @@ import sys
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.cli.visible import VisibleStream, guard, in_line, indented, visible
 
 OBEYED = {*range(9), 11, 12, *range(14, 32), *range(127, 160), 0x61C, 0x200E, 0x200F}
@@ -63,7 +63,7 @@ def test_what_is_drawn_has_only_colours_of_ours(monkeypatch):
     out = io.StringIO()
     monkeypatch.setattr(sys, 'stdout', out)
     monkeypatch.setenv('FORCE_COLOR', '1')
-    table = Table('topic', 'n')
+    table = LineTable('topic', 'n')
     table.add_row('/a\x1b[5m\nFAKE', '1', style='red')
     terminal().print(table)
     lines = out.getvalue().splitlines()

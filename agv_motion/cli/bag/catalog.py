@@ -13,7 +13,7 @@ from rich.progress import Progress
 
 from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.bag.options import moment
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
 
@@ -208,8 +208,8 @@ def _print_topics(topics: list[TopicAmount]) -> None:
     terminal().print(table)
 
 
-def _table(*titles: str) -> Table:
-    table = Table()
+def _table(*titles: str) -> LineTable:
+    table = LineTable()
     for title in titles:
         left = title in ('bag', 'begins', 'topic', 'type', 'day', 'month', 'bags')
         table.add_column(title, justify='left' if left else 'right', overflow='fold')

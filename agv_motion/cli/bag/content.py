@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from agv_motion.cli.bag.options import Bag, moment, opened
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
@@ -67,7 +67,7 @@ def du(bag: Bag) -> None:
     """
     from agv_motion.bag.checks.sizes import sizes
 
-    table = Table()
+    table = LineTable()
     for title in ('topic', 'messages', 'bytes', 'mean', 'stored, about', 'share'):
         table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     with opened(bag, validate=False) as reader:

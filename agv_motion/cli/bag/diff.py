@@ -10,7 +10,7 @@ import typer
 from rich.progress import track
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
@@ -96,8 +96,8 @@ def _tell(found: list[TopicDiff], start: int, *, by_stamp: bool) -> None:
         )
 
 
-def _overview(found: list[TopicDiff]) -> Table:
-    table = Table()
+def _overview(found: list[TopicDiff]) -> LineTable:
+    table = LineTable()
     for title in ('topic', 'first', 'second', 'differ', 'unpaired', ''):
         table.add_column(
             title,

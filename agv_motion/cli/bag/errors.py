@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar
 import typer
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -187,11 +187,11 @@ def _draw(judged: list[Judged], path: Path) -> None:
     )  # fmt: skip
 
 
-def _table(judged: list[Judged], metric: str) -> Table:
+def _table(judged: list[Judged], metric: str) -> LineTable:
     """Return a row for each relation of each topic of each bag, the relations together."""
     from agv_motion.report.trajectory_errors import ErrorStatistics, statistics
 
-    table = Table()
+    table = LineTable()
     left = ('bag', 'topic', 'error')
     for title in (*left, 'n', *ErrorStatistics._fields):
         table.add_column(title, justify='left' if title in left else 'right', overflow='fold')

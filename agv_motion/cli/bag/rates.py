@@ -8,7 +8,7 @@ import numpy as np
 import typer
 
 from agv_motion.cli.bag.options import Bag, Topics, opened, readable
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -78,8 +78,8 @@ def gaps(
             typer.echo('No gaps')
 
 
-def _table(*titles: str) -> Table:
-    table = Table()
+def _table(*titles: str) -> LineTable:
+    table = LineTable()
     for title in titles:
         justify = 'left' if title == 'topic' else 'right'
         table.add_column(

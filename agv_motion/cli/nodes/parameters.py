@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 from agv_motion.cli.graph.completion import one_of
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.nodes.catalogue import available, parameters_of
 from agv_motion.parameters import nested, rows
 
@@ -79,7 +79,7 @@ def parameters(
     if as_markdown:
         typer.echo(markdown(kind), nl=False)
         return
-    table = Table()
+    table = LineTable()
     for column in COLUMNS:
         table.add_column(column, overflow='fold')
     for row in describe(kind):

@@ -12,6 +12,7 @@ from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.nodes import joined_to, node_names
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime, Timeout
 from agv_motion.cli.graph.session import joined
+from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
 
 
@@ -68,7 +69,7 @@ def _list(
     if one_of_many and names:
         typer.echo(f'{full}:')
     for i, name in enumerate(names):
-        typer.echo(f'  {name} (type: {kinds[i]})' if types else f'  {name}')
+        typer.echo(f'  {in_line(name)}' + (f' (type: {kinds[i]})' if types else ''))
 
 
 def get(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -120,7 +120,7 @@ def _tell_rows(found: TableDescription) -> None:
 
 def _tell_columns(found: TableDescription, seen: Inspection, given: TableParameters) -> None:
 
-    table = Table('column', 'values', 'missing', 'lowest', 'highest', 'like')
+    table = LineTable('column', 'values', 'missing', 'lowest', 'highest', 'like')
     for facts in found.columns:
         numbers = [f'{facts.values}', f'{facts.missing}', f'{facts.low:g}', f'{facts.high:g}']
         table.add_row(facts.name, *numbers, f'probe [{facts.like}]' if facts.like else '')

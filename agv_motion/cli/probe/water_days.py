@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 
 if TYPE_CHECKING:
     from agv_motion.probe.parameters import ProbeParameters
@@ -33,7 +33,7 @@ def tell_water(
     from agv_motion.probe.water import DAY
 
     days = water_days(found, factor, given, area)
-    table = Table('day', 'litres', '95 %', 'most [l/h]', 'known')
+    table = LineTable('day', 'litres', '95 %', 'most [l/h]', 'known')
     for day in days:
         low_high = f'{day.drunk.low:.2f} to {day.drunk.high:.2f}'
         numbers = [f'{day.drunk.value:.2f}', low_high, f'{day.highest.value:.3f}']

@@ -36,7 +36,7 @@ from agv_motion.cli.recording.topic_options import (
     Topics,
     chosen_topics,
 )
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ def _progress(recorder: BagRecorder, elapsed: float) -> str:
 
 def _tell(console: Console, report: list[TopicReport]) -> None:
     """Print what became of each topic."""
-    table = Table()
+    table = LineTable()
     for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'deleted', 'longest silence'):
         table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     for topic in sorted(report):

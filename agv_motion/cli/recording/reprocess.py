@@ -11,7 +11,7 @@ import typer
 from agv_motion.cli.bag.many import Scheduler, Workers, jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.recording.storage_options import Compression
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
 
@@ -136,7 +136,7 @@ def _pair(remap: str) -> tuple[str, str]:
 
 def _tell(found: list[ReprocessOutcome]) -> None:
     """Print what came of each bag, then what the nodes warned of."""
-    table = Table()
+    table = LineTable()
     for title in ('bag', 'in', 'out', 'of time', 'took'):
         table.add_column(title, justify='left' if title == 'bag' else 'right')
     for one in found:

@@ -9,7 +9,7 @@ import typer
 import yaml
 
 from agv_motion.cli.bag.options import opened
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.files.unfinished import replacing
 
@@ -122,7 +122,7 @@ def _sections(drawing: Drawing, found: Calibration, prefix: str, node: str) -> d
 
 
 def _print(found: Calibration, topic: str) -> None:
-    table = Table(
+    table = LineTable(
         title=f'From {found.references} places of {topic}, {found.outliers} outliers left out',
         title_justify='left',
     )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from agv_motion.cli.robot.pose_text import parse_pose
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.planar import Pose
 
 if TYPE_CHECKING:
@@ -94,8 +94,8 @@ def _unfinished(found: Route, run: Prediction) -> str:
     return f'the robot has not arrived after {run.duration:.0f} s: look at v_dphi and omega_dphi'
 
 
-def _summary(found: Route, run: Prediction) -> Table:
-    table = Table(show_header=False)
+def _summary(found: Route, run: Prediction) -> LineTable:
+    table = LineTable(show_header=False)
     rms, most = run.cross_track(found)
     laps = '' if found.laps == 1 else f', {found.laps or "endless"} laps'
     table.add_row('route', f'{len(found.waypoints)} waypoints, {found.length:.2f} m{laps}')

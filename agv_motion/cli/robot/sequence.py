@@ -10,7 +10,7 @@ import typer
 
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.cli.robot.pose_text import parse_pose
-from agv_motion.cli.terminal import Table, terminal
+from agv_motion.cli.terminal import LineTable, terminal
 
 if TYPE_CHECKING:
     from agv_motion.nodes.sequence import SequenceParameters
@@ -113,8 +113,8 @@ def _predict(file: str, config: Path | None, start: str, plot: Path | None) -> N
         console.print(f'Figure: {plot}')
 
 
-def _summary(predicted: list[Predicted]) -> Table:
-    table = Table()
+def _summary(predicted: list[Predicted]) -> LineTable:
+    table = LineTable()
     table.add_column('action', overflow='fold')
     for column in ('begin', 'takes', 'way', 'ends at', 'timeout'):
         table.add_column(column, justify='right', no_wrap=True)
@@ -133,7 +133,7 @@ def _explain() -> None:
     """Print every key of every action."""
     from agv_motion.cli.robot.sequence_keys import keys
 
-    table = Table()
+    table = LineTable()
     for column in ('action', 'key', 'default', 'range', 'meaning'):
         table.add_column(column, overflow='fold')
     for row in keys():

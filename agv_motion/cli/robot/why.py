@@ -11,6 +11,7 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.session import joined, spin
 from agv_motion.cli.terminal import terminal
+from agv_motion.cli.visible import in_line
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -69,5 +70,5 @@ def _text(ears: RobotEars, width: int) -> Text:
     text = Text()
     for name, chain in ears.chains().items():
         for level, line in lines(name, chain, ears.time(), width, ears.time_zone(name)):
-            text.append(f'{line}\n', STYLES[level])
+            text.append(f'{in_line(line)}\n', STYLES[level])
     return text
