@@ -67,7 +67,7 @@ class Agent:
         self._homing = Homing(planner, given.home, given.linear_speed)
         self._sleep = Sleep(given.rest)
         self._take_hours(given)
-        self._retry_at = -inf
+        self._tried_at = -inf
         self._arrived = False
         self._ground = Ground(zone, given.platform_radius, given.home)
         self._strategy = given.goals.kind.build(
@@ -150,7 +150,7 @@ class Agent:
             )
             raise ConfigurationError(msg)
         self._take(self.goal if lasting else None)
-        self._homing.why, self._retry_at = '', -inf
+        self._homing.why, self._tried_at = '', -inf
 
     def give_up(self, goal: Goal) -> bool:
         """Drop ``goal``, to which the tree cannot go; return whether it will choose another.
@@ -161,7 +161,7 @@ class Agent:
         if goal is not self.goal or self._strategy.lasting:
             return False
         self._take(None)
-        self._retry_at = -inf
+        self._tried_at = -inf
         return True
 
     def go_home(self, why: str = 'asked to', because: Cause = Cause.PERSON) -> None:
@@ -230,11 +230,12 @@ class Agent:
         lasting = self._strategy.lasting
         if self.goal is not None and not lasting and self._is_reached(here, self.goal):
             self._take(None)
-        if self.goal is None and time >= self._retry_at:
+        since = time - self._tried_at
+        if self.goal is None and not 0.0 <= since < self.parameters.goals.retry_after:
             self._choose(time, here, closed)
         if self.goal is None and lasting:
-            waits = resting('no goal; send one to goal_pose', None, Cause.NOTHING, self._least)
-            return waits._replace(activity=Activity.WAITING)
+            idle = resting('no goal; send one to goal_pose', None, Cause.NOTHING, self._least)
+            return idle._replace(activity=Activity.WAITING)
         if self.goal is None:
             return self._turn(flow, 'no goal can be reached: turning on the spot', Cause.ZONE)
         if lasting and self._near(here, self.goal.place, self.parameters.rest.arrival):
@@ -242,14 +243,9 @@ class Agent:
         return self._go(self.goal, flow.s1, flow.rotation)
 
     def _is_reached(self, here: Point, goal: Goal) -> bool:
-        arrival = (
-            self.parameters.rest.arrival
-            if goal.objective is None
-            else self._arrival(goal.objective)
-        )
-        return hypot(goal.x - here[0], goal.y - here[1]) < arrival
+        return hypot(goal.x - here[0], goal.y - here[1]) < self._arrival(goal.objective)
 
-    def _arrival(self, objective: Objective) -> float:
+    def _arrival(self, objective: Objective | None) -> float:
         """Return the distance of arrival; what is to be visited must come under the platform."""
         arrival = self.parameters.rest.arrival
         if objective is Objective.UNKNOWN and self.memory is not None:
@@ -262,7 +258,7 @@ class Agent:
             self._floor.close(closed)
         self._take(self._strategy.next_goal(self.memory, here, time))
         if self.goal is None:
-            self._retry_at = time + self.parameters.goals.retry_after
+            self._tried_at = time
 
     def _checked(self, goal: Goal) -> Goal:
         """Return ``goal`` if the platform can stand there.

@@ -78,7 +78,11 @@ def to_twist(
         linear_speed: V, the trunk's speed at v = 1 [m/s].
         platform_radius: R [m].
 
+    Raises:
+        SignalError: A number is not finite.
+
     """
+    require_finite('polar command (v, theta, omega)', command)
     speed = command.v * linear_speed
     return Twist(
         speed * cos(command.theta),
@@ -92,7 +96,13 @@ def to_polar(
     linear_speed: float = LINEAR_SPEED,
     platform_radius: float = PLATFORM_RADIUS,
 ) -> PolarCommand:
-    """Return the polar command of a twist, the inverse of :func:`to_twist`."""
+    """Return the polar command of a twist, the inverse of :func:`to_twist`.
+
+    Raises:
+        SignalError: A number is not finite.
+
+    """
+    require_finite('twist (vx, vy, wz)', twist)
     return PolarCommand(
         hypot(twist.vx, twist.vy) / linear_speed,
         wrap(atan2(twist.vy, twist.vx)),

@@ -186,6 +186,13 @@ def test_without_any_goal_it_turns_on_the_spot_and_tries_again_after_ten_seconds
     assert tree.decide(NOON + 10.0, pose, flow).goal is not None
 
 
+def test_a_clock_that_is_set_back_does_not_keep_it_from_trying_again():
+    tree, flow, pose = agent(), SapFlow(0.8, 0.6, 0.5), Pose(2.0, 2.0, 0.0)
+    around = YARD.floor.buffer(1.0).difference(shapely.box(1.9, 1.9, 2.1, 2.1))
+    assert tree.decide(NOON, pose, flow, around).goal is None
+    assert tree.decide(NOON - 3600.0, pose, flow).goal is not None
+
+
 # From outside
 
 

@@ -17,7 +17,7 @@ from agv_motion.motion.command.polar import (
     to_polar,
     to_twist,
 )
-from agv_motion.planar import Pose
+from agv_motion.planar import Pose, Twist
 
 COMMANDS = st.builds(
     PolarCommand,
@@ -75,3 +75,13 @@ def test_what_lies_outside_is_refused(command, word):
 @given(COMMANDS)
 def test_what_lies_inside_passes(command):
     assert checked(command) is command
+
+
+@pytest.mark.parametrize('bad', [nan, inf, -inf])
+def test_no_number_that_is_none_is_handed_on(bad):
+    for part in range(3):
+        numbers = [bad if i == part else 0.5 for i in range(3)]
+        with pytest.raises(SignalError, match=r'polar command .* must be finite'):
+            to_twist(PolarCommand(*numbers))
+        with pytest.raises(SignalError, match=r'twist .* must be finite'):
+            to_polar(Twist(*numbers))
