@@ -74,7 +74,7 @@ class Demo(Generic[R]):
                 start(node)
             leader = self.graph.leader.plain
             topics = [*self.graph.topics, RecordedTopic('/mark', String)]
-            self.recorder = DemoRecorder(self._bag, topics, lambda: leader.time)
+            self.recorder = DemoRecorder(self._bag, topics, lambda: leader.nanoseconds)
         except BaseException:
             rclpy.try_shutdown()
             raise

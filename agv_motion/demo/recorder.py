@@ -96,14 +96,14 @@ class DemoRecorder(LifecycleNode):
     """Writes what it hears into a bag, stamped with simulated time."""
 
     def __init__(
-        self, bag: Path, topics: list[RecordedTopic], now: Callable[[], float], **kwargs: Any
+        self, bag: Path, topics: list[RecordedTopic], now: Callable[[], int], **kwargs: Any
     ) -> None:
         """Subscribe to all topics.
 
         Args:
             bag: Folder of the new bag.
             topics: What to keep.
-            now: Simulated time [s].
+            now: Simulated time [ns].
             **kwargs: For rclpy.
 
         """
@@ -133,7 +133,7 @@ class DemoRecorder(LifecycleNode):
         def keep(data: bytes) -> None:
             arrived.append(time.perf_counter_ns())
             latest[key] = data
-            write(topic, int(now() * 1e9), data, moves=moves)
+            write(topic, now(), data, moves=moves)
 
         self.create_subscription(
             topic.kind, topic.name, keep, LATCHED if topic.latched else EVERY, raw=True,
@@ -157,6 +157,6 @@ class DemoRecorder(LifecycleNode):
             SourceError: The disk did not take everything; what it took is a whole bag.
 
         """
-        self._bag.close(self._topics.values(), int(self._now() * 1e9))
+        self._bag.close(self._topics.values(), self._now())
         if self.failure:
             raise SourceError(self.failure)

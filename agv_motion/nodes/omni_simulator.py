@@ -129,7 +129,7 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
             given.real_wheels(), given.real_radii, given.robot, given.start(), given.seed
         )
         self._break(given)
-        self._uwb = Uwb(given.uwb, given.seed, self.time)
+        self._uwb = Uwb(given.uwb, given.seed)
         self._imu.reset()
         self._wanted = [0.0] * len(given.wheel_radii)
         return self._robot
@@ -148,8 +148,8 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
         self._publish_state(stamp)
         self._imu.publish(stamp, self._robot.twist.wz)
         if self.steps % max(round(given.rate / given.uwb.rate), 1) == 0:
-            self._uwb.measure(self.time, self._robot.pose)
-        for fix in self._uwb.arrivals(self.time):
+            self._uwb.measure(self.elapsed, self._robot.pose)
+        for fix in self._uwb.arrivals(self.elapsed):
             self._publish_fix(fix)
 
     def _break(self, parameters: OmniSimulatorParameters) -> None:
@@ -176,7 +176,8 @@ class OmniSimulator(SimulatedNode[OmniSimulatorParameters]):
 
     def _publish_fix(self, fix: Any) -> None:
         message = PoseWithCovarianceStamped()
-        message.header.stamp = stamp_of(round(fix.stamp * 1e9))
+        steps = round(fix.stamp * self.parameters.rate)
+        message.header.stamp = stamp_of(self.nanoseconds_at(steps))
         message.header.frame_id = self.parameters.map_frame
         fill_pose(message.pose.pose, Pose(fix.x, fix.y, fix.heading or 0.0))
         fill_covariance(message.pose.covariance, fix.covariance)

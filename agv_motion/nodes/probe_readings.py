@@ -50,7 +50,8 @@ class ProbeReadings:
         self._port.stamp(reference)
         stamp = reference.header.stamp
         if self._time is not None and sample.time < LAST_STAMP:
-            reference.time_ref = stamp_of(round(sample.time * 1e9))
+            microseconds = round(sample.time * 1e6)  # a float of seconds holds no more of 2015
+            reference.time_ref = stamp_of(1000 * microseconds)
             self._time.publish(reference)
         if self._air is not None:
             air = Vector3Stamped(header=reference.header)

@@ -193,7 +193,7 @@ class ReservationExchange:
         assert self._navigator is not None
         self._published, self._published_at = self._navigator.right.requested, now
         reservation = self._navigator.reservation(now)
-        message = reservation_message(reservation, self._frame, self._port.seconds())
+        message = reservation_message(reservation, self._frame, self._port.nanoseconds())
         self._publisher.publish(message)
 
     def _on_reservation(self, message: MarkerArray) -> None:

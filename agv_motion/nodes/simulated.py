@@ -182,7 +182,7 @@ class SimulatedNode(PlainNode[P]):
         time = datetime.fromtimestamp(self.time, timezone.utc).isoformat(timespec='seconds')
         commanded = 'no' if self._commanded_at is None else 'yes'
         values = {'simulated time': time, 'commanded': commanded}
-        return Diagnosis(level, word, values, self._nanoseconds(self.steps))
+        return Diagnosis(level, word, values, self.nanoseconds)
 
     @property
     def elapsed(self) -> float:
@@ -190,9 +190,14 @@ class SimulatedNode(PlainNode[P]):
         return self.steps / self.parameters.rate
 
     @property
+    def nanoseconds(self) -> int:
+        """Simulated time, since 1970 [ns]: a float of seconds holds no more than microseconds."""
+        return self.nanoseconds_at(self.steps)
+
+    @property
     def time(self) -> float:
         """Simulated time, since 1970 [s]."""
-        return self._nanoseconds(self.steps) * 1e-9
+        return self.nanoseconds * 1e-9
 
     def note_command(self) -> None:
         """Feed the watchdog of the motors."""
@@ -222,22 +227,22 @@ class SimulatedNode(PlainNode[P]):
         self.carry_to(pose)
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'
 
-    def _nanoseconds(self, steps: int) -> int:
+    def nanoseconds_at(self, steps: int) -> int:
         """Return the time after this number of steps, since 1970 [ns]."""
         return self._start + round(steps * 1e9 / self.parameters.rate)
 
     def _lead(self) -> None:
         """Let one step of simulated time pass, and tell it."""
         if self._clock is not None and not self._paused:
-            self._clock.tell(self._nanoseconds(self.steps + 1))
+            self._clock.tell(self.nanoseconds_at(self.steps + 1))
             self._step()
 
     def _follow(self, message: ClockMessage) -> None:
         """Take the steps up to the time that another simulator tells."""
         now = message.clock.sec * 10**9 + message.clock.nanosec
-        if self._paused or not 0 <= now - self._nanoseconds(self.steps) <= LEAP:
-            self._start += now - self._nanoseconds(self.steps)
-        while self._nanoseconds(self.steps + 1) <= now:
+        if self._paused or not 0 <= now - self.nanoseconds <= LEAP:
+            self._start += now - self.nanoseconds
+        while self.nanoseconds_at(self.steps + 1) <= now:
             self._step()
 
     def _watch_commands(self) -> None:
@@ -256,7 +261,7 @@ class SimulatedNode(PlainNode[P]):
         self._watch_commands()
         self.step(1.0 / self.parameters.rate)
         self.steps += 1
-        stamp = stamp_of(self._nanoseconds(self.steps))
+        stamp = stamp_of(self.nanoseconds)
         self.show(stamp)
         message = Odometry(child_frame_id=self.parameters.base_frame)
         message.header.stamp, message.header.frame_id = stamp, self.parameters.map_frame

@@ -43,8 +43,8 @@ LONGEST_TEXT = 100_000
 """[1] characters of the text"""
 
 
-def reservation_message(reservation: Reservation, frame: str, stamp: float) -> MarkerArray:
-    """Return ``reservation`` as a message in the frame of the map, stamped with a time [s]."""
+def reservation_message(reservation: Reservation, frame: str, stamp: int) -> MarkerArray:
+    """Return ``reservation`` as a message in the frame of the map, stamped with a time [ns]."""
     paths = {HELD: reservation.held, REQUESTED: reservation.requested, PLANNED: reservation.planned}
     message = MarkerArray(
         markers=[_strip(reservation, frame, number, path) for number, path in paths.items()]
@@ -55,9 +55,8 @@ def reservation_message(reservation: Reservation, frame: str, stamp: float) -> M
         'heard': dict(reservation.received), 'parked': reservation.parked,
     }  # fmt: skip
     message.markers[HELD].text = json.dumps(told)
-    nanoseconds = round(stamp * 1e9)
     for marker in message.markers:
-        marker.header.stamp = stamp_of(nanoseconds)
+        marker.header.stamp = stamp_of(stamp)
     return message
 
 

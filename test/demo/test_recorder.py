@@ -28,7 +28,9 @@ def test_topics_are_kept_with_the_quality_of_service_that_they_were_offered_with
     speaker = graph.node('speaker')
     offers = {'way': LATCHED, 'fix': SENSOR, 'turned': LATCHED}
     publishers = [speaker.create_publisher(String, name, qos) for name, qos in offers.items()]
-    recorder = DemoRecorder(tmp_path / 'bag', TOPICS, lambda: 5.0, context=graph.context)
+    recorder = DemoRecorder(
+        tmp_path / 'bag', TOPICS, lambda: 1_430_438_400_100_000_001, context=graph.context
+    )
     graph.add(recorder)
     graph.meet()
 
@@ -43,6 +45,7 @@ def test_topics_are_kept_with_the_quality_of_service_that_they_were_offered_with
         assert (way.durability, way.reliability) == ('transient_local', 'reliable')
         assert (fix.durability, fix.reliability) == ('volatile', 'best_effort')
         assert bag.topics['/silent'].latched
+        assert {message.stamp for message in bag.messages()} == {1_430_438_400_100_000_001}
         assert bag.counts['/silent'] == 0
 
 

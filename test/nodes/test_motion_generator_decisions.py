@@ -105,6 +105,6 @@ def test_on_a_recording_a_tree_takes_its_own_word_for_that_of_no_other(tmp_path,
     tree.stand(0.05)
     tree.flow(0.05)
     own = Reservation('oak', MessageId(1, 1), 1.48, ((0.0, 0.0),))
-    tree._feed(0.1, '/reservations', reservation_message(own, 'map', CLOSING / SECOND))  # noqa: SLF001
+    tree._feed(0.1, '/reservations', reservation_message(own, 'map', CLOSING))  # noqa: SLF001
     told = [text for text in tree.graph.complaints if "calls itself 'oak'" in text]
     assert bool(told) is not recorded

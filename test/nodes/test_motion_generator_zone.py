@@ -200,7 +200,8 @@ def walked(tree, place):
             'ash', MessageId(7, number), 1.5, (place,),
             received={'oak': MessageId(right.run, right._number)},  # noqa: SLF001
         )  # fmt: skip
-        tree.feed('/reservations', reservation_message(answer, 'map', NOON + tree.now), 0.2)
+        stamp = int((NOON + tree.now) * SECOND)
+        tree.feed('/reservations', reservation_message(answer, 'map', stamp), 0.2)
     return right
 
 

@@ -71,6 +71,8 @@ def test_fixes_come_late_with_the_stamp_of_their_time(tester):
                            - 1e-9 * fixes[-1].header.stamp.nanosec), len(delays) > 50)[1]
     )  # fmt: skip
     assert max(delays) > 0.3
+    steps = {fix.header.stamp.nanosec % 10_000_000 for fix in fixes}
+    assert steps == {0}  # whole steps, to the nanosecond
     assert fixes[0].pose.covariance[0] == pytest.approx(0.0225)
     assert fixes[0].pose.covariance[35] == 0.0
 

@@ -178,7 +178,7 @@ def test_a_tree_whose_simulated_clock_stands_still_speaks_and_finds_out_who_is_s
 
     def received():
         clock.publish(Clock(clock=stamp_of(round((1e3 + time.monotonic()) * 1e9))))
-        messages.publish(reservation_message(ash, 'map', 0.0))
+        messages.publish(reservation_message(ash, 'map', 0))
         return oak.diagnose().values['other trees'] == 'ash'
 
     live_until(tester, [oak], received)

@@ -19,6 +19,8 @@ from agv_motion.motion.navigation.reservations.reservation import MessageId, Res
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 from agv_motion.ros.reservations import reservation_message, reservation_of
 
+STAMP = 1_430_438_400_100_000_001
+
 CLAIM = Reservation(
     'oak', MessageId(2**64 - 1, 12), 1.48, ((1.0, 2.0), (3.0, 2.0)), ((3.0, 2.0), (3.0, 4.0)),
     ((3.0, 4.0), (8.0, 9.0), (9.0, 9.0)), 17, {'ash': MessageId(2**63 + 1, 42)}, parked=False,
@@ -42,13 +44,13 @@ def _set(change):
     [CLAIM, Reservation('ash', MessageId(7, 0), 0.4, ((1.0, 2.0),), received={}, parked=True)],
 )
 def test_there_and_back(reservation):
-    assert reservation_of(reservation_message(reservation, 'map', 1.5), 'map') == reservation
+    assert reservation_of(reservation_message(reservation, 'map', STAMP), 'map') == reservation
 
 
 def test_its_corridor_is_as_wide_as_the_tree():
-    strip = reservation_message(CLAIM, 'map', 1.5).markers[0]
+    strip = reservation_message(CLAIM, 'map', STAMP).markers[0]
     assert strip.scale.x == pytest.approx(2.96)
-    assert (strip.header.stamp.sec, strip.header.stamp.nanosec) == (1, 500_000_000)
+    assert (strip.header.stamp.sec, strip.header.stamp.nanosec) == divmod(STAMP, 10**9)
     assert strip.header.frame_id == 'map'
 
 
@@ -82,7 +84,7 @@ def test_its_corridor_is_as_wide_as_the_tree():
     ],
 )
 def test_what_is_no_reservation_is_refused(change, word):
-    message = reservation_message(CLAIM, 'map', 1.5)
+    message = reservation_message(CLAIM, 'map', STAMP)
     change(message)
     with pytest.raises(SignalError, match=word):
         reservation_of(message, 'map')
@@ -94,7 +96,7 @@ TEXTS = ('', ' ', 'oak', 'x' * 300, '\x00', 'null', '[[', '{"run": 1}', '1e999')
 
 def _spoilt(chance):
     """Return the message of a sound reservation with one to three things in it changed."""
-    message = reservation_message(CLAIM, 'map', 1.5)
+    message = reservation_message(CLAIM, 'map', STAMP)
     for _ in range(chance.randint(1, 3)):
         marker = chance.choice(message.markers) if message.markers else Marker()
         told = json.loads(CLAIM_TEXT)
@@ -116,7 +118,7 @@ def _spoilt(chance):
     return message
 
 
-CLAIM_TEXT = reservation_message(CLAIM, 'map', 1.5).markers[0].text
+CLAIM_TEXT = reservation_message(CLAIM, 'map', STAMP).markers[0].text
 
 
 def test_whatever_a_message_says_it_is_refused_or_leaves_the_tree_sound():
@@ -131,5 +133,5 @@ def test_whatever_a_message_says_it_is_refused_or_leaves_the_tree_sound():
         if not ash.requested:
             ash.request((ash.held[-1], (20.0, 5.0)))
         ash.settle(float(number))
-        reservation_of(reservation_message(ash.reservation(float(number)), 'map', 1.5), 'map')
+        reservation_of(reservation_message(ash.reservation(float(number)), 'map', STAMP), 'map')
     assert 500 < refused < 3000
