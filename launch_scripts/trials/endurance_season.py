@@ -1,12 +1,10 @@
 """Days of one to five trees in zones of all kinds, by the minds that the nodes have.
 
     python launch_scripts/trials/endurance_season.py --days 1000
-    python launch_scripts/trials/endurance_season.py --days 40 --plot coverage.png
 
 Seeds, zones, weather, errors of position, losses and outages of the network vary. Exits with 1
 when a tree leaves its zone, two come nearer than they may, or one stands for over 30 minutes while
-it has somewhere to go. With --plot the coverage is drawn for one tree, against the choice of the
-original installation, which only went where it could go straight.
+it has somewhere to go.
 """
 
 from __future__ import annotations
@@ -16,13 +14,11 @@ import itertools
 import multiprocessing
 import os
 import sys
-from pathlib import Path
 
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from agv_motion.report.season_figure import FloorCoverage, draw
 from agv_motion.simulation.trials.season import Season, SeasonParameters, Tally
 from agv_motion.simulation.trials.season_zones import MOST_TREES
 
@@ -73,19 +69,6 @@ def report(outcomes: list[tuple[SeasonParameters, Tally]]) -> Table:
     return table
 
 
-def coverages(pool: multiprocessing.pool.Pool, seed: int) -> dict[str, FloorCoverage]:
-    """Return the shares of three floors stood on over 20 days, by both choices of goals."""
-    kinds, seeds = ('square', 'garden', 'rooms'), range(seed, seed + 3)
-    wanted = [
-        SeasonParameters(kind=kind, trees=1, days=20, seed=each, strategy=strategy)
-        for kind, strategy, each in itertools.product(kinds, ('memory', 'straight'), seeds)
-    ]
-    found: dict[tuple[str, str], list[list[float]]] = {}
-    for given, tally in track(pool.imap(spend, wanted), 'Coverage', len(wanted)):
-        found.setdefault((given.kind, given.strategy), []).append([0.0, *tally.coverage])
-    return {kind: FloorCoverage(found[kind, 'memory'], found[kind, 'straight']) for kind in kinds}
-
-
 def main() -> None:
     """Spend the days that are asked for."""
     parser = argparse.ArgumentParser(
@@ -95,7 +78,6 @@ def main() -> None:
     parser.add_argument('--each', type=int, default=20, help='days of one season')
     parser.add_argument('--seed', type=int, default=1, help='of the first season')
     parser.add_argument('--workers', type=int, default=os.cpu_count())
-    parser.add_argument('--plot', type=Path, help='draw the coverage into this picture')
     asked = parser.parse_args()
     wanted = seasons(asked.days, asked.each, asked.seed)
     with multiprocessing.Pool(asked.workers) as pool:
@@ -104,8 +86,6 @@ def main() -> None:
         for given, tally in outcomes:
             if not kept(tally):
                 print(f'not kept: {given.kind}, {given.trees} trees, seed {given.seed}: {tally}')
-        if asked.plot:
-            draw(coverages(pool, asked.seed), asked.plot)
     sys.exit(not all(kept(tally) for _, tally in outcomes))
 
 
