@@ -88,7 +88,7 @@ class Orders:
 
         Args:
             route: Two or more places (x, y) [m], or a file of them (CSV or YAML) on this machine.
-            laps: How often to go round.
+            laps: How often to go round, where a file does not say; whatever `laps` of its node is.
             frame: In which they are; empty: in that in which its nodes drive.
 
         Raises:

@@ -22,7 +22,7 @@ from agv_motion.ros.run import run
 from agv_motion.trajectory.follower import Follower
 from agv_motion.trajectory.follower_parameters import FollowerParameters
 from agv_motion.trajectory.follower_state import FollowerState
-from agv_motion.trajectory.path_headings import are_places, with_headings
+from agv_motion.trajectory.path_headings import are_places, stood_on, with_headings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -214,7 +214,8 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
         self.require_frame_of_all(message)
         poses = [pose_of(stamped.pose) for stamped in message.poses]
         if are_places(poses):
-            poses = with_headings(self.require_pose(), poses, backward=self.parameters.backward)
+            given, here = self.parameters, self.require_pose()
+            poses = with_headings(here, poses, given.follow.tolerance, backward=given.backward)
             if len(poses) == 1:  # one place is no curve: straight there, turning on the spot first
                 self._go(poses, 0.0)
                 return
@@ -222,6 +223,8 @@ class GhostTrajectory(DrivingNode[GhostTrajectoryParameters]):
 
     def _go(self, goals: list[Pose], curve: float) -> None:
         given = self.parameters
+        if len(goals) == 1 and self._follower.at_rest:
+            goals = [stood_on(self.require_pose(), goals[0], given.follow.tolerance)]
         shape = curve, given.speed_ramps, given.cruising_speed
         self._depart(lambda ghost: ghost.compute_path(goals, *shape, backward=given.backward))
 

@@ -44,7 +44,7 @@ class RouteFollowerParameters(DrivingParameters):
     ] = ''
     laps: Annotated[
         int,
-        Spec('rounds where the route does not say; 0: without end', '1', (0, 1e6), dynamic=True),
+        Spec('rounds where route_file does not say; 0: without end', '1', (0, 1e6), dynamic=True),
     ] = 1
     limits: TwistLimits = field(default_factory=TwistLimits)
     follow: FollowParameters = field(default_factory=FollowParameters)
@@ -199,9 +199,9 @@ class RouteFollowerNode(DrivingNode[RouteFollowerParameters]):
         self.port.info(f'route of {len(route.waypoints)} waypoints, {laps}')
 
     def _on_route(self, message: Path) -> None:
+        """Follow what is published, once: who wants more rounds of it publishes them all."""
         self.require_frame_of_all(message)
-        given = self.parameters
-        self._follow(Route(points_of(message), given.laps), given.follow)
+        self._follow(Route(points_of(message)), self.parameters.follow)
 
     def _on_pause(self, request: Any) -> str:
         self._paused = request.data

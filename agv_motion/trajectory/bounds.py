@@ -38,8 +38,8 @@ def require_between(
     return value
 
 
-def require_ramp(name: str, value: float) -> float:
-    """Return the acceleration of a ramp [m/s2]: ``value``, or of `NO_RAMP` one without end.
+def require_ramp(name: str, value: float, unit: str = 'm/s2') -> float:
+    """Return the acceleration of a ramp: ``value``, or of `NO_RAMP` one without end.
 
     Raises:
         ConfigurationError: It is negative, not finite or too small.
@@ -47,4 +47,4 @@ def require_ramp(name: str, value: float) -> float:
     """
     if value == NO_RAMP:
         return AT_ONCE
-    return require_between(name, value, RAMPS, 'm/s2', 'for no ramp give 0 (NO_RAMP)')
+    return require_between(name, value, RAMPS, unit, 'for no ramp give 0 (NO_RAMP)')

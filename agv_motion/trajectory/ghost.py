@@ -139,7 +139,7 @@ class Ghost:
             return self.compute_path(
                 [final_pose], delta_curve, speed_ramps, cruising_speed, backward=backward
             )
-        request, heading = Request(speed_ramps, cruising_speed), final_pose.theta
+        request, heading = Request.of_turn(speed_ramps, cruising_speed), final_pose.theta
         return self._depart(
             lambda start, present: self._planner.rotation(start, heading, request, present)
         )
@@ -204,7 +204,7 @@ class Ghost:
             ConfigurationError: A speed or ramp is not positive.
 
         """
-        request = Request(speed_ramps, cruising_speed)
+        request = Request.of_turn(speed_ramps, cruising_speed)
         return self._depart(
             lambda start, present: self._planner.turn(start, angle, request, present)
         )

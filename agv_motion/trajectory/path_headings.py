@@ -26,7 +26,17 @@ def are_places(poses: Sequence[Pose]) -> bool:
     return bare and len(inner) + (goal.theta == 0.0) >= 2
 
 
-def with_headings(start: Pose, places: Sequence[Pose], *, backward: bool) -> list[Pose]:
+def stood_on(here: Pose, goal: Pose, within: float) -> Pose:
+    """Return ``goal``, at the place where the robot stands if that is no further than ``within``.
+
+    The direction to a place on which it stands already is made of the error of its last arrival.
+    """
+    return here._replace(theta=goal.theta) if dist(here[:2], goal[:2]) <= within else goal
+
+
+def with_headings(
+    start: Pose, places: Sequence[Pose], within: float = 0.0, *, backward: bool
+) -> list[Pose]:
     """Return ``places`` with the headings of the path through them.
 
     At a place inside the path that is the direction from the one before to the next; at the end
@@ -36,6 +46,7 @@ def with_headings(start: Pose, places: Sequence[Pose], *, backward: bool) -> lis
     Args:
         start: Where the robot is.
         places: Two or more, see :func:`are_places`.
+        within: [m] If all are one place, no further off than this, the heading stays.
         backward: Whether the robot drives backwards, and so looks against the path.
 
     """
@@ -50,6 +61,8 @@ def with_headings(start: Pose, places: Sequence[Pose], *, backward: bool) -> lis
         there = point if dist(before, after) <= APART else after  # straight there and back
         line = atan2(there[1] - before[1], there[0] - before[0])
         poses.append(Pose(*point, wrap(line + pi * backward)))
+    if len(points) == 1 and dist(here, points[0]) <= within:
+        poses = [poses[0]._replace(theta=start.theta)]
     if places[-1].theta != 0.0:
         poses[-1] = places[-1]
     return poses

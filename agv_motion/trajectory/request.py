@@ -31,6 +31,22 @@ class Request:
         require_between('cruising_speed', self.cruising_speed, SPEEDS, 'm/s')
         require_between('delta_curve', self.delta_curve, (0.0, 5.0), '', '0.3 to 0.6 is usual')
 
+    @classmethod
+    def of_turn(cls, ramps: float, rate: float) -> Request:
+        """Return what is asked of a turn on the spot.
+
+        Args:
+            ramps: [rad/s2] speeding up and braking; `NO_RAMP`: at once.
+            rate: [rad/s]
+
+        Raises:
+            ConfigurationError: One of them is out of its range.
+
+        """
+        require_ramp('ramps of a turn', ramps, 'rad/s2')
+        require_between('rate of a turn', rate, SPEEDS, 'rad/s')
+        return cls(ramps, rate)
+
     @property
     def acceleration(self) -> float:
         """Of the ramps [m/s2]; as good as without end where there are none."""

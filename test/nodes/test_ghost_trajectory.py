@@ -167,6 +167,21 @@ def test_one_place_told_twice_is_straight_there_turning_first(course):
     assert abs(abs(course.robot.pose.theta) - pi) < 0.06
 
 
+def test_where_it_stands_already_it_turns_to_no_heading_but_one_that_is_asked(course):
+    """Two centimetres aside, as a robot stands that has arrived, have no direction of their own."""
+    path = Path(poses=[stamped(-0.02, 0.01, 0.0)] * 2)
+    course.tester.publisher(Path, 'path').publish(path)
+    course.says('arrived')
+    assert tuple(course.robot.pose) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
+    course.goal.publish(stamped(0.01, -0.02, 1.0))
+    course.tester.graph.spin_until(lambda: abs(course.robot.pose.theta - 1.0) < 0.05)
+    course.is_at(0.0, 0.0, 1.0)
+    assert all(abs(twist.vx) < 0.01 for twist in course.robot.commands)
+    far = Path(poses=[stamped(-0.5, 0.0, 0.0)] * 2)
+    course.tester.publisher(Path, 'path').publish(far)
+    course.tester.graph.spin_until(lambda: abs(course.robot.pose.x + 0.5) < 0.03)
+
+
 def test_an_arc_ends_where_it_was_predicted(course):
     """A quarter turn to the right round an inner circle of 0.6 m."""
     publisher = course.tester.publisher(Vector3Stamped, 'arc')

@@ -63,7 +63,9 @@ def course(start):
     return found
 
 
-def test_a_live_route_is_followed_to_its_end(course):
+def test_a_live_route_is_followed_to_its_end_once(start):
+    course = start(laps=3)  # of a route in a file
+    course.robot.find()
     course.send((0, 0), (1, 0), (1, 0), (1, 1))
     course.says('following: segment 1 of 2')
     course.says('following: segment 2 of 2')

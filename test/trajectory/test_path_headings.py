@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from agv_motion.planar import Pose, wrap
 from agv_motion.trajectory.ghost import Ghost
-from agv_motion.trajectory.path_headings import are_places, with_headings
+from agv_motion.trajectory.path_headings import are_places, stood_on, with_headings
 
 CORNER = [Pose(0.05 * k, 0.0, 0.0) for k in range(41)] + [
     Pose(2.0, 0.05 * k, 0.0) for k in range(1, 41)
@@ -54,6 +54,17 @@ def test_a_path_round_a_corner_is_kept_to_a_centimetre(backward, turned):
 def test_a_goal_keeps_the_heading_it_has():
     path = [*CORNER[:-1], CORNER[-1]._replace(theta=-2.0)]
     assert with_headings(Pose(0.0, 0.0, 0.0), path, backward=False)[-1] == path[-1]
+
+
+@pytest.mark.parametrize(('within', 'heading'), [(0.03, 1.0), (0.01, -pi / 2)])
+def test_the_direction_to_where_it_stands_is_its_own(within, heading):
+    here, place = Pose(2.0, 1.0, 1.0), Pose(2.0, 0.98, 0.0)
+    (pose,) = with_headings(here, [place, place], within, backward=False)
+    assert pose == pytest.approx((2.0, 0.98, heading))
+    (asked,) = with_headings(here, [place, place._replace(theta=0.5)], within, backward=False)
+    assert asked == (2.0, 0.98, 0.5)
+    found = stood_on(here, pose, within)
+    assert found == (here if within > 0.02 else pose)
 
 
 PLACES = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=8)

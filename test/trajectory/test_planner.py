@@ -67,6 +67,8 @@ def test_whatever_is_asked_it_is_planned_in_finite_numbers_or_refused(order, rou
         ('compute_trajectory', (Pose(1e4, 0, 0), 0.4, *PACE), 'a way of 10000 m: at most 1000 m'),
         ('compute_trajectory', (Pose(1e308, -1e308, 0), 0.0, *PACE), r'a way of 1\.4142e\+308 m'),
         ('compute_trajectory', (Pose(9, 0, 0), 0.4, 0.4, 1e-3), '9000 s or more: at most 7200 s'),
+        ('compute_turn', (1.0, 0.4, 0.0), r'rate of a turn = 0.0 rad/s: must lie .* rad/s$'),
+        ('compute_turn', (1.0, -0.4, 0.4), r'ramps of a turn = -0.4 rad/s2: must lie .* rad/s2;'),
         ('compute_turn', (1e6, *PACE), '2.5e.06 s or more: at most 7200 s'),
         ('compute_path', ([Pose(0.1, 0, 0)] * 20000, 0.4, *PACE), '20000 poses.*every 20th pose'),
         ('compute_path', ([Pose(0.1, 0, 0), Pose(0.2, 0, 1)] * 200, 0.0, *PACE), 'in parts'),
@@ -78,6 +80,11 @@ def test_what_is_too_much_is_told_with_limit_and_remedy(order, numbers, words):
     with pytest.raises(ConfigurationError, match=words):
         getattr(ghost, order)(*numbers)
     assert ghost.trajectory is before
+
+
+def test_a_turn_to_a_heading_is_refused_in_the_units_of_a_turn():
+    with pytest.raises(ConfigurationError, match=r'rate of a turn = 0.0 rad/s: must lie'):
+        Ghost(ORIGIN).compute_trajectory(ORIGIN, 0.0, 0.4, 0.0, pure_rotation=True)
 
 
 def test_a_long_curve_that_takes_its_time_is_refused_though_its_chord_is_short():
