@@ -30,7 +30,7 @@ class Clockwork(Scenario[None]):
     def __init__(self, seconds, *, impossible=False):
         super().__init__(seconds)
         self.impossible = impossible
-        self.clock = SimpleNamespace(time=100.0, elapsed=0.0)
+        self.clock = SimpleNamespace(time=100.0, nanoseconds=100 * 10**9, elapsed=0.0)
 
     def build(self):
         if self.impossible:

@@ -96,3 +96,17 @@ def robot():
 def link():
     """Return what finds a link of a chain by its name."""
     return lambda chain, name: next(one for one in chain.links if one.name == name)
+
+
+@pytest.fixture
+def judge(robot):
+    """Return what asserts the first cause, the words and the level that follow from a change."""
+
+    def follow(change, cause, words, level):
+        change(robot)
+        chain = robot.tell()
+        assert chain.cause.name == cause
+        assert words in chain.headline
+        assert chain.level is level
+
+    return follow
