@@ -78,8 +78,8 @@ LONG = (
     'test_graph_guard', 'test_trees', 'test_reservation_exchange', 'test_wheel_kinematics',
     'test_calibrate',
     'test_nodes_and_doctor', 'test_drive', 'test_freshness', 'test_driving', 'test_record',
-    'test_kills', 'test_fusion', 'test_mutation', 'test_run_figure', 'test_stop', 'test_calibration',
-    'test_shared_navigator', 'test_agent',
+    'test_kills', 'test_fusion', 'test_mutation', 'test_run_figure', 'test_stop',
+    'test_calibration', 'test_shared_navigator', 'test_agent',
 )  # fmt: skip
 """Files that take longest: first, so that no worker is left alone with one at the end"""
 

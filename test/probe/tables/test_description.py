@@ -50,6 +50,8 @@ def test_only_what_has_to_be_written_is_asked_for(tmp_path):
     assert asked_for(given) | {'file': ''} == {
         'file': '', 'time_column': '1', 'columns': ('2',), 'delimiter': 'semicolon',
     }  # fmt: skip
+    named = TableParameters(time_column='time', columns=('2', 'b'), delimiter='semicolon')
+    assert 'delimiter' not in asked_for(named)  # one name is enough to find it
 
 
 @pytest.mark.parametrize(

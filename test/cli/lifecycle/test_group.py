@@ -26,7 +26,7 @@ def test_mistakes(alone, oak):
     status, _, errors = alone('lifecycle', 'set', oak, 'deactivat')
     assert status == 1
     assert errors.startswith(
-        'error: Unknown transition requested, available ones are:\n- deactivate [4]\n'
+        'error: Unknown transition requested, available ones are:\n    - deactivate [4]\n'
     )
     assert "did you mean 'deactivate'?" in errors
     status, _, errors = alone('lifecycle', 'get', oak[:-1])
