@@ -28,3 +28,7 @@ class OpenFloor:
     def path(self, start: Point, goal: Point) -> list[Point]:
         """Return the corners of the shortest path; see :meth:`PathPlanner.path`."""
         return self._open.path(start, goal)
+
+    def is_straight(self, start: Point, goal: Point) -> bool:
+        """Return whether that path is one line; see :meth:`PathPlanner.is_straight`."""
+        return self._open.is_straight(start, goal)

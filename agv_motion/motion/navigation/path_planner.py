@@ -72,6 +72,16 @@ class PathPlanner:
         path = graph.shortest(inside, goal)
         return path if inside == start else [start, *path]
 
+    def is_straight(self, start: Point, goal: Point) -> bool:
+        """Return whether the path from ``start`` to ``goal`` [m] is one line: without looking on.
+
+        Raises:
+            GeometryError: As :meth:`path`.
+
+        """
+        inside, graph = self._connected(start, goal)
+        return inside == start and graph.sees(start, goal)
+
     def failure(self, start: Point, goal: Point) -> GeometryError | None:
         """Return why no path leads from ``start`` to ``goal`` [m]; None if one does."""
         try:
@@ -142,6 +152,10 @@ class VisibilityGraph:
         """Return whether ``point`` lies in this part."""
         return bool(shapely.intersects_xy(self._floor, *point))
 
+    def sees(self, start: Point, goal: Point) -> bool:
+        """Return whether the straight line between two points stays in this part."""
+        return bool(shapely.covers(self._floor, LineString([start, goal])))
+
     def shortest(self, start: Point, goal: Point) -> list[Point]:
         """Return the shortest path between two points of this part.
 
@@ -149,7 +163,7 @@ class VisibilityGraph:
             GeometryError: There is none, which a connected part rules out but for rounding.
 
         """
-        if shapely.covers(self._floor, LineString([start, goal])):
+        if self.sees(start, goal):
             return [start, goal]
         find = self._looked_up if self._asked_before else self._searched
         self._asked_before = True

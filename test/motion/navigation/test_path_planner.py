@@ -50,6 +50,7 @@ def test_a_way_stays_on_walkable_floor_and_is_no_shorter_than_straight(start, go
     path = paths.path(start, goal)
     assert path[0] == start
     assert path[-1] == goal
+    assert paths.is_straight(start, goal) is (len(path) == 2)
     floor = shapely.union_all(zone.parts).buffer(3 * ROUNDING)
     assert floor.covers(shapely.LineString(path)) or start == goal
     assert length(path) >= hypot(goal[0] - start[0], goal[1] - start[1]) - 1e-9

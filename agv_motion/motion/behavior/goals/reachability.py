@@ -43,6 +43,6 @@ class StraightLine:
             GeometryError: It leaves the walkable floor.
 
         """
-        if len(floor.path(start, goal)) > 2:
+        if not floor.is_straight(start, goal):
             msg = f'no straight line leads to ({goal[0]:.2f}, {goal[1]:.2f})'
             raise GeometryError(msg)
