@@ -15,6 +15,7 @@ import typer
 from rich.text import Text
 
 from agv_motion.cli.terminal import LineTable, terminal
+from agv_motion.ros.log_folder import keep_logs
 
 
 class DoctorFinding(NamedTuple):
@@ -123,6 +124,7 @@ def _talk() -> DoctorFinding:
     heard: list[float] = []
     try:
         for context in contexts:
+            keep_logs()
             rclpy.init(context=context)
         speaker, listener = (
             rclpy.create_node(f'_agv_doctor_{i}', context=context)

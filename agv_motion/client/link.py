@@ -21,6 +21,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import SourceError
 from agv_motion.ros.ends import NO_EVENTS
+from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.qos import COMMAND
 from agv_motion.ros.remote_services import UnansweredError
 
@@ -53,6 +54,7 @@ class ScriptLink:
 
         """
         context = rclpy.Context()
+        keep_logs()
         rclpy.init(
             args=[], context=context, domain_id=domain,
             signal_handler_options=SignalHandlerOptions.NO,

@@ -21,6 +21,7 @@ from agv_motion.demo.readout import bar
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, R, Scenario
 from agv_motion.demo.standard_error import apart
+from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 
@@ -66,6 +67,7 @@ class Demo(Generic[R]):
 
     def __enter__(self) -> Demo[R]:
         """Make and start all nodes."""
+        keep_logs()
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         self._stop = Stop()
         try:

@@ -24,6 +24,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
 from agv_motion.ros.live_node import LiveNode
+from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.parameter_arguments import check_arguments, overruled, passed_over
 from agv_motion.ros.stop import Stop, end_no_more
 
@@ -146,6 +147,7 @@ def run(kind: type[PlainNode[Any]]) -> None:
     stop = Stop()
     try:
         check_arguments(sys.argv)
+        keep_logs()
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
         _run(LiveNode(kind), lambda: stop.requested)
     except UNUSABLE as error:

@@ -12,6 +12,7 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY, settle
 from agv_motion.cli.graph.participants import missing
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ def joined(
 
     if not endless:
         os.environ.setdefault(*UDP_ALONE)
+    keep_logs()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node(
         name or f'_agv_{os.getpid()}',

@@ -38,6 +38,7 @@ from agv_motion.cli.recording.topic_options import (
 )
 from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -126,6 +127,7 @@ def _record(given: dict[str, Any], duration: float) -> None:
     from agv_motion.ros.run import overrides, shut_down, spin, start
     from agv_motion.ros.stop import Stop
 
+    keep_logs()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
     console = terminal()

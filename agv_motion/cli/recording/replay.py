@@ -21,6 +21,7 @@ from agv_motion.cli.recording.topic_options import (
 )
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
+from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from agv_motion.nodes.bag_player import BagPlayer
@@ -127,6 +128,7 @@ def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     from agv_motion.ros.run import overrides, spin, start
     from agv_motion.ros.stop import Stop
 
+    keep_logs()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     stop = Stop()
     console = terminal()

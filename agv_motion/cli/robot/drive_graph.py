@@ -19,6 +19,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError, SourceError
+from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.messages import fill_pose
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.stop import Stop
@@ -105,6 +106,7 @@ class DriveOrders:
             ConfigurationError: It refuses the goal; the message says why.
 
         """
+        keep_logs()
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         self._stop = Stop()
         self._node = rclpy.create_node('_agv_drive', start_parameter_services=False)

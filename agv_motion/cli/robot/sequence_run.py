@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from agv_motion.cli.terminal import terminal
+from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,6 +41,7 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
     from agv_motion.ros.stop import Stop
 
     extra = ['--ros-args', '--params-file', str(config), '--'] if config else []
+    keep_logs()
     rclpy.init(
         args=['sequence', *extra, *arguments], signal_handler_options=SignalHandlerOptions.NO
     )
