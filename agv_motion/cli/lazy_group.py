@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+LARGEST = 1e15
+"""Number that a command takes; more seconds than that overflow where they become nanoseconds."""
+
+
 class _Commands(MutableMapping[str, Any]):
     """Commands by name: some are there, of the others only the place is known so far."""
 
@@ -59,8 +63,8 @@ def _command(found: Any, name: str) -> Any:
 def _prepare(command: Any) -> None:
     """Let a command and its own ones show square brackets in help, of units, as they are.
 
-    And let none take a number that is not finite: each comparison with NaN is false, so that it
-    passes every range, and a limit of time that is NaN never comes.
+    And let none take a number that is not finite, or hardly so: each comparison with NaN is false,
+    so that it passes every range, and a limit of time that is NaN never comes.
     """
     commands = getattr(command, 'commands', {})
     own = commands.there if isinstance(commands, _Commands) else commands
@@ -73,12 +77,13 @@ def _prepare(command: Any) -> None:
 
 
 def _finite(then: Callable[..., Any] | None) -> Callable[..., Any]:
-    """Return a callback of a parameter that refuses NaN and infinity, and hands on to ``then``."""
+    """Return a callback of a parameter that refuses NaN, infinity and more than ``LARGEST``."""
 
     def check(context: Any, parameter: Any, value: Any) -> Any:
         for one in value if isinstance(value, (list, tuple)) else (value,):
-            if isinstance(one, float) and not isfinite(one) and value != parameter.default:
-                msg = f'{one} is no finite number'
+            if isinstance(one, float) and value != parameter.default and not abs(one) <= LARGEST:
+                what = f'larger than {LARGEST:g}' if isfinite(one) else 'no finite number'
+                msg = f'{one} is {what}'
                 raise typer.BadParameter(msg, ctx=context, param=parameter)
         return then(context, parameter, value) if then else value
 

@@ -55,13 +55,17 @@ def read_panel(
         stop: Log time before which to stop [ns].
 
     Raises:
-        ConfigurationError: A field is not there, or it is no number, or there are too many.
+        ConfigurationError: A field is not there, it is no number, there are too many, or no
+            message has one.
 
     """
     panel: list[FieldLine] = []
     for name in names.split(','):
         topic, field = topic_and_field(bag, name)
         columns = read_topic(bag, topic, [field] if field else None, start, stop)
+        if not len(columns.stamps):
+            msg = f'bag {bag.path} has no message on {topic} in this time: nothing to draw'
+            raise ConfigurationError(msg)
         time = (columns.stamps - bag.start) * 1e-9
         panel += [FieldLine(f'{topic} {path}', time, y) for path, y in _lines(columns)]
     if not 0 < len(panel) <= MOST_LINES:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.columns.condition import condition
@@ -123,7 +124,7 @@ class EditRequest:
         compression = '' if self.compression == 'none' else self.compression
         what = Edit(
             self.topics, spans, self.latched, compression, self.ordered,
-            file_size=round(self.part_size * 1e6),
+            file_size=ceil(self.part_size * 1e6),
         )  # fmt: skip
         return replace(what, parts=self._parts(spans, start, end)), notes
 
@@ -173,7 +174,7 @@ class EditRequest:
         return around, (f"'{asked}' {met}: {times}{more}",)
 
     def _parts(self, spans: tuple[Span, ...] | None, start: int, end: int) -> tuple[Span, ...]:
-        length = round(self.part_duration * SECOND)
+        length = ceil(self.part_duration * SECOND)
         if not length:
             return ()
         begin, stop = (spans[0][0], spans[-1][1]) if spans else (start, end + 1)

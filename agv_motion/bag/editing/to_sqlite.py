@@ -14,15 +14,16 @@ from typing import TYPE_CHECKING
 
 from agv_motion.bag import metadata
 from agv_motion.bag.bag_files import EXTRAS
+from agv_motion.bag.cdr.message_type import declared
 from agv_motion.bag.editing.blocks import blocks_ahead
 from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.mcap.output import McapOutput
 from agv_motion.bag.sqlite.writer import SqliteWriter
-from agv_motion.errors import SignalError
+from agv_motion.errors import ConfigurationError, SignalError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from pathlib import Path
 
     from agv_motion.bag.connection import Connection, Message
@@ -44,6 +45,7 @@ def edit_to_sqlite(
     """Make a bag in sqlite3; arguments and errors as of :func:`agv_motion.bag.editing.edit.edit`.
 
     Raises:
+        ConfigurationError: A type is defined in two ways.
         SignalError: A time lies beyond what sqlite3 can hold, the year 2262.
         OSError: The disk takes no more.
 
@@ -73,20 +75,23 @@ class _Tables:
 
     def __init__(self, writer: SqliteWriter, bags: Sequence[BagReader], what: Edit) -> None:
         self._writer = writer
-        self._ids: dict[Connection, int] = {}
-        self._topics: dict[int, metadata.Topic] = {}
-        self._counts: dict[int, int] = {}
         self._start, self._end = 2**64, 0
-        numbers: dict[tuple[str, str], int] = {}
-        for connection in chain.from_iterable(bag.connections for bag in bags):
-            if what.topics.takes(connection.topic):
-                topic = topic_of(connection)
-                key = topic.name, topic.type
-                if key not in numbers:
-                    numbers[key] = writer.add_topic(topic)
-                    self._topics[numbers[key]] = topic
-                    self._counts[numbers[key]] = 0
-                self._ids[connection] = numbers[key]
+        connections = [
+            connection
+            for connection in dict.fromkeys(chain.from_iterable(bag.connections for bag in bags))
+            if what.topics.takes(connection.topic)
+        ]
+        _require_one_definition(connections)
+        topics: dict[tuple[str, ...], metadata.Topic] = {}
+        for connection in connections:
+            topic = topic_of(connection)
+            known = topics.setdefault(_key(connection), topic)
+            qos = tuple(dict.fromkeys((*known.qos, *topic.qos)))
+            topics[_key(connection)] = known._replace(qos=qos)
+        numbers = {key: writer.add_topic(topic) for key, topic in topics.items()}
+        self._topics = {numbers[key]: topic for key, topic in topics.items()}
+        self._counts = dict.fromkeys(self._topics, 0)
+        self._ids = {connection: numbers[_key(connection)] for connection in connections}
 
     @property
     def messages(self) -> int:
@@ -111,6 +116,38 @@ class _Tables:
         file = metadata.FileSummary(name, self._start, self._end, self.messages)
         topics = [(topic, self._counts[number]) for number, topic in self._topics.items()]
         return metadata.describe([file], topics, storage='sqlite3')
+
+
+def _key(connection: Connection) -> tuple[str, ...]:
+    """Return what makes connections one topic in the file."""
+    return connection.topic, connection.type, connection.encoding
+
+
+def _fields(connection: Connection) -> object:
+    """Return the fields that a definition declares; its text where they cannot be understood."""
+    try:
+        return declared(connection.type, connection.definition, connection.definition_encoding)
+    except ConfigurationError:
+        return connection.definition
+
+
+def _require_one_definition(connections: Iterable[Connection]) -> None:
+    """Refuse types with several definitions: there is place for one, and all would be read by it.
+
+    Raises:
+        ConfigurationError: A type has.
+
+    """
+    known: dict[str, Connection] = {}
+    for one in connections:
+        other = known.setdefault(one.type, one)
+        if one.definition and other.definition and _fields(one) != _fields(other):
+            where = one.topic if one.topic == other.topic else f'{other.topic} and {one.topic}'
+            msg = (
+                f'{one.type} on {where} is defined in two ways, and sqlite3 holds one definition '
+                'of a type: leave a topic out, or convert before the merge'
+            )
+            raise ConfigurationError(msg)
 
 
 def _messages(bags: Sequence[BagReader], what: Edit) -> Iterator[Message]:

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from rosbags.rosbag2 import Reader
 
-from agv_motion.bag import BagReader, BagWriter
+from agv_motion.bag import BagReader, BagWriter, OfferedQos
 from agv_motion.bag.editing.request import EditRequest
 from agv_motion.bag.selection import Selection
-from agv_motion.errors import SignalError, SourceError
+from agv_motion.errors import ConfigurationError, SignalError, SourceError
 
 _SPEC = importlib.util.spec_from_file_location('bags', Path(__file__).with_name('bags.py'))
 bags = importlib.util.module_from_spec(_SPEC)
@@ -75,3 +75,27 @@ def test_a_full_disk_is_told(tmp_path, monkeypatch):
     with pytest.raises(SourceError, match='disk is full'):
         EditRequest(storage='sqlite3').make([walk], tmp_path / 'new')
     assert [path.name for path in tmp_path.iterdir()] == ['walk']
+
+
+def write_one(folder, definition, **how):
+    with BagWriter(folder) as bag:
+        topic = bag.add_topic('/a', 'a/msg/A', definition, type_hash='', **how)
+        bag.write(topic, bags.SECOND, b'\0\1\0\0\1')
+    return folder
+
+
+def test_a_type_that_is_defined_in_two_ways_is_refused(tmp_path):
+    """The table of types has place for one, by which messages of the other were read, too."""
+    both = [write_one(tmp_path / str(i), f'int8 {name}\n') for i, name in enumerate('xy')]
+    with pytest.raises(ConfigurationError, match='a/msg/A on /a is defined in two ways'):
+        EditRequest(storage='sqlite3').make(both, tmp_path / 'new')
+    assert not (tmp_path / 'new').exists()
+
+
+def test_other_comments_are_no_other_definition_and_all_offers_are_kept(tmp_path):
+    one = write_one(tmp_path / 'a', 'int8 x\n')
+    other = write_one(tmp_path / 'b', '# x\nint8 x # x', qos=(OfferedQos(depth=3),))
+    EditRequest(storage='sqlite3').make([one, other], tmp_path / 'new')
+    with BagReader(tmp_path / 'new') as bag:
+        assert bag.counts == {'/a': 2}
+        assert [qos.depth for qos in bag.topics['/a'].qos] == [10, 3]

@@ -104,3 +104,15 @@ def test_help_teaches_by_examples(verb):
     status, out = run(verb, '-h')
     assert status == 0
     assert f'agv bag {verb} ' in out
+
+
+def test_a_file_shorter_than_a_nanosecond_is_no_file_of_all(walk, tmp_path):
+    status, out = run('split', walk, tmp_path / 'new', '-d', '1e-12')
+    assert status == 1
+    assert 'files of 1e-12 s each: expected at most' in out
+
+
+def test_nothing_is_drawn_of_a_time_without_messages(walk, tmp_path):
+    status, out = run('plot', walk, '/a/data', '--start-offset', '100', '-o', tmp_path / 'a.png')
+    assert status == 1
+    assert 'has no message on /a in this time' in out
