@@ -192,3 +192,10 @@ def test_a_file_that_cannot_be_read_costs_no_row_of_the_others(tmp_path):
     assert "b.txt, line 1, column 1: no column 'time'" in found.problem
     with pytest.raises(ConfigurationError, match=r'b\.txt'):
         read(tmp_path)
+
+
+def test_a_time_that_is_none_is_told_with_its_column(tmp_path):
+    file = tmp_path / 'oak.csv'
+    file.write_text('probe,b,time\n' + 2 * '12,345,2100-01-01\n')
+    with pytest.raises(SourceError, match=r'oak\.csv, line 2, column 8: '):
+        read_tables(TableParameters(file=str(file), columns=('probe',)))
