@@ -50,7 +50,7 @@ def _head(bag: BagReader) -> None:
     rows = {
         'Files': '\n                   '.join(in_line(path.name) for path in files),
         'Bag size': _size(sum(path.stat().st_size for path in files)),
-        'Storage id': 'sqlite3' if files[0].suffix == '.db3' else 'mcap',
+        'Storage id': 'sqlite3' if bag.files[0].as_chunks() is None else 'mcap',
         'Duration': f'{length:.9f}s',
         'Start': moment(bag.start),
         'End': moment(bag.end),

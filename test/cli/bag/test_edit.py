@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+import zstandard
 from typer.testing import CliRunner
 
 from agv_motion.bag import BagReader, BagWriter
@@ -116,3 +117,12 @@ def test_nothing_is_drawn_of_a_time_without_messages(walk, tmp_path):
     status, out = run('plot', walk, '/a/data', '--start-offset', '100', '-o', tmp_path / 'a.png')
     assert status == 1
     assert 'has no message on /a in this time' in out
+
+
+def test_a_table_that_is_compressed_as_a_whole_is_told_as_sqlite3(walk, tmp_path):
+    assert run('convert', walk, tmp_path / 'new')[0] == 0
+    packed = tmp_path / 'new_0.db3.zstd'
+    packed.write_bytes(zstandard.compress((tmp_path / 'new' / 'new_0.db3').read_bytes()))
+    status, out = run('info', packed)
+    assert status == 0, out
+    assert 'Storage id:        sqlite3' in out
