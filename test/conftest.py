@@ -79,7 +79,9 @@ LONG = (
     'test_calibrate',
     'test_nodes_and_doctor', 'test_drive', 'test_freshness', 'test_driving', 'test_record',
     'test_kills', 'test_fusion', 'test_mutation', 'test_run_figure', 'test_stop',
-    'test_calibration', 'test_shared_navigator', 'test_agent',
+    'test_calibration', 'test_shared_navigator', 'test_agent', 'test_independent_chain',
+    'test_months', 'test_doors', 'test_traffic_search', 'test_recovery', 'test_crowd', 'test_house',
+    'test_blocked', 'test_parameter_texts', 'test_fuzz', 'test_examples', 'test_animation',
 )  # fmt: skip
 """Files that take longest: first, so that no worker is left alone with one at the end"""
 
