@@ -7,6 +7,7 @@ the node itself is refused; the same, called by rclpy or by this package, goes o
 from __future__ import annotations
 
 import functools
+import os
 import sys
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -67,6 +68,8 @@ def watch(package: str) -> None:
 
 def _install() -> None:
     import random
+    import socket
+    import subprocess
     import threading
     import time
     import uuid
@@ -85,6 +88,14 @@ def _install() -> None:
         owner = random if holder is random.Random else np.random
         _guard(owner, holder.__name__, 'draws random numbers without a seed', SEED, free=1)
     _guard(random, 'SystemRandom', 'draws random numbers without a seed', SEED)
+    _guard(os, 'urandom', 'makes what is never the same', 'count instead')
+    for name in ('run', 'call', 'check_call', 'check_output'):
+        _guard(subprocess, name, 'starts a process', KEEPS)
+    for name in ('system', 'popen'):
+        _guard(os, name, 'starts a process', KEEPS)
+    _always(subprocess.Popen, '__init__', 'starts a process', KEEPS)
+    _always(socket.socket, '__init__', 'opens a socket', KEEPS)
+    _guard(socket, 'create_connection', 'opens a socket', KEEPS)
     _always(threading.Thread, 'start', 'starts a thread', 'use timers', deep=True)
     _always(action.ActionClient, '__init__', 'has a client of an action', KEEPS)
     _always(action.ActionServer, '__init__', 'offers an action', KEEPS)
