@@ -3,7 +3,7 @@
     python launch_scripts/pictures/season_picture.py resource/coverage.png
 
 By memory and the shortest way, against the choice of the original installation, which only went
-where it could go straight. Takes a quarter of an hour. Each season is kept in a file as it ends:
+where it could go straight. Takes some minutes. Each season is kept in a file as it ends:
 who asks again waits only for what is not in it. Remove it when the code has changed.
 """
 
