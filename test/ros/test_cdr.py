@@ -80,8 +80,7 @@ def wide(kind):
     return any(has(field) for field in kind.SLOT_TYPES)
 
 
-@pytest.mark.parametrize('kind', [k for k in kinds() if not wide(k)], ids=lambda k: k.__name__)
-def test_rclpy_reads_what_we_write_and_we_read_it_back(kind):
+def reads_and_is_read(kind):
     rng = random.Random(kind.__name__)  # noqa: S311 - no secret
     for _ in range(5):
         message = filled(kind, rng)
@@ -89,6 +88,13 @@ def test_rclpy_reads_what_we_write_and_we_read_it_back(kind):
         assert deserialize_message(data, kind) == message
         assert codec(kind).decode(data) == message
         assert codec(kind).encode(codec(kind).decode(data)) == data
+
+
+def test_rclpy_reads_what_we_write_and_we_read_it_back():
+    tried = [kind for kind in kinds() if not wide(kind)]
+    for kind in tried:
+        reads_and_is_read(kind)
+    assert len(tried) > 100
 
 
 def test_worked_example():
@@ -105,14 +111,14 @@ def test_worked_example():
     )
 
 
-@pytest.mark.parametrize('length', range(24))
-def test_bytes_that_end_too_soon_are_refused(length):
+def test_bytes_that_end_too_soon_are_refused():
     from sensor_msgs.msg import JointState
 
     kind = codec(JointState)
     data = kind.encode(JointState(name=['a'], position=[1.0]))
-    with pytest.raises(SignalError, match='JointState'):
-        kind.decode(data[:length])
+    for length in range(24):
+        with pytest.raises(SignalError, match='JointState'):
+            pytest.fail(f'{length} bytes are read as {kind.decode(data[:length])}')
 
 
 def test_a_value_that_does_not_fit_is_refused():
