@@ -79,11 +79,11 @@ def test_big_endian_lengths_are_read_as_such():
     assert walk.found[found.leaves[-1].number] == [(4, 3, 1)]
 
 
-@pytest.mark.parametrize('left', range(len(points(3))))
-def test_a_message_that_is_too_short_is_told(left):
+def test_a_message_that_is_too_short_is_told():
     data = points(3)
-    with pytest.raises(ValueError, match='bytes end before a'):
-        of(POINTS).walk(data, 0, left, '<')
+    for left in range(len(data)):
+        with pytest.raises(ValueError, match='bytes end before a'):
+            pytest.fail(f'{left} bytes are read as {of(POINTS).walk(data, 0, left, "<")}')
 
 
 @pytest.mark.parametrize(('more', 'fits'), [(0, True), (3, True), (4, False)])
