@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import runpy
+import signal
 import subprocess
 import sys
 from functools import partial
@@ -210,7 +211,7 @@ def test_14_trees(told):
 
 
 def test_15_motors(graph, tmp_path):
-    """They do what they are told, and stop when nobody commands."""
+    """They do what they are told, stop when nobody commands, and end with Ctrl-C as a node does."""
     from rclpy.node import Node
     from rclpy.qos import qos_profile_sensor_data
     from sensor_msgs.msg import JointState
@@ -235,8 +236,8 @@ def test_15_motors(graph, tmp_path):
         assert slow > 0.0
         assert (middle, fast) == pytest.approx((2.0 * slow, 3.0 * slow))
     finally:
-        motors.terminate()
-        motors.wait()
+        motors.send_signal(signal.SIGINT)
+        assert motors.wait() == 0
 
 
 def test_16_a_script_without_a_robot_is_told_so(told, monkeypatch):

@@ -1,9 +1,9 @@
 """Your own motors: your controllers go where `here` stands, and stand when nobody commands."""
 
+from contextlib import suppress
 from time import monotonic
 
 import rclpy
-from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
 
 TIMEOUT, PERIOD = 0.5, 0.05  # [s]
@@ -13,12 +13,11 @@ turned = dict.fromkeys(rates, 0.0)  # [rad] by each wheel since the start
 heard = [monotonic()]
 
 
-def on_command(command):
+def on_command(told):
     """Turn, and roll."""
     heard[0] = monotonic()
-    told = dict(enumerate(command.name))
-    angles.update({n: command.position[i] for i, n in told.items() if n in angles})  # here
-    rates.update({n: command.velocity[i] for i, n in told.items() if n in rates})  # here
+    angles.update({n: told.position[i] for i, n in enumerate(told.name) if n in angles})  # here
+    rates.update({n: told.velocity[i] for i, n in enumerate(told.name) if n in rates})  # here
 
 
 def tell():
@@ -34,7 +33,8 @@ def tell():
 
 rclpy.init()
 node = rclpy.create_node('motors')
-publisher = node.create_publisher(JointState, 'turrets/state', qos_profile_sensor_data)
+publisher = node.create_publisher(JointState, 'turrets/state', 1)
 node.create_subscription(JointState, 'turrets/command', on_command, 1)
 node.create_timer(PERIOD, tell)
-rclpy.spin(node)
+with suppress(KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
+    rclpy.spin(node)
