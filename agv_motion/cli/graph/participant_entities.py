@@ -11,10 +11,13 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_bool, c_char_p, c_int, c_size_t, c_uint64, c_void_p
-from typing import Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from agv_motion.cli.graph.participants import GRAPH_TOPIC, PREFIX
 from agv_motion.model.cdr_reader import CdrReader
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 GID = 16
 """Bytes of the identity of a participant, a reader or a writer"""
