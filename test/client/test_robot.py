@@ -135,7 +135,7 @@ def test_a_sequence_is_performed(robot, tmp_path):
         ('go_to', (float('nan'), 0.0), 'must be finite'),
         ('go_to', (0.0, 0.0, float('inf')), 'must be finite'),
         ('go_to', (1e9, 0.0), 'metres?'),
-        ('spin', (1.0, 0.0), 'speed'),
+        ('spin', (1.0, 0.0), 'rate of a turn = 0.0 rad/s'),
         ('drive_arc', (1.0, -1.0), 'diameter'),
         ('follow_route', ([(0.0, 0.0)],), '2'),
         ('follow_route', ([(0.0, 0.0), (1.0, 0.0)], 0), 'laps = 0'),

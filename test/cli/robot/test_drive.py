@@ -87,7 +87,7 @@ def test_interrupted_it_brakes_and_fails(agv, robot):
 
 
 def test_a_refusal_of_the_node_is_told(agv, robot):
-    status, _, errors = agv('drive', 'to', 0.01, 0, 180, '--delta', 5)
+    status, _, errors = agv('drive', 'to', 0.2, 0, 180, '--delta', 5)
     assert status == 1
     assert 'cusp' in errors
     assert robot.pose == (0.0, 0.0, 0.0)
