@@ -29,6 +29,11 @@ def test_unknown_until_the_first_night_ends():
     assert fed(zero_flow, 0, [(7.0, 19.5)]) == 20.0
 
 
+def test_however_small_the_signal_of_a_probe_is():
+    zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
+    assert fed(zero_flow, 0, [*night(0.5), (7.0, 0.4)]) == 0.5
+
+
 def test_latched_all_day_whatever_comes():
     zero_flow = ZeroFlow(2.0, 7.0, MovingWindow(3), 0.0)
     fed(zero_flow, 0, night(20.0))

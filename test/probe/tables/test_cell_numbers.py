@@ -20,6 +20,7 @@ GIVEN = TableParameters()
         (['0,400', '5', '-1,5e-3'], [0.4, 5.0, -1.5e-3]),
         (['0.4', '1,5', '0.5'], [0.4, None, 0.5]),
         (['0,4', '1.5', '0,5'], [0.4, None, 0.5]),
+        (['no.', '5', '0,4'], [None, 5.0, 0.4]),  # neither a word nor a whole number tells a sign
         (['x', '1_0', 'inf', '0x1', '1e999', '\uff11'], [None] * 6),
     ],
 )
