@@ -51,7 +51,9 @@ def check(
 
         for found in findings(reader, limits, show):
             counts[found.severity] += 1
+            status.stop()  # a line of its own for each, on a terminal too
             typer.echo(f'{found.severity}: {in_line(found.where)}: {in_line(found.text)}')
+            status.start()
         total, told = reader.message_count, completeness(reader)
     typer.echo(
         f'{counts["error"]} errors and {counts["warning"]} warnings in {total} messages of '

@@ -103,7 +103,6 @@ def _overview(found: list[TopicDiff]) -> LineTable:
             title,
             justify='left' if title in {'topic', ''} else 'right',
             overflow='fold',
-            no_wrap=title == 'topic',
         )
     for topic in found:
         verdict = 'same' if topic.same else topic.note or 'DIFFERENT'

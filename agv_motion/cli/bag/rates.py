@@ -81,13 +81,7 @@ def gaps(
 def _table(*titles: str) -> LineTable:
     table = LineTable()
     for title in titles:
-        justify = 'left' if title == 'topic' else 'right'
-        table.add_column(
-            title,
-            justify=justify,  # type: ignore[arg-type]
-            overflow='fold',
-            no_wrap=title == 'topic',
-        )
+        table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     return table
 
 

@@ -172,12 +172,12 @@ def _progress(recorder: BagRecorder, elapsed: float) -> str:
 def _tell(console: Console, report: list[TopicReport]) -> None:
     """Print what became of each topic."""
     table = LineTable()
-    for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'deleted', 'longest silence'):
+    for title in ('topic', 'messages', 'Hz', 'lost', 'dropped', 'deleted', 'longest silence [s]'):
         table.add_column(title, justify='left' if title == 'topic' else 'right', overflow='fold')
     for topic in sorted(report):
         bad = 'red' if topic.lost or topic.dropped else ''
         table.add_row(
             topic.name, str(topic.messages), f'{topic.rate:.2f}', str(topic.lost),
-            str(topic.dropped), str(topic.deleted), f'{topic.longest_silence:.3f} s', style=bad,
+            str(topic.dropped), str(topic.deleted), f'{topic.longest_silence:.3f}', style=bad,
         )  # fmt: skip
     console.print(table)

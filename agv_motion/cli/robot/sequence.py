@@ -115,7 +115,7 @@ def _predict(file: str, config: Path | None, start: str, plot: Path | None) -> N
 
 def _summary(predicted: list[Predicted]) -> LineTable:
     table = LineTable()
-    table.add_column('action', overflow='fold')
+    table.add_column('action', overflow='fold', no_wrap=False)
     for column in ('begin', 'takes', 'way', 'ends at', 'timeout'):
         table.add_column(column, justify='right', no_wrap=True)
     table.add_column('on failure', no_wrap=True)

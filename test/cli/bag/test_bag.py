@@ -115,6 +115,14 @@ def test_check_tells_by_its_exit_status(bag):
         run('check', bag, '--rate', '/joints')
 
 
+def test_each_finding_has_a_line_of_its_own_in_a_terminal(bag, terminal):
+    status, out = terminal('bag', 'check', bag, '--rate', '/joints=20').end()
+    assert status == 1
+    assert '\n1 errors and 2 warnings in 160 messages of 2 topics' in out
+    assert sum(line.startswith(('error: ', 'warning: ')) for line in out.splitlines()) == 3
+    assert 'Looking' not in out
+
+
 def test_recover(bag, tmp_path):
     cut = tmp_path / 'cut.mcap'
     cut.write_bytes((bag / 'walk_0.mcap').read_bytes()[:5000])
