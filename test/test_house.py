@@ -23,6 +23,18 @@ TESTED = ('files', 'kinematics', 'motion', 'route', 'trajectory')
 DECLARES_ONLY = 5
 """Statements in functions up to which a module only declares: Protocols, values, constants."""
 
+NOT_IN_3_10 = {
+    'typing': {'Self', 'Never', 'LiteralString', 'Required', 'NotRequired', 'Unpack', 'override',
+               'TypeVarTuple', 'assert_never', 'assert_type', 'reveal_type', 'dataclass_transform'},
+    'enum': {'StrEnum', 'ReprEnum', 'verify', 'member', 'nonmember'},
+    'datetime': {'UTC'},
+    'asyncio': {'TaskGroup', 'Runner', 'timeout', 'timeout_at', 'Barrier'},
+    'contextlib': {'chdir'},
+    'itertools': {'batched'},
+    'tomllib': {'load', 'loads'},
+}  # fmt: skip
+"""What later Pythons have that the oldest which this package is for has not, nor mypy misses."""
+
 
 def files(folder):
     return sorted(folder.rglob('*.py'))
@@ -69,6 +81,18 @@ def test_no_file_and_no_function_is_too_long():
             if (length := node.end_lineno - node.lineno + 1) > FUNCTION:
                 found[f'{path.relative_to(ROOT)}, {node.name}'] = length
     assert found == {}
+
+
+def test_what_is_imported_is_there_in_the_oldest_python():
+    found = [
+        f'{path.relative_to(ROOT)}: {node.module}.{name.name}'
+        for path in [*files(PACKAGE), *files(ROOT / 'launch_scripts')]
+        for node in nodes(path)
+        if isinstance(node, ast.ImportFrom)
+        for name in node.names
+        if name.name in NOT_IN_3_10.get(node.module, ())
+    ]
+    assert found == []
 
 
 def test_classes_with_many_attributes_are_few():

@@ -71,7 +71,13 @@ def test_nothing_is_measured_better_than_a_micrometre():
 def test_noise_may_be_none_at_all_but_not_less():
     require_noise('odom', Covariance(*[0.0] * 6))
     require_noise('odom', GOOD)
-    for change in ({'xx': -1e-9}, {'tt': -1e-9}, {'yy': 2 * MAX_DEVIATION**2}, {'xy': 0.061}):
+    for change in (
+        {'xx': -1e-9},
+        {'tt': -1e-9},
+        {'yy': 2 * MAX_DEVIATION**2},
+        {'xy': 0.061},
+        {'tt': 2 * MAX_TURN_DEVIATION**2},
+    ):
         with pytest.raises(SignalError, match=r'odom: covariance .* is none'):
             require_noise('odom', GOOD._replace(**change))
 
