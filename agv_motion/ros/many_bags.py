@@ -13,6 +13,7 @@ import signal
 import threading
 from collections import deque
 from contextlib import suppress
+from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
@@ -144,6 +145,7 @@ def _start(work: Work[Any], staff: list[_Worker]) -> _Worker:
     """Start a process and add it to ``staff``, both or none, whatever signal comes meanwhile."""
     line, end = FRESH.Pipe()
     process = FRESH.Process(target=_work, args=(end, work), daemon=True)
+    resource_tracker.ensure_running()  # which unblocks signals as it starts: not in between
     before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     try:
         process.start()

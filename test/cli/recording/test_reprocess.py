@@ -108,6 +108,13 @@ def gone(pid):
         return True
 
 
+def is_deaf_to_ctrl_c(pid):
+    """Return whether a process blocks or ignores it."""
+    lines = Path(f'/proc/{pid}/status').read_text().splitlines()
+    status = dict(line.split(':\t', 1) for line in lines)
+    return bool((int(status['SigBlk'], 16) | int(status['SigIgn'], 16)) >> signal.SIGINT - 1 & 1)
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
 def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
     alone, recorded, tmp_path, wait_until, number
@@ -123,6 +130,7 @@ def test_a_signal_ends_all_workers_at_once_and_a_rerun_completes(
     wait_until(lambda: len(list(out.glob('.*.unfinished-*/*/*.mcap'))) == 2)
     started = descendants(process.pid)
     assert len(started) >= 2
+    assert all(map(is_deaf_to_ctrl_c, started)), 'it is for the first process to heed'
     (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
     _, errors = process.communicate(timeout=60)
     wait_until(lambda: all(map(gone, started)))
