@@ -87,10 +87,10 @@ def finding(run: WalkRun, zone: Zone, rim: float, days: float = 0.0) -> str:
     if not len(run.path):
         return 'Nothing was recorded of the walk'
     still = run.distance() < STILL
-    walked = 'stands' if still else f'{wording.in_words(run.distance())} metres'
+    walked = 'stands' if still else wording.counted(run.distance(), 'metre')
     said = [
         f'{walked} {"for" if still else "in"} {wording.span_in_words(run.path[-1, 0])}'
-        + (f' that played {wording.in_words(days)} days' if days else ''),
+        + (f' that played {wording.counted(days, "day")}' if days else ''),
         *([] if days or still else towards(run)),
     ]
     near = run.nearest_edge(zone, rim)

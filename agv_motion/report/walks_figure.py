@@ -42,7 +42,7 @@ def finding(walks: Sequence[RecordedWalk], traffic: TrafficParameters) -> str:
     seconds = max(float(walk.time[-1]) for walk in walks)
     trees = 'tree walks' if len(walks) == 1 else 'trees walk'
     said = (
-        f'{wording.in_words(len(walks))} {trees} {wording.in_words(walked)} metres in '
+        f'{wording.in_words(len(walks))} {trees} {wording.counted(walked, "metre")} in '
         f'{wording.span_in_words(seconds)}'
     )
     _, between = gaps(walks, traffic.body)

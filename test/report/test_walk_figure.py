@@ -59,6 +59,8 @@ def test_what_a_walk_was_is_told_from_its_numbers():
     assert finding(run, SQUARE, 1.0) == told
     assert 'into the shade' in finding(run._replace(flow=flow[::-1]), SQUARE, 1.0)
     assert 'in an hour that played seven days, never' in finding(run, SQUARE, 1.0, 7.0)
+    nearer = run._replace(path=path - [[0.0] * 4, [0.0, 2.0, 0.0, 0.0]])
+    assert finding(nearer, SQUARE, 1.0, 1.0).startswith('One metre in an hour that played one day')
     assert finding(run, SQUARE, 4.5).endswith('0.5 m over the edge at worst')
 
 
