@@ -36,8 +36,9 @@ def test_what_is_text_is_broken_where_the_terminal_ends():
     console = terminal()
     console.file, console.width = StringIO(), 60
     table = LineTable('name', 'meaning')
-    table.add_row('wheel_radius', 'of the wheels of all turrets, at the place where they roll')
+    table.add_row(NAME, 'what becomes of the node, whoever asked for it, and when it did')
     console.print(table)
     lines = console.file.getvalue().splitlines()
-    assert len(lines) == 3
+    assert len(lines) > 2
+    assert lines[1].startswith(f'{NAME} ')
     assert max(map(len, lines)) <= 60
