@@ -54,6 +54,7 @@ class MqttSource:
             kelvin_per_millivolt=given.kelvin_per_millivolt,
         )
         self._topic = ''
+        self._last_read = -inf
 
     @property
     def period(self) -> float:
@@ -72,8 +73,10 @@ class MqttSource:
         samples: list[ProbeSample] = []
         here = monotonic()
         self._reader.heard(now, something=not self._connection.subscribed)
+        # none of them came before the last read, whatever the clock does between the two
+        earliest, self._last_read = min(self._last_read, now), now
         for message in self._connection.messages():
-            arrived = now - max(here - message.at, 0.0)
+            arrived = max(now - max(here - message.at, 0.0), earliest)
             samples += self._samples(message, arrived)
         samples += self._together(self._rounds.overdue(now))
         self._reader.listen(now)

@@ -163,6 +163,16 @@ def test_lines_without_time_are_stamped_when_they_came(small_broker, subscribed,
     assert 'was sent twice' in complaint
 
 
+def test_what_comes_came_after_the_last_reading(small_broker, subscribed):
+    """A clock of ROS that stands or leaps does not mix up the order of what arrives."""
+    source = subscribed(small_broker(), format='arrival')
+    for now, earliest in ((NOON + 2.0, NOON), (NOON + 2.0, NOON + 2.0), (NOON - 5.0, NOON - 5.0)):
+        long_ago = MqttMessage(TOPIC, b'1 2 3', retained=False, repeated=False, at=0.0)
+        source._connection._messages.append(long_ago)  # noqa: SLF001 - by the steady clock
+        (sample,) = source.read(now)
+        assert sample.time == earliest
+
+
 def test_each_probe_may_have_a_topic(small_broker, subscribed, told):
     broker = small_broker()
     topics = ('oak/1', 'oak/2', 'oak/3')
