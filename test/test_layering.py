@@ -16,7 +16,7 @@ CORE = (
 ROS = ('rclpy', 'rcl_interfaces', 'lifecycle_msgs', '_msgs', 'ament', 'std_srvs')
 LAYERS = {
     'errors': 0, 'planar': 1, 'parameters': 1, 'saved_state': 1, 'watchdog': 1,
-    'clock_watch': 1, 'activity': 1, 'sun': 1, 'twist_limits': 2, 'blocked': 2,
+    'clock_watch': 1, 'activity': 1, 'sun': 1, 'visible': 1, 'twist_limits': 2, 'blocked': 2,
     'files': 1, 'arbitration': 2,
     'kinematics': 2, 'probe': 2, 'odometry': 3, 'trajectory': 3, 'route': 3, 'motion': 3,
     'model': 3, 'sequence': 4, 'simulation': 4, 'explanation': 4,

@@ -13,9 +13,10 @@ import typer
 
 from agv_motion.cli import INTERRUPTED
 from agv_motion.cli.lazy_group import HELP, lazy_group
-from agv_motion.cli.visible import guard, indented
+from agv_motion.cli.visible_stream import guard
 from agv_motion.errors import AgvMotionError
 from agv_motion.ros.stop import interrupt
+from agv_motion.visible import indented
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -1,6 +1,6 @@
 """The terminal: text is shown as it is, square brackets included; a pipe breaks no line.
 
-And nothing of it is obeyed (`agv_motion.cli.visible`): colours and places are our own.
+And nothing of it is obeyed (`agv_motion.visible`): colours and places are our own.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rich import table
 from rich.console import Console
 
-from agv_motion.cli.visible import in_line, visible
+from agv_motion.visible import in_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
+from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -13,6 +15,7 @@ from agv_motion.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from types import ModuleType
 
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
@@ -34,10 +37,31 @@ def message_class(name: str) -> Any:
     package, _, rest = name.partition('/')
     folder, _, short = rest.rpartition('/')
     try:
-        return getattr(importlib.import_module(f'{package}.{folder or "msg"}'), short)
-    except (ImportError, AttributeError, ValueError) as error:
+        return getattr(interface_module(package, folder or 'msg'), short)
+    except (ImportError, AttributeError) as error:
         msg = f"message type '{name}' is not installed: install {package}, or source its workspace"
         raise ConfigurationError(msg) from error
+
+
+def interface_module(package: str, folder: str) -> ModuleType:
+    """Return the module of the messages, services or actions of a package.
+
+    Of a package without such a folder nothing runs: the name of a type comes out of a bag or from
+    the network, and any module of Python would run that is imported by its first word.
+
+    Raises:
+        ImportError: The package is not installed, or has no such folder.
+
+    """
+    spec = None
+    if package.isidentifier():
+        with suppress(ValueError):  # such as __main__
+            spec = importlib.util.find_spec(package)
+    places = (spec and spec.submodule_search_locations) or ()
+    if not any(Path(place, folder, '__init__.py').is_file() for place in places):
+        msg = f'{package} has no {folder}'
+        raise ModuleNotFoundError(msg)
+    return importlib.import_module(f'{package}.{folder}')
 
 
 def offered(publishers: Sequence[TopicEndpointInfo]) -> list[OfferedQos]:

@@ -31,6 +31,7 @@ from agv_motion.ros.parameters import DeclaredParameters
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.quotation import told
 from agv_motion.ros.rclpy_services import answer_all
+from agv_motion.ros.visible_logger import VisibleLogger
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,6 +60,7 @@ class LiveNode(LifecycleNode, Generic[N]):
 
         """
         super().__init__(kind.name, **kwargs)
+        self._logger = VisibleLogger(self.get_logger().name)
         self._kind = kind
         self._made: N | None = None
         self.steady = Clock(clock_type=ClockType.STEADY_TIME)

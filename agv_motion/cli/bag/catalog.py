@@ -14,8 +14,8 @@ from rich.progress import Progress
 from agv_motion.cli.bag.many import Scheduler, Workers
 from agv_motion.cli.bag.options import moment
 from agv_motion.cli.terminal import LineTable, terminal
-from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import indented
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

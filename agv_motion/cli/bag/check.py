@@ -9,8 +9,8 @@ from rich.text import Text
 
 from agv_motion.cli.bag.options import Bag
 from agv_motion.cli.terminal import terminal
-from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import in_line
 
 
 def check(

@@ -9,8 +9,8 @@ import typer
 
 from agv_motion.cli.bag.options import Bag, moment, opened
 from agv_motion.cli.terminal import LineTable, terminal
-from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import in_line
 
 
 def contents(

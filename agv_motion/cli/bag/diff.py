@@ -11,8 +11,8 @@ from rich.progress import track
 
 from agv_motion.cli.bag.options import opened
 from agv_motion.cli.terminal import LineTable, terminal
-from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import in_line
 
 if TYPE_CHECKING:
     from rich.console import Console

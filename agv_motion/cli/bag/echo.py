@@ -21,7 +21,7 @@ from agv_motion.cli.topic.echo_options import (
 )
 from agv_motion.cli.topic.message_printer import MessagePrinter
 from agv_motion.cli.topic.message_text import MessageText
-from agv_motion.cli.visible import in_line
+from agv_motion.visible import in_line
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -11,8 +11,8 @@ from rich.progress import Progress
 from agv_motion.cli.bag.many import jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.terminal import terminal
-from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import indented
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

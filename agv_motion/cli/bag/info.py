@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from agv_motion.cli.bag.options import Bag, moment, opened
-from agv_motion.cli.visible import in_line
+from agv_motion.visible import in_line
 
 if TYPE_CHECKING:
     from pathlib import Path

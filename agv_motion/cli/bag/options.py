@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
-from agv_motion.cli.visible import indented
 from agv_motion.errors import AgvMotionError, SourceError
+from agv_motion.visible import indented
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator

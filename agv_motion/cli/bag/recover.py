@@ -9,7 +9,7 @@ import typer
 from rich.progress import Progress
 
 from agv_motion.cli.terminal import terminal
-from agv_motion.cli.visible import indented
+from agv_motion.visible import indented
 
 MOST_PROBLEMS = 20
 """that are told"""

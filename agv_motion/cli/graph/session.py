@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -113,11 +112,13 @@ def interface_class(name: str, kind: str = 'msg') -> Any:
         ConfigurationError: It is not installed; close names are given.
 
     """
+    from agv_motion.ros.endpoints import interface_module
+
     package, _, short = name.partition('/')
     short = short.rpartition('/')[2]
     try:
-        module = importlib.import_module(f'{package}.{kind}')
-    except (ModuleNotFoundError, ValueError) as error:
+        module = interface_module(package, kind)
+    except ImportError as error:
         msg = f"the passed type '{name}' is invalid: package '{package}' has no {kind}"
         raise ConfigurationError(msg) from error
     if not hasattr(module, short) or not short:

@@ -12,8 +12,8 @@ from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.nodes import joined_to, node_names
 from agv_motion.cli.graph.options import HiddenNodes, NoDaemon, Node, SimTime, SpinTime, Timeout
 from agv_motion.cli.graph.session import joined
-from agv_motion.cli.visible import in_line
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import in_line
 
 
 def list_(

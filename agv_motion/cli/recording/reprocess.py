@@ -12,8 +12,8 @@ from agv_motion.cli.bag.many import Scheduler, Workers, jobs, outcomes_under_bar
 from agv_motion.cli.bag.options import tell
 from agv_motion.cli.recording.storage_options import Compression
 from agv_motion.cli.terminal import LineTable, terminal
-from agv_motion.cli.visible import indented
 from agv_motion.errors import ConfigurationError
+from agv_motion.visible import indented
 
 if TYPE_CHECKING:
     from agv_motion.reprocess.one_bag import Plan, ReprocessOutcome

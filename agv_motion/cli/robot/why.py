@@ -11,7 +11,7 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.session import joined, spin
 from agv_motion.cli.terminal import terminal
-from agv_motion.cli.visible import in_line
+from agv_motion.visible import in_line
 
 if TYPE_CHECKING:
     from rich.text import Text

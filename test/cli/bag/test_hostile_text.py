@@ -19,7 +19,7 @@ from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.mcap.records import Metadata
 from agv_motion.bag.notes import Note, add_note
 from agv_motion.cli import main
-from agv_motion.cli.visible import visible
+from agv_motion.visible import visible
 
 pytest.importorskip('rclpy')
 
