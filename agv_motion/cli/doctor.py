@@ -15,7 +15,6 @@ import typer
 from rich.text import Text
 
 from agv_motion.cli.terminal import LineTable, terminal
-from agv_motion.ros.log_folder import keep_logs
 
 
 class DoctorFinding(NamedTuple):
@@ -119,13 +118,14 @@ def _talk() -> DoctorFinding:
     import rclpy
     from std_msgs.msg import String
 
+    from agv_motion.ros.context import begin_context
+
     remedy = 'look at ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE and the firewall'
     contexts = [rclpy.Context(), rclpy.Context()]
     heard: list[float] = []
     try:
         for context in contexts:
-            keep_logs()
-            rclpy.init(context=context)
+            begin_context(context=context)
         speaker, listener = (
             rclpy.create_node(f'_agv_doctor_{i}', context=context)
             for i, context in enumerate(contexts)

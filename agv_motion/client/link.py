@@ -17,11 +17,10 @@ from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
-from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import SourceError
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.ends import NO_EVENTS
-from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.qos import COMMAND
 from agv_motion.ros.remote_services import UnansweredError
 
@@ -54,11 +53,7 @@ class ScriptLink:
 
         """
         context = rclpy.Context()
-        keep_logs()
-        rclpy.init(
-            args=[], context=context, domain_id=domain,
-            signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+        begin_context(args=[], context=context, domain_id=domain)
         name = f'_agv_client_{os.getpid()}_{id(self) % 100000}'
         self.node = rclpy.create_node(
             name, namespace=namespace, context=context, start_parameter_services=False

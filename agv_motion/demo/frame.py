@@ -10,7 +10,6 @@ import time
 from typing import TYPE_CHECKING, Generic
 
 import rclpy
-from rclpy.signals import SignalHandlerOptions
 from rich.console import Group
 from rich.live import Live
 from std_msgs.msg import String
@@ -21,7 +20,7 @@ from agv_motion.demo.readout import bar
 from agv_motion.demo.recorder import DemoRecorder, RecordedTopic
 from agv_motion.demo.scenario import DemoGraph, R, Scenario
 from agv_motion.demo.standard_error import apart
-from agv_motion.ros.log_folder import keep_logs
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.run import spin, start
 from agv_motion.ros.stop import Stop
 
@@ -67,8 +66,7 @@ class Demo(Generic[R]):
 
     def __enter__(self) -> Demo[R]:
         """Make and start all nodes."""
-        keep_logs()
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        begin_context()
         self._stop = Stop()
         try:
             self.graph = explained(self.scenario.build())

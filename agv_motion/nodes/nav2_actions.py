@@ -12,13 +12,13 @@ import rclpy
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
-from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.client.goal_runner import Ending, GoalRunner
 from agv_motion.client.nav2_goals import ACTIONS, allowance_of, fill_duration
 from agv_motion.client.robot import Robot
 from agv_motion.errors import ConfigurationError
 from agv_motion.parameters import Spec, check
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.diagnosis import OK, Diagnosis
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.run import run
@@ -159,10 +159,7 @@ class GoalServer:
         self._find = find
         self._runner = GoalRunner(self._found)
         self._context = rclpy.Context()
-        rclpy.init(
-            args=[], context=self._context, domain_id=domain,
-            signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+        begin_context(args=[], context=self._context, domain_id=domain)
         self._node = rclpy.create_node(
             '_nav2_action_server', namespace=namespace, context=self._context,
             start_parameter_services=False,

@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
-import rclpy
 from rclpy.context import Context
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.endpoints import DEEP, matching, offered
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class ListenerNodes:
         """Return the node for the type of this ``number``, from 0, of a topic."""
         while len(self._nodes) <= number:
             other = Context()
-            rclpy.init(context=other, domain_id=self._context.get_domain_id())
+            begin_context(context=other, domain_id=self._context.get_domain_id())
             self._others.append(other)
             self._nodes.append(self._node(other))
         return self._nodes[number]

@@ -20,11 +20,10 @@ from rclpy.experimental import EventsExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
 
 from agv_motion.errors import AgvMotionError, ConfigurationError
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.live_node import LiveNode
-from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.parameter_arguments import check_arguments, overruled, passed_over
 from agv_motion.ros.stop import Stop, end_no_more
 
@@ -147,8 +146,7 @@ def run(kind: type[PlainNode[Any]]) -> None:
     stop = Stop()
     try:
         check_arguments(sys.argv)
-        keep_logs()
-        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+        begin_context(args=sys.argv)
         _run(LiveNode(kind), lambda: stop.requested)
     except UNUSABLE as error:
         print(f'error: {_line(error)}', file=sys.stderr)  # noqa: T201 - there may be no node to log

@@ -93,10 +93,11 @@ def call(domain: int) -> None:
     """
     import rclpy
     from rclpy.parameter import Parameter
-    from rclpy.signals import SignalHandlerOptions
+
+    from agv_motion.ros.context import begin_context
 
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+    begin_context(context=context, domain_id=domain)
     rclpy.create_node(
         f'_agv_call_{os.getpid()}',
         context=context,

@@ -11,7 +11,6 @@ import typer
 from agv_motion.cli.graph.discovery import DISCOVERY, settle
 from agv_motion.cli.graph.participants import missing
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.log_folder import keep_logs
 from agv_motion.ros.suggestion import meant
 
 if TYPE_CHECKING:
@@ -48,12 +47,12 @@ def joined(
     """
     import rclpy
     from rclpy.parameter import Parameter
-    from rclpy.signals import SignalHandlerOptions
+
+    from agv_motion.ros.context import begin_context
 
     if not endless:
         os.environ.setdefault(*UDP_ALONE)
-    keep_logs()
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    begin_context()
     node = rclpy.create_node(
         name or f'_agv_{os.getpid()}',
         start_parameter_services=False,

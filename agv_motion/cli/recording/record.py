@@ -38,7 +38,6 @@ from agv_motion.cli.recording.topic_options import (
 )
 from agv_motion.cli.terminal import LineTable, terminal
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -120,15 +119,14 @@ def _require_any(named: list[str], other: object) -> list[str]:
 def _record(given: dict[str, Any], duration: float) -> None:
     """Run the node until it is told to stop or ends by itself."""
     import rclpy
-    from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_recorder import BagRecorder
+    from agv_motion.ros.context import begin_context
     from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, shut_down, spin, start
     from agv_motion.ros.stop import Stop
 
-    keep_logs()
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    begin_context()
     stop = Stop()
     console = terminal()
     try:

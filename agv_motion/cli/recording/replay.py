@@ -21,7 +21,6 @@ from agv_motion.cli.recording.topic_options import (
 )
 from agv_motion.cli.terminal import terminal
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from agv_motion.nodes.bag_player import BagPlayer
@@ -121,15 +120,14 @@ def _exact(seconds: str) -> int:
 def _replay(given: dict[str, Any], remap: list[str], *, keys: bool) -> None:
     """Run the node until the end of the bag."""
     import rclpy
-    from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.nodes.bag_player import BagPlayer
+    from agv_motion.ros.context import begin_context
     from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, spin, start
     from agv_motion.ros.stop import Stop
 
-    keep_logs()
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    begin_context()
     stop = Stop()
     console = terminal()
     arguments = [word for pair in remap for word in ('-r', pair)]

@@ -13,13 +13,12 @@ from geometry_msgs.msg import PoseStamped, Vector3Stamped
 from nav_msgs.msg import Path
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.parameter import Parameter, parameter_value_to_python
-from rclpy.signals import SignalHandlerOptions
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from agv_motion.errors import ConfigurationError, SourceError
-from agv_motion.ros.log_folder import keep_logs
+from agv_motion.ros.context import begin_context
 from agv_motion.ros.messages import fill_pose
 from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.ros.stop import Stop
@@ -106,8 +105,7 @@ class DriveOrders:
             ConfigurationError: It refuses the goal; the message says why.
 
         """
-        keep_logs()
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        begin_context()
         self._stop = Stop()
         self._node = rclpy.create_node('_agv_drive', start_parameter_services=False)
         try:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from agv_motion.cli.terminal import terminal
-from agv_motion.ros.log_folder import keep_logs
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,20 +30,17 @@ def perform(file: str, config: Path | None, arguments: list[str]) -> None:
 
     """
     import rclpy
-    from rclpy.signals import SignalHandlerOptions
 
     from agv_motion.arbitration.source import TwistSource
     from agv_motion.cli.robot.source_topic import arguments_for
     from agv_motion.nodes.sequence import SequenceNode
+    from agv_motion.ros.context import begin_context
     from agv_motion.ros.live_node import LiveNode
     from agv_motion.ros.run import overrides, spin, start
     from agv_motion.ros.stop import Stop
 
     extra = ['--ros-args', '--params-file', str(config), '--'] if config else []
-    keep_logs()
-    rclpy.init(
-        args=['sequence', *extra, *arguments], signal_handler_options=SignalHandlerOptions.NO
-    )
+    begin_context(args=['sequence', *extra, *arguments])
     try:
         stop = Stop()
         node = LiveNode(
