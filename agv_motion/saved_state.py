@@ -167,6 +167,13 @@ def check_place(path: str | Path) -> None:
     raise ConfigurationError(msg)
 
 
+def not_kept(what: str, path: str | Path, error: Exception) -> str:
+    """Return in words that ``what`` could not be saved, why, and what helps."""
+    reason = getattr(error, 'strerror', None) or str(error) or 'the disk is slow'
+    remedy = 'see that it can be written, or give another file'
+    return f'cannot keep {what} in {path} ({reason}): {remedy}'
+
+
 def set_aside(path: str | Path, suffix: str = '.unusable') -> str:
     """Rename ``path`` to a free name with ``suffix``; return in words what came of it.
 
@@ -181,6 +188,6 @@ def set_aside(path: str | Path, suffix: str = '.unusable') -> str:
         except FileExistsError:
             continue
         except OSError as error:
-            return f'it could not be set aside ({error})'
+            return f'it could not be set aside ({error.strerror or error})'
         return f'set aside as {aside.name}'
     raise AssertionError  # the numbers do not end

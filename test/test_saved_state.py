@@ -72,7 +72,7 @@ def test_what_cannot_be_set_aside_is_told(path, monkeypatch):
         raise OSError(errno.EROFS, 'read-only')
 
     monkeypatch.setattr(os, 'open', no_place)
-    assert 'could not be set aside' in set_aside(path)
+    assert set_aside(path) == 'it could not be set aside (read-only)'
     assert path.read_text() == 'damaged'
 
 

@@ -29,6 +29,7 @@ from agv_motion.ros.messages import seconds_of
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import LATCHED, SENSOR
 from agv_motion.ros.run import run
+from agv_motion.saved_state import not_kept
 from agv_motion.simulation.shade import LUX_PER_WATT, irradiance
 from agv_motion.sun import sun
 
@@ -269,7 +270,8 @@ class GranierProbe(PlainNode[GranierProbeParameters]):
         try:
             state_file.save(self.parameters.state_file, self._probes)
         except OSError as error:
-            self.port.refuse(f'cannot keep what was learnt: {error}')
+            file = self.parameters.state_file
+            self.port.refuse(not_kept('what was learnt', file, error))
 
 
 def _shown(value: float | None, form: str) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.arbitration.choice import FREE, Hold
 from agv_motion.arbitration.hold_file import restore, save
+from agv_motion.saved_state import not_kept
 
 if TYPE_CHECKING:
     from agv_motion.ros.port import Port
@@ -38,5 +39,5 @@ class HoldKeeper:
             save(self._path, hold)
             self._saved, self.trouble = hold, ''
         except OSError as error:
-            self.trouble = f'cannot keep STOP and locks over a restart: {error}'
+            self.trouble = not_kept('STOP and locks over a restart', self._path, error)
             self._port.refuse(self.trouble)

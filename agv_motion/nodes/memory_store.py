@@ -11,7 +11,7 @@ from nav_msgs.msg import OccupancyGrid
 
 from agv_motion.motion.behavior.memory_file import restore, save
 from agv_motion.ros.qos import LATCHED
-from agv_motion.saved_state import set_aside
+from agv_motion.saved_state import not_kept, set_aside
 
 if TYPE_CHECKING:
     from agv_motion.motion.behavior.cells import Map, Mask
@@ -121,7 +121,8 @@ class MemoryStore:
             self._writing.result(patience)
             self._trouble = ''
         except (OSError, futures.TimeoutError) as error:
-            self._trouble, self._saved = f'cannot keep the memory of places: {error!r}', None
+            self._trouble = not_kept('the memory of places', self._file, error)
+            self._saved = None
             self._port.refuse(self._trouble)
         self._writing = None
 

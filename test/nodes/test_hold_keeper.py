@@ -47,7 +47,10 @@ def test_a_disk_that_takes_nothing_is_told_and_tried_again(port, tmp_path):
     keeper = HoldKeeper(port, str(folder / 'hold'))
     (tmp_path / 'missing').write_text('a file where a folder should be')
     keeper.keep(LOCKED)
-    assert 'cannot keep STOP and locks over a restart' in keeper.trouble
+    assert keeper.trouble == (
+        f'cannot keep STOP and locks over a restart in {folder / "hold"} (File exists): see '
+        'that it can be written, or give another file'
+    )
     folder.unlink()
     folder.mkdir()
     keeper.keep(LOCKED)

@@ -66,5 +66,5 @@ class Roster:
         try:
             saved_state.save(self._path, json.dumps(self.names[:MOST_RECEIVED]).encode())
         except OSError as error:
-            msg = f"cannot keep the name '{name}' in peers_file {self._path}: {error}"
+            msg = saved_state.not_kept(f"the name '{name}'", self._path, error)
             raise ConfigurationError(msg) from error
