@@ -78,13 +78,12 @@ def decompress_into(name: str, stored: Buffer, target: memoryview) -> None:
     filled = 0
     try:
         while more := reader.readinto(target[filled:]):
-            filled += more
-        beyond = len(reader.read(1))
+            filled += more  # where more comes than has place, zstd raises
     except zstandard.ZstdError as error:
         msg = f'zstd: {error}'
         raise ValueError(msg) from None
-    if filled + beyond != len(target):
-        msg = f'{filled + beyond} bytes or more where {len(target)} were announced'
+    if filled != len(target):
+        msg = f'{filled} bytes where {len(target)} were announced'
         raise ValueError(msg)
 
 
@@ -162,7 +161,7 @@ def _lz4_by_piece(stored: Buffer, limit: int) -> bytes:
     """Return what comes out before the first damaged block."""
     frame, pieces, left = lz4.frame.LZ4FrameDecompressor(), [], limit
     data = bytes(stored)
-    while left and not frame.eof:
+    while left:
         try:
             piece = frame.decompress(data, max_length=min(left, _PIECE))
         except (RuntimeError, EOFError, MemoryError):

@@ -138,8 +138,12 @@ def test_an_archive_and_a_folder_of_bags_are_told(tmp_path):
         archive.add(bag)
     with pytest.raises(SourceError, match='is a tar archive'):
         BagReader(tmp_path / 'bag.mcap')
-    with pytest.raises(SourceError, match='has bags in it: give one of them, as '):
+    for day in range(6):
+        shutil.copytree(bag, tmp_path / 'walks' / f'day{day}')
+    with pytest.raises(SourceError, match='has bags in it: give one of them, as ') as caught:
         find(tmp_path / 'walks')
+    named = str(caught.value).split(', ')[2:]
+    assert [name[-4:] for name in named] == [f'day{n}' for n in range(5)]
 
 
 def sqlite_bag(path):

@@ -56,3 +56,12 @@ def test_it_is_saved_whole_or_not_at_all(tmp_path, monkeypatch):
         save(tmp_path, 'new')
     assert [path.name for path in tmp_path.iterdir()] == ['metadata.yaml']
     assert (tmp_path / 'metadata.yaml').read_text() == 'old'
+
+
+def test_a_file_that_cannot_even_be_begun_is_told_as_the_disk_told_it(tmp_path, monkeypatch):
+    def refuse(*_, **__):
+        raise OSError(28, 'full')
+
+    monkeypatch.setattr('pathlib.Path.open', refuse)
+    with pytest.raises(OSError, match='full'):
+        save(tmp_path, 'new')

@@ -49,7 +49,7 @@ def entry_of(path: Path) -> BagEntry:
     stored = 0
     try:
         stored = size(path)
-        with BagReader(path, validate=False) as bag:
+        with BagReader(path) as bag:
             sizes = _sizes(bag)
             topics = tuple(
                 TopicEntry(name, connection.type, bag.counts[name], sizes.get(name))

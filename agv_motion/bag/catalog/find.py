@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.bag.catalog.index import LATEST
 from agv_motion.bag.columns.condition import condition
 from agv_motion.bag.editing.around import happenings, windows
 from agv_motion.bag.editing.moments import moment
@@ -62,11 +63,11 @@ def limits(index: BagIndex, asked: Question) -> tuple[int, int]:
     (row,) = index.ask('SELECT min(start), max(stop) FROM bag WHERE messages > 0')
     start, end = row[0] or 0, row[1] or 0
     first = moment(asked.begin, start, end) if asked.begin else 0
-    stop = moment(asked.end, start, end) if asked.end else 2**63 - 1
+    stop = moment(asked.end, start, end) if asked.end else LATEST
     if first >= stop:
         msg = f"from '{asked.begin}' until '{asked.end}': expected the earlier one first"
         raise ConfigurationError(msg)
-    return min(first, 2**63 - 1), min(stop, 2**63 - 1)
+    return min(first, LATEST), min(stop, LATEST)
 
 
 def find(

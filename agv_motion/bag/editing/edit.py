@@ -26,6 +26,7 @@ from agv_motion.bag.editing.steps import CHUNK, EditSource, Step, ids_of, plan, 
 from agv_motion.bag.mcap import record_parsing
 from agv_motion.bag.mcap.chunk_content import stored_content
 from agv_motion.bag.selection import Selection
+from agv_motion.bag.threads import threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
 
     Span = tuple[int, int]
 
-_THREADS = min(os.cpu_count() or 1, 4)
 _AHEAD = 1 << 25
 """[bytes] that steps may have in memory before they are written"""
 EVERYTHING = Selection(everything=True, hidden=True)
@@ -134,7 +134,7 @@ class _Work:
         """Do all steps."""
         waiting: deque[tuple[Step, Future[NewChunk | Picked | None]]] = deque()
         ahead = 0
-        with ThreadPoolExecutor(_THREADS) as pool:
+        with ThreadPoolExecutor(threads()) as pool:
             try:
                 for step in steps:
                     while waiting and ahead + step.size > _AHEAD:

@@ -69,7 +69,8 @@ class _Stream:
         self._pairing = pairing
         self._following = next(self._rest, None)
         self.message: Message | None = None
-        self.time = 0
+        self.time: int
+        """[ns] of the present one"""
         self.take()
 
     def take(self) -> Message | None:

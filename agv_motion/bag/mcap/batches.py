@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.bag.mcap import chunk_batches
+from agv_motion.bag.threads import threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     Turns = dict[str, Future[None]]
     """done when the messages of a topic in some chunks were handed over"""
 
-_THREADS = min(os.cpu_count() or 1, 4)
 _FREED = 1 << 24
 """[bytes] glibc gives memory back beyond twice the largest block that was ever freed, and takes it
 again page by page: with this one, arrays that come and go keep their pages."""
@@ -64,12 +63,12 @@ def read_mcap(
     turns = reading.turns()
     for turn in turns.values():
         turn.set_result(None)
-    with ThreadPoolExecutor(_THREADS) as pool:
+    with ThreadPoolExecutor(at_once := threads()) as pool:
         waiting: deque[Future[None]] = deque()
         for group in groups:
             before, turns = turns, reading.turns()
             waiting.append(pool.submit(reading.give, group, before, turns))
-            if len(waiting) > _THREADS:
+            if len(waiting) > at_once:
                 waiting.popleft().result()
         while waiting:
             waiting.popleft().result()

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from agv_motion.bag.catalog.find import Question, find
-from agv_motion.bag.catalog.index import BagIndex
+from agv_motion.bag.catalog.find import Question, find, limits
+from agv_motion.bag.catalog.index import LATEST, BagIndex
 from agv_motion.errors import ConfigurationError
 
 SECOND = 10**9
@@ -31,6 +31,16 @@ def names(folder, **asked):
 ])  # fmt: skip
 def test_bags_are_found_by_topic_type_and_time(season, asked, found):
     assert names(season, **asked) == found
+
+
+@pytest.mark.parametrize(('asked', 'span'), [
+    ({}, (0, LATEST)), ({'begin': '2', 'end': '3'}, (2 * SECOND, 3 * SECOND)),
+    ({'begin': '@9300000000', 'end': '@9400000000'}, (LATEST, LATEST)),
+])  # fmt: skip
+def test_times_without_bags_count_from_nothing_and_end_where_sqlite_does(tmp_path, asked, span):
+    with BagIndex(tmp_path) as index:
+        assert limits(index, Question(**asked)) == span
+        assert list(find(index, Question(**asked))) == []
 
 
 def test_when_a_condition_was_met(season):

@@ -164,7 +164,7 @@ def test_pages_of_the_file_do_not_stay_in_memory(tmp_path):
 @pytest.fixture
 def many_small_groups(monkeypatch):
     """Have four threads, and every chunk decoded by itself."""
-    monkeypatch.setattr(mcap_batches, '_THREADS', 4)
+    monkeypatch.setattr(mcap_batches, 'threads', lambda: 4)
     monkeypatch.setattr(chunk_batches, 'GROUP', 1 << 12)
 
 

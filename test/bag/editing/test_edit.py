@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 from contextlib import ExitStack
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,7 +17,9 @@ from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.typesys import Stores, get_typestore
 
 from agv_motion.bag import BagReader, BagWriter, DamagedBagError
+from agv_motion.bag.editing import edit as engine
 from agv_motion.bag.editing.edit import Edit, edit
+from agv_motion.bag.editing.steps import Step
 from agv_motion.bag.selection import Selection
 from agv_motion.errors import SourceError
 
@@ -168,6 +171,22 @@ def test_a_file_size_begins_new_files_between_chunks(walk, tmp_path):
     assert report.files > 1
     assert report.made == 0
     assert judged(tmp_path / 'files') == told(walk)
+
+
+def test_no_more_is_in_memory_than_may_be(monkeypatch):
+    """With room for 10: 4 and 6 fit; 1 waits for 4, 20 for all before it, and so does 3."""
+    monkeypatch.setattr(engine, '_AHEAD', 10)
+    done, asked, shown = [], [], []
+
+    def steps():
+        for size in (4, 6, 1, 20, 3):
+            asked.append(len(done))
+            yield Step(0, size, 2 * size, lambda: None, partial(done.append, size))
+
+    engine._Work(None, '', 0).do(steps(), shown.append)
+    assert done == [4, 6, 1, 20, 3]
+    assert asked == [0, 0, 0, 1, 3]
+    assert shown == [8, 20, 22, 62, 68]
 
 
 def test_channels_that_are_described_in_chunks_by_other_writers(tmp_path):

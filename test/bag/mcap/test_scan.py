@@ -93,6 +93,25 @@ def test_messages_outside_chunks_are_stretches(file, tmp_path):
     assert found.problems == []
 
 
+def test_stretches_end_where_they_are_long_or_where_something_else_lies(tmp_path, monkeypatch):
+    """Of 36 bytes each: two are longer than 50; a record between begins another, too."""
+    monkeypatch.setattr('agv_motion.bag.mcap.scan.STRETCH', 50)
+    message = [
+        records.MESSAGE_HEAD.pack(records.MESSAGE, 22 + 5, 1, 0, stamp, stamp) + b'\0\1\0\0\3'
+        for stamp in range(5)
+    ]
+    other = records.metadata(records.Metadata('a', {}))
+    channel = records.channel(records.Channel(1, 0, '/a', 'cdr', {}))
+    parts = [records.MAGIC, channel, *message[:4], other, message[4], records.data_end()]
+    found = scan(memoryview(b''.join(parts)), tmp_path / 'x.mcap')
+    begin = len(records.MAGIC) + len(channel)
+    assert [(c.offset - begin, c.length, c.size) for c in found.chunks] == [
+        (0, 72, 72), (72, 72, 72), (144 + len(other), 36, 36),
+    ]  # fmt: skip
+    assert stamps(found.chunks) == [(0, 1), (2, 3), (4, 4)]
+    assert found.problems == []
+
+
 def test_a_wrong_byte_among_messages_outside_chunks_is_told_by_the_crc_of_the_data(file):
     data = file.read_bytes()
     first = places(data, records.CHUNK)[0] - records.PREFIX.size
