@@ -18,7 +18,6 @@ BAG = Path(__file__).parents[2] / 'agv_motion' / 'bag'
 TUNED = {
     'catalog.entry.LOOKED_AT': 64,
     'catalog.find.APART': 10_000_000_000,
-    'catalog.index.LATEST': 2**63 - 1,
     'catalog.index.TOGETHER': 50,
     'catalog.index.VERSION': 2,
     'cdr.idl_text._NESTED': 32,
@@ -47,7 +46,6 @@ TUNED = {
     'editing.moments._DAY': 86_400_000_000_000,
     'editing.request.MOST_PARTS': 10_000,
     'editing.request.MOST_TOLD': 5,
-    'editing.to_sqlite.LATEST': 2**63 - 1,
     'events.black_box._AGAIN': 500_000_000,
     'events.black_box._LATE': 200_000_000,
     'events.event.MOST_MOMENTS': 100,

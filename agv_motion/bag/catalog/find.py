@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from agv_motion.bag.catalog.index import LATEST
 from agv_motion.bag.columns.condition import condition
 from agv_motion.bag.editing.around import happenings, windows
 from agv_motion.bag.editing.moments import moment
 from agv_motion.bag.reader import BagReader
+from agv_motion.bag.sqlite.file import LATEST
 from agv_motion.errors import AgvMotionError, ConfigurationError
 
 if TYPE_CHECKING:

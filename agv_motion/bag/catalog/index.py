@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, final
 
 from agv_motion.bag.catalog.discovery import bags_below, signature
 from agv_motion.bag.catalog.entry import entry_of
+from agv_motion.bag.sqlite.file import LATEST
 from agv_motion.errors import SourceError
 
 if TYPE_CHECKING:
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
 NAME = '.agv_bags.sqlite3'
 VERSION = 2
-LATEST = 2**63 - 1
-"""[ns] that SQLite holds"""
 MOST_MESSAGES = 2**50
 """of a bag; what a damaged one tells beyond would make sums that SQLite cannot hold"""
 TOGETHER = 50

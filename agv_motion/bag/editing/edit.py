@@ -91,7 +91,7 @@ def edit(
     try:
         for extra in (*extras(bags), *([what.record] if what.record else [])):
             new.keep(extra)
-        work = _Work(new, fill_of(sources, what), what.file_size)
+        work = EditWork(new, fill_of(sources, what), what.file_size)
         total = sum(os.path.getsize(source.file.path) for source in sources) or 1  # noqa: PTH202
 
         def show(read: int) -> None:
@@ -121,10 +121,11 @@ def fill_of(sources: Iterable[EditSource], what: Edit) -> str:
     return 'zstd'
 
 
-class _Work:
+class EditWork:
     """Does steps, in threads, and writes what comes of them in their order."""
 
     def __init__(self, new: NewBag, compression: str, file_size: int) -> None:
+        """Write into a new bag; files end once they have so many bytes, 0: never."""
         self.copied = self.made = 0
         self._new, self._compression, self._file_size = new, compression, file_size
         self._pile: list[Picked] = []

@@ -19,6 +19,7 @@ from agv_motion.bag.editing.blocks import blocks_ahead
 from agv_motion.bag.editing.edited_bags import EditReport, extras, require_sound
 from agv_motion.bag.editing.new_channels import topic_of
 from agv_motion.bag.mcap.output import McapOutput
+from agv_motion.bag.sqlite.file import LATEST
 from agv_motion.bag.sqlite.writer import SqliteWriter
 from agv_motion.errors import ConfigurationError, SignalError
 
@@ -30,8 +31,6 @@ if TYPE_CHECKING:
     from agv_motion.bag.editing.edit import Edit
     from agv_motion.bag.reader import BagReader
 
-LATEST = 2**63 - 1
-"""[ns] Last time that sqlite3 can hold."""
 _BLOCK = 1 << 21
 """[bytes] of messages that are handed over together"""
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.bag.catalog.find import Question, find, limits
-from agv_motion.bag.catalog.index import LATEST, BagIndex
+from agv_motion.bag.catalog.index import BagIndex
+from agv_motion.bag.sqlite.file import LATEST
 from agv_motion.errors import ConfigurationError
 
 SECOND = 10**9

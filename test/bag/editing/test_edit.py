@@ -183,7 +183,7 @@ def test_no_more_is_in_memory_than_may_be(monkeypatch):
             asked.append(len(done))
             yield Step(0, size, 2 * size, lambda: None, partial(done.append, size))
 
-    engine._Work(None, '', 0).do(steps(), shown.append)
+    engine.EditWork(None, '', 0).do(steps(), shown.append)
     assert done == [4, 6, 1, 20, 3]
     assert asked == [0, 0, 0, 1, 3]
     assert shown == [8, 20, 22, 62, 68]
