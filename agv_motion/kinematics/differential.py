@@ -127,31 +127,37 @@ class DifferentialDrive:
         """Return the twist of rim speeds left and right [m/s]; of travels [m], the displacement.
 
         Raises:
-            SignalError: There are not two, or one is not finite.
+            SignalError: There are not two, or one or what comes of them is not finite.
 
         """
         left, right = self._two('wheel speeds', speeds)
-        return Twist(0.5 * (left + right), 0.0, (right - left) / self.track)
+        twist = Twist(0.5 * (left + right), 0.0, (right - left) / self.track)
+        require_finite(f'the twist of wheel speeds {(left, right)}', twist)
+        return twist
 
     def rates(self, speeds: Sequence[float]) -> WheelSpeeds:
         """Return the rates [rad/s] of wheels whose rims go at ``speeds`` [m/s].
 
         Raises:
-            SignalError: There are not two, or one is not finite.
+            SignalError: There are not two, or one or what comes of them is not finite.
 
         """
         left, right = self._two('wheel speeds', speeds)
-        return WheelSpeeds(left / self.radii.left, right / self.radii.right)
+        rates = WheelSpeeds(left / self.radii.left, right / self.radii.right)
+        require_finite(f'the rates of wheel speeds {(left, right)}', rates)
+        return rates
 
     def speeds(self, rates: Sequence[float]) -> WheelSpeeds:
         """Return the rim speeds [m/s] of wheels that turn at ``rates`` [rad/s].
 
         Raises:
-            SignalError: There are not two, or one is not finite.
+            SignalError: There are not two, or one or what comes of them is not finite.
 
         """
         left, right = self._two('wheel rates', rates)
-        return WheelSpeeds(left * self.radii.left, right * self.radii.right)
+        speeds = WheelSpeeds(left * self.radii.left, right * self.radii.right)
+        require_finite(f'the speeds of wheel rates {(left, right)}', speeds)
+        return speeds
 
     @staticmethod
     def _two(name: str, values: Sequence[float]) -> tuple[float, float]:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from agv_motion.kinematics.speed_limit import require_wheel_speed
-from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
+from agv_motion.kinematics.twist_fit import fitted, require_columns
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.omniwheels import OmniWheels
-    from agv_motion.kinematics.twist_fit import Column
+    from agv_motion.kinematics.twist_fit import Column, TwistColumns
 
 
 def command_columns(
@@ -34,8 +34,11 @@ def command_columns(
     """
     require_wheel_speed(max_wheel_speed)
     limit = min(max_wheel_speed, float_info.max)  # an infinite one over itself is no number
-    speeds = wheels.matrix @ require_columns('twist', twist, 3)
+    with np.errstate(over='ignore', invalid='ignore'):  # what becomes infinite is refused
+        speeds = wheels.matrix @ require_columns('twist', twist, 3)
     fastest = np.abs(speeds).max(axis=0, initial=limit)
+    if not np.isfinite(fastest.max(initial=limit)):
+        require_columns('rim speeds', speeds, len(wheels))
     speeds *= limit / fastest
     return speeds
 
@@ -53,6 +56,8 @@ def twist_columns(wheels: OmniWheels, speeds: Column) -> TwistColumns:
     """
     speeds = require_columns('speeds', speeds, len(wheels))
     matrix = wheels.matrix
-    twist = np.linalg.pinv(matrix) @ speeds
-    error = matrix @ twist - speeds
-    return TwistColumns(twist, np.sqrt(np.mean(error * error, axis=0)))
+    with np.errstate(over='ignore', invalid='ignore'):  # what becomes infinite is refused
+        twist = np.linalg.pinv(matrix) @ speeds
+        error = matrix @ twist - speeds
+        residual = np.sqrt(np.mean(error * error, axis=0))
+    return fitted(twist, residual)

@@ -156,7 +156,7 @@ class OmniWheels:
 
         """
         pairs = zip(self._numbers('wheel speeds', speeds), self._radii(), strict=True)
-        return [speed / radius for speed, radius in pairs]
+        return _finite('rates', [speed / radius for speed, radius in pairs])
 
     def speeds(self, rates: Sequence[float]) -> list[float]:
         """Return the rim speeds [m/s] of wheels that turn at ``rates`` [rad/s], (n,) both.
@@ -167,7 +167,7 @@ class OmniWheels:
 
         """
         pairs = zip(self._numbers('wheel rates', rates), self._radii(), strict=True)
-        return [rate * radius for rate, radius in pairs]
+        return _finite('rim speeds', [rate * radius for rate, radius in pairs])
 
     def _checked_radii(self, radii: Sequence[float]) -> tuple[float, ...]:
         if len(radii) != len(self.wheels):
@@ -196,7 +196,7 @@ class OmniWheels:
         """Return (n,) the speed [m/s] of each wheel along its slide direction for ``twist``."""
         require_finite('twist', twist)
         vx, vy, wz = twist
-        return [a * vx + b * vy + c * wz for a, b, c in self._free]
+        return _finite('roller speeds', [a * vx + b * vy + c * wz for a, b, c in self._free])
 
     def twist(self, speeds: Sequence[float], missing: Collection[int] = ()) -> TwistFit:
         """Return the twist that fits measured rim speeds best, and what it leaves unexplained.
@@ -243,6 +243,8 @@ class OmniWheels:
         for check in solution.checks:
             part = sum(map(mul, check, speeds))
             unexplained += part * part
+        if not isfinite(unexplained):
+            require_finite(f'the residual of wheel speeds {tuple(speeds)}', (unexplained,))
         return vx, vy, wz, sqrt(unexplained / solution.wheels)
 
     def _without(self, missing: Collection[int]) -> WheelSolution:
@@ -262,3 +264,8 @@ class OmniWheels:
             places = [complex(wheel.x, wheel.y) for wheel in self.wheels]
             self._solutions[present] = solve_wheels(self._driven, places, present)
         return self._solutions[present]
+
+
+def _finite(name: str, values: list[float]) -> list[float]:
+    require_finite(name, tuple(values))
+    return values

@@ -14,14 +14,14 @@ import numpy as np
 
 from agv_motion.errors import SignalError
 from agv_motion.kinematics.speed_limit import require_wheel_speed
-from agv_motion.kinematics.twist_fit import TwistColumns, require_columns
+from agv_motion.kinematics.twist_fit import fitted, require_columns
 from agv_motion.planar import STANDSTILL, require_finite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from agv_motion.kinematics.turrets import Turrets
-    from agv_motion.kinematics.twist_fit import Column
+    from agv_motion.kinematics.twist_fit import Column, TwistColumns
 
 BLOCK = 16384
 """Rows worked on at a time: half a dozen such columns fit the second-level cache."""
@@ -91,7 +91,8 @@ def command_columns(
     for start in range(0, len(vx), BLOCK):
         rows = slice(start, start + BLOCK)
         angle, speed = out.angle[:, rows], out.speed[:, rows]
-        _roll(turrets, (vx[rows], vy[rows], wz[rows]), angle, speed, scratch)
+        with np.errstate(over='ignore', invalid='ignore'):  # what becomes infinite is refused
+            _roll(turrets, (vx[rows], vy[rows], wz[rows]), angle, speed, scratch)
         _limit(speed, max_wheel_speed, start)
         _hold(angle, speed, held)
         held = angle[:, -1].copy()
@@ -115,8 +116,9 @@ def twist_columns(turrets: Turrets, angles: Column, speeds: Column) -> TwistColu
     if angles.shape != speeds.shape:
         msg = f'{angles.shape[1]} rows of angles and {speeds.shape[1]} of speeds: give both'
         raise SignalError(msg)
-    vx, vy, wz, residual = turrets.solve_columns(angles, speeds)
-    return TwistColumns(np.stack((vx, vy, wz)), residual)
+    with np.errstate(over='ignore', invalid='ignore'):  # what becomes infinite is refused
+        vx, vy, wz, residual = turrets.solve_columns(angles, speeds)
+    return fitted(np.stack((vx, vy, wz)), residual)
 
 
 def _roll(

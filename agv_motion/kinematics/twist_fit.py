@@ -33,6 +33,18 @@ class TwistColumns(NamedTuple):
     """(n,) [m/s]"""
 
 
+def fitted(twist: Column, residual: Column) -> TwistColumns:
+    """Return what fits the wheels row by row.
+
+    Raises:
+        SignalError: Wheels are so fast that the fit is not finite (its row is named).
+
+    """
+    require_columns('fitted twist', twist, 3)
+    require_columns('residual', residual[np.newaxis], 1)
+    return TwistColumns(twist, residual)
+
+
 def require_columns(name: str, columns: Column, count: int) -> Column:
     """Return ``columns`` as an array of shape (count, n).
 
