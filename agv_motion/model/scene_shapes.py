@@ -10,6 +10,7 @@ from itertools import pairwise
 from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
 import shapely
 
 if TYPE_CHECKING:
@@ -193,11 +194,10 @@ def shadow(
         return []
     long = 1.0 / tan(elevation)
     away = -long * cos(azimuth), -long * sin(azimuth)
-    cast = []
-    for x, y, z in corners:
-        px, py = on_floor(pose, x, y)
-        cast.append((px + z * away[0], py + z * away[1]))
-    hull = shapely.MultiPoint(cast).convex_hull
+    xs, ys, zs = np.asarray(corners).T  # a tree has hundreds of corners
+    c, s = cos(pose.theta), sin(pose.theta)
+    cast = pose.x + c * xs - s * ys + zs * away[0], pose.y + s * xs + c * ys + zs * away[1]
+    hull = shapely.multipoints(np.column_stack(cast)).convex_hull
     if not isinstance(hull, shapely.Polygon):
         return []
     outer = shapely.geometry.polygon.orient(hull).exterior  # counter-clockwise: seen from above
