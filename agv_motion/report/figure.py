@@ -57,6 +57,7 @@ def figure(
         try:
             yield axes
             settle(drawn)
+            drawn.set_layout_engine('none')  # labels stand where this layout has room for them
             with replacing(path) as made:
                 # a PNG is packed once, by `_shrink`
                 loose = {'pil_kwargs': {'compress_level': 1}} if made.suffix == '.png' else {}

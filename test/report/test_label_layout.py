@@ -6,8 +6,10 @@ import pytest
 
 pytest.importorskip('matplotlib')
 
+from agv_motion.report import figure as module
 from agv_motion.report import style
 from agv_motion.report.figure import figure
+from agv_motion.report.label_layout import settle
 
 
 def test_labels_and_events_that_would_overlap_are_moved_apart(sketched, tmp_path):
@@ -18,3 +20,17 @@ def test_labels_and_events_that_would_overlap_are_moved_apart(sketched, tmp_path
             style.line_label(axes['a'], 0.5 + 0.001 * i, f'line {i}', 'k')
             style.event(axes['a'], 4.0 + 0.1 * i, f'event {i}')
     sketched.check()
+
+
+def test_a_figure_is_written_as_it_was_laid_out_for_its_labels(tmp_path, monkeypatch):
+    laid_out = []
+
+    def look(drawn):
+        settle(drawn)
+        laid_out.append(drawn.axes[0].get_position().bounds)
+
+    monkeypatch.setattr(module, 'settle', look)
+    with figure(tmp_path / 'a.png', [['a']], figsize=(6, 3)) as axes:
+        axes['a'].set(xlim=(0.0, 10.0), ylim=(0.0, 1.0))
+        style.line_label(axes['a'], 0.5, 'a line of a long name', 'k')
+    assert laid_out == [axes['a'].get_position().bounds]
