@@ -17,7 +17,7 @@ from agv_motion.report.stamped_columns import pose_columns
 
 def test_a_short_drive_leaves_a_bag_and_a_figure(terminal, tmp_path):
     screen = terminal(
-        'demo', 'omni', '--minutes', 0.25, '--time-factor', 15, '--no-carry',
+        'demo', 'omni', '--minutes', 0.2, '--time-factor', 15, '--no-carry',
         '--no-page', '--output', tmp_path,
     )  # fmt: skip
     screen.wait(lambda text: 'm/s forward' in text)
