@@ -27,6 +27,15 @@ def _shrink(picture: Path) -> None:
         flat.save(picture, format='PNG', optimize=True)
 
 
+def _write(drawn: Any, path: Path) -> None:
+    """Write a figure, whole or not at all."""
+    with replacing(path) as made:
+        # a PNG is packed once, by `_shrink`
+        loose = {'pil_kwargs': {'compress_level': 1}} if made.suffix == '.png' else {}
+        drawn.savefig(made, dpi=DOTS_PER_INCH, **loose)
+        _shrink(made)
+
+
 @contextmanager
 def figure(
     path: Path, mosaic: list[Any], *, theme: str = 'light', **options: Any
@@ -57,12 +66,8 @@ def figure(
         try:
             yield axes
             settle(drawn)
-            drawn.set_layout_engine('none')  # labels stand where this layout has room for them
-            with replacing(path) as made:
-                # a PNG is packed once, by `_shrink`
-                loose = {'pil_kwargs': {'compress_level': 1}} if made.suffix == '.png' else {}
-                drawn.savefig(made, dpi=DOTS_PER_INCH, **loose)
-                _shrink(made)
+            drawn.set_layout_engine(None)  # labels stand where this layout has room for them
+            _write(drawn, path)
         except ValueError as error:
             msg = f"cannot draw '{path}': {error}"
             raise ConfigurationError(msg) from error

@@ -28,7 +28,7 @@ ROOMS: WeakKeyDictionary[Text, list[tuple[float, float, str]]] = WeakKeyDictiona
 
 def settle(figure: Any) -> None:
     """Move labels apart, once the layout is known: at line ends in height, events in rows."""
-    figure.draw_without_rendering()
+    _lay_out(figure)
     renderer = figure.canvas.get_renderer()
     for text in figure.texts:
         wide = text.get_window_extent(renderer).width / (0.97 * figure.bbox.width)
@@ -41,10 +41,17 @@ def settle(figure: Any) -> None:
         _stack(events, axes.get_title('left'), figure, renderer)
         stacked |= len(events) > 1
     if stacked:
-        figure.draw_without_rendering()  # rows of events have made the axes smaller
+        _lay_out(figure)  # rows of events have made the axes smaller
     for axes in figure.axes:
         for name in [text for text in axes.texts if text.get_gid() == NAME]:
             _find_room(name, axes, renderer)
+
+
+def _lay_out(figure: Any) -> None:
+    """Place the axes as drawing would: that costs as much again, and comes once, in the end."""
+    figure.get_layout_engine().execute(figure)
+    for axes in figure.axes:
+        axes.apply_aspect()
 
 
 def _find_room(name: Text, axes: Axes, renderer: Any) -> None:

@@ -5,12 +5,13 @@ The runs are recorded demos, thinned: every twentieth to every hundredth message
 
 from __future__ import annotations
 
-from importlib import import_module
 from itertools import combinations
 
 import pytest
 
-from agv_motion.report import label_layout
+from agv_motion.report import figure as figure_module
+
+WRITE = figure_module._write  # noqa: SLF001 - what is looked at is what is given to it
 
 
 def texts_of(drawn):
@@ -59,23 +60,26 @@ class Pictures(list):
 
 
 @pytest.fixture
-def drawn(monkeypatch):
-    """Return the figures as they were settled, before they are written."""
+def sketched(monkeypatch):
+    """Return the figures as they are before they are written, which they are not."""
     figures = Pictures()
 
-    def settled(each):
-        settle(each)
+    def looked_at(each, _path):
         each.draw_without_rendering()
-        each.set_layout_engine('none')  # what is looked at here is what is written
         figures.append((each, texts_of(each)))
 
-    settle = label_layout.settle
-    monkeypatch.setattr(import_module('agv_motion.report.figure'), 'settle', settled)
+    monkeypatch.setattr(figure_module, '_write', looked_at)
     return figures
 
 
 @pytest.fixture
-def sketched(drawn, monkeypatch):
-    """Return the same of figures whose files nobody looks at: they are written coarsely."""
-    monkeypatch.setattr(import_module('agv_motion.report.figure'), 'DOTS_PER_INCH', 20)
-    return drawn
+def drawn(sketched, monkeypatch):
+    """Return the same of figures that are written too."""
+    look = figure_module._write  # noqa: SLF001 - as `sketched` has it
+
+    def written(each, path):
+        look(each, path)
+        WRITE(each, path)
+
+    monkeypatch.setattr(figure_module, '_write', written)
+    return sketched

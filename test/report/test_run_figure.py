@@ -29,25 +29,22 @@ def straight_run(planned=None, frames=frozenset({'map'})):
     return RunBag(planned, driven, {'/path': [way]}, frames)
 
 
-def test_a_run_beside_the_way_that_was_shown(sketched, tmp_path):
-    run = straight_run()
+def test_a_run_beside_the_way_that_was_shown_with_its_notes(sketched, tmp_path):
+    notes = Note(2_500_000_000, 'rain began'), Note(6 * 10**9, 'x' * 60)
+    run = straight_run()._replace(notes=notes)
     draw_run(run, None, tmp_path / 'run.png')
     sketched.check()
-    texts = [text for text, _ in sketched[-1][1]]
-    assert {'10.0 m in 10 s, never more than 3 cm from the way', 'start', 'end'} <= set(texts)
-    assert off_the_way(run) == pytest.approx(np.full(201, 0.03))
-    assert off_the_way(straight_run(frames=frozenset({'odom'}))) is None
-
-
-def test_of_a_run_notes_are_named_when_they_were_taken(sketched, tmp_path):
-    notes = Note(2_500_000_000, 'rain began'), Note(6 * 10**9, 'x' * 60)
-    draw_run(straight_run()._replace(notes=notes), None, tmp_path / 'run.png')
-    sketched.check()
     drawn, texts = sketched[-1]
-    assert {'rain began', 'x' * 39 + '…'} <= {text for text, _ in texts}
+    told = {text for text, _ in texts}
+    assert {'10.0 m in 10 s, never more than 3 cm from the way', 'start', 'end'} <= told
+    assert {'rain began', 'x' * 39 + '…'} <= told
     for axes in drawn.axes[1:]:  # all but the map
         upright = [line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1]
         assert upright == [2.5, 6.0]
+    assert any(text.endswith('arrow heads not to scale') for text in told)
+    assert not bodies(drawn)
+    assert off_the_way(run) == pytest.approx(np.full(201, 0.03))
+    assert off_the_way(straight_run(frames=frozenset({'odom'}))) is None
 
 
 def test_a_run_beside_its_ghost(sketched, tmp_path):
@@ -91,16 +88,13 @@ def test_runs_of_any_kind_are_drawn(sketched, tmp_path, points, time):
     )
 
 
-def test_of_a_run_the_robot_is_drawn_to_scale_or_said_not_to_be(sketched, tmp_path):
-    run = straight_run()
-    for shapes, word, bodies in (
-        (None, 'arrow heads not to scale', 0),
-        ([DRIVE] * 5, 'robot to scale', 5),
-    ):
-        draw_run(run._replace(footprints=shapes), None, tmp_path / 'run.png')
-        drawn, texts = sketched[-1]
-        assert any(text.endswith(word) for text, _ in texts)
-        found = drawn.findobj(lambda artist: artist.get_gid() == robot_drawing.BODY)
-        assert len(found) == bodies
-    places = sorted(float(body.get_xy()[:, 0].mean()) for body in found)
+def bodies(drawn):
+    return drawn.findobj(lambda artist: artist.get_gid() == robot_drawing.BODY)
+
+
+def test_of_a_run_whose_size_is_known_the_robot_is_drawn_to_scale(sketched, tmp_path):
+    draw_run(straight_run()._replace(footprints=[DRIVE] * 5), None, tmp_path / 'run.png')
+    drawn, texts = sketched[-1]
+    assert any(text.endswith('robot to scale') for text, _ in texts)
+    places = sorted(float(body.get_xy()[:, 0].mean()) for body in bodies(drawn))
     assert np.array(places) == pytest.approx([0.0, 2.5, 5.0, 7.5, 10.0], abs=0.1)

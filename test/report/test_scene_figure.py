@@ -22,7 +22,6 @@ from agv_motion.model.robots import tree_model
 from agv_motion.model.scene_shapes import SceneShape, ShapeKind
 from agv_motion.model.urdf import write_urdf
 from agv_motion.nodes.scene_marker import marker_of
-from agv_motion.report import figure as figure_module
 from agv_motion.report.scene_figure import ELEVATION, draw, read_scene, seen
 from agv_motion.ros.cdr import codec
 
@@ -95,13 +94,11 @@ def test_a_place_is_seen_from_the_south():
     assert seen(places) == pytest.approx(np.array(expected))
 
 
-def test_each_marker_is_drawn_where_it_is(bag, tmp_path, monkeypatch):
-    drawn, settle = [], figure_module.settle
-    monkeypatch.setattr(figure_module, 'settle', lambda each: (settle(each), drawn.append(each)))
-    monkeypatch.setattr(figure_module, 'DOTS_PER_INCH', 20)
+def test_each_marker_is_drawn_where_it_is(bag, tmp_path, sketched):
     scene = scene_at(bag, 1.5)
     draw(scene, 'a scene', tmp_path / 'scene.png', theme='dark')
-    (axes,) = drawn[0].axes
+    ((drawn, _),) = sketched
+    (axes,) = drawn.axes
 
     def found(name):
         return axes.findobj(lambda artist: artist.get_gid() == name)
@@ -117,7 +114,7 @@ def test_each_marker_is_drawn_where_it_is(bag, tmp_path, monkeypatch):
     assert [tuple(line.get_xdata()) for line in found('icr')] == [(1.0, 2.0), (3.0, 4.0)]
     assert len(found('sun')) >= 1
     assert not found('cube')
-    texts = {text.get_text() for text in drawn[0].legends[0].get_texts()}
+    texts = {text.get_text() for text in drawn.legends[0].get_texts()}
     assert texts == {'zone', 'icr', 'sun', 'goal', 'shadow'}
     box = goal.get_window_extent()
     assert axes.bbox.x0 <= box.x0 < box.x1 <= axes.bbox.x1
