@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import os
 import shutil
 import sqlite3
 import tarfile
@@ -14,7 +15,7 @@ import zstandard
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag.bag_files import find
+from agv_motion.bag.bag_files import find, unpack_file
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
@@ -200,6 +201,70 @@ def test_names_that_mean_something_in_a_uri(tmp_path, name):
         recovery = Recovery(writer)
         recovery.save(file)
     assert recovery.messages == 10
+
+
+def test_a_file_alone_is_what_the_metadata_beside_it_says_of_it(tmp_path):
+    bag = split_bag(tmp_path / 'bag', 1)
+    text = (bag / 'metadata.yaml').read_text()
+    shutil.copy(bag / 'bag_0.mcap', bag / 'other.mcap')
+    for mode, packed in (('MESSAGE', True), ('FILE', False), ('NONE', False)):
+        told_so = text.replace('compression_mode: ""', f'compression_mode: {mode}')
+        told_so = told_so.replace("compression_mode: ''", f'compression_mode: {mode}')
+        assert mode in told_so
+        (bag / 'metadata.yaml').write_text(told_so)
+        assert find(bag / 'bag_0.mcap') == ([bag / 'bag_0.mcap'], packed, (), 0)
+        assert find(bag / 'other.mcap') == ([bag / 'other.mcap'], False, (), 0)
+        assert (find(bag).messages_compressed, find(bag).messages) == (packed, 1)
+
+
+def test_a_file_is_unpacked_under_its_name(tmp_path):
+    (tmp_path / 'new').mkdir()
+    for name, unpacked in (('a.mcap.zstd', 'a.mcap'), ('a.mcap.zst', 'a.mcap'), ('b.db3', 'b.db3')):
+        (tmp_path / name).write_bytes(zstandard.compress(name.encode()))
+        file = unpack_file(tmp_path / name, tmp_path / 'new')
+        assert (file, file.read_text()) == (tmp_path / 'new' / unpacked, name)
+
+
+def folder_with(folder, named, **contents):
+    """Make a folder of files, of which the metadata names some."""
+    folder.mkdir()
+    entries = {'rosbag2_bagfile_information': {'relative_file_paths': named}}
+    (folder / 'metadata.yaml').write_text(yaml.safe_dump(entries))
+    for name, content in contents.items():
+        (folder / name.replace('__', '.')).write_bytes(content)
+    return folder
+
+
+@pytest.mark.parametrize(('named', 'contents', 'files'), [
+    (['a.db3'], {'a__db3': b'1', 'extras__mcap': b'2', 'b__db3': b'33'}, 'a.db3 b.db3 extras.mcap'),
+    (['a.db3', 'extras.mcap'], {'a__db3': b'1', 'extras__mcap': b'2'}, 'a.db3 extras.mcap'),
+    (['a.mcap'], {'a__mcap': b'1', 'extras__mcap': b'2'}, 'a.mcap extras.mcap'),
+    (['a.mcap'], {'a__mcap': b'1', 'b__db3': b'2'}, 'a.mcap'),
+    (['a.mcap'], {'a__mcap': b'1', 'b__mcap': b'1', 'c__mcap': b'3'}, 'a.mcap c.mcap'),
+    (['a.mcap'], {'a__mcap': b'', 'b__mcap': b''}, 'a.mcap b.mcap'),
+    ([], {'bag_10__mcap': b'1', 'bag_2__mcap': b'2', 'bag_1__mcap': b'3'},
+     'bag_1.mcap bag_2.mcap bag_10.mcap'),
+])  # fmt: skip
+def test_files_that_belong_to_a_bag_each_once_and_in_order(tmp_path, named, contents, files):
+    folder = folder_with(tmp_path / 'bag', named, **contents)
+    found = find(folder)
+    assert [path.name for path in found.paths] == files.split()
+    assert all(str(p).startswith(f'{folder}/metadata.yaml, byte 0: ') for p in found.problems)
+    assert all(problem.harmless for problem in found.problems)
+
+
+def test_files_of_one_size_and_time_are_no_copies_for_that(tmp_path):
+    folder = folder_with(tmp_path / 'bag', ['a.mcap'], a__mcap=b'1', b__mcap=b'2')
+    for name in 'ab':
+        os.utime(folder / f'{name}.mcap', ns=(1, 1))
+    assert len(find(folder).paths) == 2
+
+
+def test_a_folder_without_files_of_bags_is_told_so_and_no_more(tmp_path):
+    folder = folder_with(tmp_path / 'bag', ['a.mcap'])
+    (folder / 'inner').mkdir()
+    with pytest.raises(SourceError, match=r'it has no \.mcap and no \.db3 file$'):
+        find(folder)
 
 
 def test_a_file_that_is_named_twice_is_read_once(tmp_path):

@@ -20,6 +20,7 @@ TUNED = {
     'catalog.find.APART': 10_000_000_000,
     'catalog.index.TOGETHER': 50,
     'catalog.index.VERSION': 2,
+    'catalog.index._PATIENCE': 30.0,
     'cdr.idl_text._NESTED': 32,
     'cdr.layout._PADDING': 3,
     'cdr.message_decoder.LONGEST_REASON': 300,

@@ -126,10 +126,10 @@ def _means(file: ChunkedFile) -> dict[int, float]:
 def _some(chunks: Iterable[Chunk]) -> list[Chunk]:
     """Return chunks from everywhere in a file, and for each channel one that it is in."""
     every = [chunk for chunk in chunks if chunk.filled]
-    step = -(-len(every) // LOOKED_AT) or 1
+    step = max(-(-len(every) // LOOKED_AT), 1)
     some, rest = every[::step], []
     known = {channel for chunk in some for channel in chunk.indexes or ()}
-    for chunk in every if step > 1 else ():
+    for chunk in every:
         new = set(chunk.indexes or ()) - known
         if new:
             known |= new

@@ -60,8 +60,9 @@ def limits(index: BagIndex, asked: Question) -> tuple[int, int]:
         ConfigurationError: There is no such moment, or they are the wrong way round.
 
     """
-    (row,) = index.ask('SELECT min(start), max(stop) FROM bag WHERE messages > 0')
-    start, end = row[0] or 0, row[1] or 0
+    ((start, end),) = index.ask(
+        'SELECT ifnull(min(start), 0), ifnull(max(stop), 0) FROM bag WHERE messages > 0'
+    )
     first = moment(asked.begin, start, end) if asked.begin else 0
     stop = moment(asked.end, start, end) if asked.end else LATEST
     if first >= stop:
@@ -90,7 +91,7 @@ def find(
     wanted = condition(asked.where) if asked.where else None
     first, stop = limits(index, asked)
     rows = _rows(index, asked, first, stop)
-    fitting = 0
+    fitting = False
     for number, row in enumerate(rows):
         tell(number, len(rows))
         one = FoundBag(index.decoded(row[1]), *row[2:])
@@ -99,7 +100,7 @@ def find(
             continue
         if not _may_have(index, row[0], wanted.name):
             continue
-        fitting += 1
+        fitting = True
         try:
             with BagReader(one.path) as bag:
                 stamps = happenings(bag, wanted).stamps

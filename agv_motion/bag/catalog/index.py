@@ -30,6 +30,8 @@ MOST_MESSAGES = 2**50
 """of a bag; what a damaged one tells beyond would make sums that SQLite cannot hold"""
 TOGETHER = 50
 """bags that are written at a time: a kill loses no more of the work"""
+_PATIENCE = 30.0
+"""[s] for which another process may have the file"""
 _TABLES = """
 CREATE TABLE bag (id INTEGER PRIMARY KEY, path BLOB UNIQUE NOT NULL, signature TEXT NOT NULL,
     start INTEGER NOT NULL, stop INTEGER NOT NULL, messages INTEGER NOT NULL, size INTEGER NOT NULL,
@@ -205,7 +207,7 @@ def _opened(folder: Path) -> tuple[Path, sqlite3.Connection]:
 
 def _database(path: Path) -> sqlite3.Connection:
     """Return the index in a file, which is made anew where it is none of this version."""
-    database = sqlite3.connect(path, timeout=30.0)
+    database = sqlite3.connect(path, timeout=_PATIENCE)
     database.text_factory = _decoded
     try:
         database.execute('PRAGMA foreign_keys = ON')
@@ -222,7 +224,7 @@ def _database(path: Path) -> sqlite3.Connection:
         pass
     database.close()
     path.unlink(missing_ok=True)
-    database = sqlite3.connect(path, timeout=30.0)
+    database = sqlite3.connect(path, timeout=_PATIENCE)
     database.text_factory = _decoded
     database.executescript(f'PRAGMA foreign_keys = ON;{_TABLES}PRAGMA user_version = {VERSION};')
     return database

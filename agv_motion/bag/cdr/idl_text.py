@@ -72,10 +72,9 @@ class _Text:
 
     def word(self) -> str:
         """Return a name."""
-        token = self.take()
-        if not re.fullmatch(r'[A-Za-z]\w*', token):
-            self.refuse(f'{token!r:.40}, expected a name')
-        return token
+        if not re.fullmatch(r'[A-Za-z]\w*', self.next):
+            self.refuse(f'{self.next!r:.40}, expected a name')
+        return self.take()
 
     def path(self) -> str:
         """Return a name with its scopes, as PACKAGE/msg/NAME."""
@@ -273,7 +272,7 @@ class _Declarations:
             return int(text.take()[:18])
         name = self._find(_Type(text.path(), scope), self._constants)
         if name not in self._constants:
-            text.refuse(f'{name}, which is no number')
+            _refuse(self._type, f'{name} is no number')
         return self._constants[name]
 
 

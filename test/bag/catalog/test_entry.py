@@ -76,4 +76,6 @@ def test_sizes_are_judged_by_chunks_from_everywhere_and_one_of_each_channel(monk
               for n, i in enumerate(channels)]  # fmt: skip
     assert [chunk.number for chunk in _some(chunks)] == [0, 4, 7, 8]
     assert [chunk.number for chunk in _some(chunks[:4])] == [0, 1, 3]
+    assert [chunk.number for chunk in _some(chunks[:5])] == [0, 3]
+    assert [chunk.number for chunk in _some(chunks[:2])] == [0, 1]
     assert _some([]) == []

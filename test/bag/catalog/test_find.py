@@ -29,6 +29,7 @@ def names(folder, **asked):
     ({'begin': '2024-05-01T00:03'}, ['b', 'c', 'loose.mcap']),
     ({'begin': '2024-05-02'}, ['c', 'loose.mcap']),
     ({'end': f'@{MAY + 200}'}, ['north/a']), ({'end': '1'}, ['north/a']),
+    ({'begin': '-0.35'}, ['c', 'loose.mcap']),
 ])  # fmt: skip
 def test_bags_are_found_by_topic_type_and_time(season, asked, found):
     assert names(season, **asked) == found

@@ -139,6 +139,19 @@ def test_bags_may_be_read_in_any_order_and_what_is_left_out_is_read_later(season
     assert updated(season) == (4, 1, 0, 1)
 
 
+def test_two_that_make_an_index_anew_at_once_do_not_disturb_each_other(season, monkeypatch):
+    (season / NAME).write_bytes(b'no database at all' * 100)
+    unlink = Path.unlink
+
+    def after_another(path, *, missing_ok=False):
+        unlink(path)
+        unlink(path, missing_ok=missing_ok)
+
+    monkeypatch.setattr(Path, 'unlink', after_another)
+    with BagIndex(season) as index:
+        assert index.path == season / NAME
+
+
 def test_names_that_are_no_text_are_names(season):
     (season / 'c').rename(season / os.fsdecode(b'c\xff'))
     assert len(names(season, begin='2024-06')) == 2

@@ -29,8 +29,8 @@ def test_text_and_hash_are_those_of_the_distribution(message_type):
     assert definition.hash == STORE.hash_rihs01(message_type)
 
 
-def write(prefix, name, text):
-    path = prefix / 'share' / 'garden_msgs' / 'msg' / f'{name}.msg'
+def write(prefix, name, text, kind='msg'):
+    path = prefix / 'share' / 'garden_msgs' / kind / f'{name}.{kind}'
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
 
@@ -46,6 +46,23 @@ def test_used_types_follow_once_in_the_order_of_use(tmp_path, monkeypatch):
         f'MSG: garden_msgs/{name}' for name in ('Leaf', 'Vein', 'Root')
     ]
     assert parts[0].startswith('# Oak beside')
+
+
+def test_a_file_is_told_as_it_is_and_of_a_service_what_is_asked(tmp_path, monkeypatch):
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    write(tmp_path, 'Bough', 'float64 length\n---')
+    write(tmp_path, 'Cut', 'bool deep\n---\nbool done\n', 'srv')
+    for name, text in (
+        ('msg/Bough', 'float64 length\n---'), ('srv/Cut_Request', 'bool deep\n'),
+        ('srv/Cut_Response', 'bool done\n'),
+    ):  # fmt: skip
+        assert definitions.installed(f'garden_msgs/{name}') == (text, '')
+
+
+def test_a_type_whose_package_has_no_wheel_is_known():
+    text, digest = definitions.installed('tf2_msgs/msg/TFMessage')
+    assert text.startswith('geometry_msgs/TransformStamped[] transforms\n')
+    assert digest == STORE.hash_rihs01('tf2_msgs/msg/TFMessage')
 
 
 def test_a_type_that_uses_itself_ends(tmp_path, monkeypatch):

@@ -55,6 +55,17 @@ def test_many_elements_of_one_layout_are_told_as_one_stretch():
     found, _ = walked(POINTS, points(5))
     assert found['points.x'] == [(24, 1, 8), (40, 4, 16)]
     assert found['points.kind'] == [(16, 1, 1), (32, 4, 16)]
+    assert walked(POINTS, points(3))[0]['points.x'] == [(24, 1, 8), (40, 2, 16)]
+    assert walked(POINTS, points(2))[0]['points.x'] == [(24, 1, 8), (40, 1, 8)]
+
+
+def test_arrays_in_elements_are_a_stretch_each():
+    """Behind the length at 0, elements of 12 bytes: pair, nothing, and a flag with its padding."""
+    definition = 'P[] ps\n=====\nMSG: a/P\nfloat32[2] pair\nuint8[0] none\nuint8 flag\n'
+    found, _ = walked(definition, pack('<I', 4) + bytes(3 * 12 + 9))
+    assert found['ps.pair'] == [(4, 2, 4), (16, 2, 4), (28, 2, 4), (40, 2, 4)]
+    assert found['ps.none'] == []
+    assert found['ps.flag'] == [(12, 1, 1), (24, 3, 12)]
 
 
 def test_leaves_say_the_arrays_around_them():
@@ -69,6 +80,10 @@ def test_leaves_say_the_arrays_around_them():
 def test_a_sequence_of_numbers_and_an_empty_one():
     found, _ = walked('float64[] v', pack('<I', 2) + bytes(4) + pack('<dd', 1.0, 2.0))
     assert [value for path, value in found.items() if path == 'v'] == [[(8, 2, 8)]]
+    lengths, values = of('float64[] v').walk(pack('<I4xd', 1, 0.5), 0, 16, '<').found
+    assert (lengths, values) == ([(1, 1, 0)], [(8, 1, 8)])
+    _, lengths, _ = of('uint8 a\nuint8[] v').walk(pack('<B3xI', 1, 0), 0, 8, '<').found
+    assert lengths == [(0, 1, 4)]
     found, _ = walked('float64[] v', pack('<I', 0))
     assert found['v'] == []
 
@@ -81,6 +96,11 @@ def test_big_endian_lengths_are_read_as_such():
 
 def test_a_message_that_is_too_short_is_told():
     data = points(3)
+    for left, what in ((12, 'a length at byte 12'), (15, 'a length at byte 12'),
+                       (16, 'a value that ends at byte 64'), (63, 'a value that ends at byte 64'),
+                       (67, 'a length at byte 64'), (70, 'a value that ends at byte 71')):  # fmt: skip
+        with pytest.raises(ValueError, match=f'^its {left} bytes end before {what}$'):
+            of(POINTS).walk(data, 0, left, '<')
     for left in range(len(data)):
         with pytest.raises(ValueError, match='bytes end before a'):
             pytest.fail(f'{left} bytes are read as {of(POINTS).walk(data, 0, left, "<")}')
@@ -94,6 +114,11 @@ def test_padding_at_the_end_is_allowed_more_is_not(more, fits):
         return
     with pytest.raises(ValueError, match='but its type ends after'):
         of(POINTS).walk(data, 0, len(data), '<')
+
+
+def test_a_string_ends_where_it_says_whatever_follows():
+    with pytest.raises(ValueError, match='^its 12 bytes end before a value that ends at byte 1004'):
+        walked('string a\nstring b', pack('<I', 1000) + bytes(8))
 
 
 def test_a_length_that_nobody_can_have_ends_at_once():

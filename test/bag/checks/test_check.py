@@ -8,6 +8,9 @@ from rosbags.typesys import Stores, get_typestore
 
 from agv_motion.bag.checks.check import Limits, check
 from agv_motion.bag.checks.silences import regular, silences
+from agv_motion.bag.columns.columns import read_topic
+from agv_motion.bag.mcap.writer import McapWriter
+from agv_motion.bag.metadata import Topic
 from agv_motion.bag.quality_of_service import OfferedQos
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
@@ -57,10 +60,11 @@ def test_a_sound_bag_has_no_findings(tmp_path, steady):
 
 def test_a_stamp_that_goes_back(tmp_path, steady):
     headers = steady.copy()
-    headers[200] = headers[198]
-    (finding,) = found(write(tmp_path / 'bag', steady, headers=headers))
-    assert (finding.severity, finding.where) == ('error', '/flow')
-    assert 'header.stamp goes back 1 times, first by 0.100000000 s at message 200' in finding.text
+    headers[200] = headers[190]
+    assert found(write(tmp_path / 'bag', steady, headers=headers)) == [
+        ('error', '/flow', 'header.stamp goes back 1 times, first by 0.900000000 s at message 200 '
+         '(20000000000 ns, then 19100000000 ns)'),
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(('talkers', 'severity'), [(1, 'error'), (2, 'warning')])
@@ -103,6 +107,9 @@ def test_a_silence_and_what_is_missing(tmp_path, steady):
 def test_a_rate_that_is_not_as_asked_for(tmp_path, steady):
     (finding,) = found(write(tmp_path / 'bag', steady), Limits({'/flow': 12.0}))
     assert finding == ('error', '/flow', '10.000 Hz, expected 12 Hz within 10%')
+    assert found(tmp_path / 'bag', Limits({'/flow': 11.0})) == []
+    assert len(found(tmp_path / 'bag', Limits({'/flow': 11.0}, tolerance=0.09))) == 1
+    assert len(found(tmp_path / 'bag', Limits({'/flow': 9.0}))) == 1
 
 
 def test_a_rate_that_changes(tmp_path, steady):
@@ -116,6 +123,26 @@ def test_nan(tmp_path, steady):
     xs[[30, 31]] = np.nan
     (finding,) = found(write(tmp_path / 'bag', steady, xs=xs))
     assert finding == ('error', '/flow', 'vector.x is NaN in 2 messages, first at 3.000 s')
+
+
+def test_a_large_bag_is_looked_through_in_slices_of_time(tmp_path, steady, monkeypatch):
+    path = write(tmp_path / 'bag', steady[:4], xs=[1.0, np.nan, 1.0, np.nan])
+    with BagReader(path) as bag:
+        size = bag.files[0].unpacked_size
+    slices = []
+
+    def read(bag, topic, fields, start, stop):
+        slices.append((start, stop))
+        return read_topic(bag, topic, fields, start, stop)
+
+    monkeypatch.setattr('agv_motion.bag.checks.check.read_topic', read)
+    for room, expected in ((size + 1, [(TENTH, None)]),
+                           (size, [(TENTH, 250_000_000), (250_000_000, None)])):  # fmt: skip
+        monkeypatch.setattr('agv_motion.bag.checks.check._SLICE', room)
+        slices.clear()
+        (finding,) = found(path)
+        assert finding.text == 'vector.x is NaN in 2 messages, first at 0.100 s'
+        assert slices == expected
 
 
 def test_nan_in_sequences_whose_length_changes(tmp_path):
@@ -141,21 +168,57 @@ def test_a_flipped_bit_is_a_crc_error_and_does_not_hide_the_rest(tmp_path, stead
     data = bytearray(file.read_bytes())
     data[chunk.offset + chunk.length - 20] ^= 4
     file.write_bytes(data)
-    findings = found(path)
-    assert any(f.severity == 'error' and f'byte {chunk.offset}' in f.text for f in findings)
-    assert any('silent for' in f.text for f in findings)
+    damage, lost, silence, values = found(path)
+    assert lost == ('error', 'bag_0.mcap', '249 messages, but its statistics tell of 260')
+    assert (damage.severity, damage.where) == ('error', 'bag_0.mcap')
+    assert f'byte {chunk.offset}: ' in damage.text
+    assert (silence.severity, silence.where) == ('warning', '/flow')
+    assert silence.text.startswith('silent for 4.100 s after 9.900 s, usual are 0.100 s')
+    text = 'values were not looked at, as the file is damaged: agv bag recover, then check'
+    assert values == ('warning', str(path), text)
 
 
-def test_a_topic_that_changed_its_type(tmp_path):
+def test_what_the_metadata_has_wrong_is_a_warning_and_what_is_lost_an_error(tmp_path, steady):
+    path = write(tmp_path / 'bag', steady[:20])
+    (path / 'metadata.yaml').unlink()
+    (finding,) = found(path)
+    assert (finding.severity, finding.where) == ('warning', str(path / 'metadata.yaml'))
+    (path / 'bag_0.mcap').write_bytes((path / 'bag_0.mcap').read_bytes()[:1000])
+    assert [f.severity for f in found(path)] == ['warning', 'error']
+
+
+def test_what_cannot_be_decoded_is_told_and_not_looked_at(tmp_path):
+    writer = McapWriter(tmp_path / 'a.mcap', '')
+    writer.add_topic(Topic('/a', 'a/msg/A', 'int8 x', '', (), encoding='json'))
+    writer.add_topic(Topic('/b', 'a/msg/A', '', '', ()))
+    writer.write(1, 5, b'{}', 5, 0)
+    writer.close({})
+    assert found(tmp_path / 'a.mcap') == [
+        ('warning', '/a', "its messages are encoded in 'json': values were not looked at"),
+        ('warning', '/b', 'the bag has no definition of a/msg/A'),
+    ]
+    with BagReader(tmp_path / 'a.mcap') as bag:  # one message has no rate, and none has neither
+        texts = [f.text for f in check(bag, Limits({'/a': 5.0, '/b': 5.0}))]
+    assert texts.count('0.000 Hz, expected 5 Hz within 10%') == 2
+
+
+@pytest.mark.parametrize(('kinds', 'texts', 'what'), [
+    (('a/msg/A', 'a/msg/A'), ('string data', 'string data\nint32 more'),
+     'its type changed: a/msg/A, defined differently'),
+    (('b/msg/B', 'a/msg/A'), ('string data', 'string data'),
+     'its type changed: a/msg/A and b/msg/B'),
+])  # fmt: skip
+def test_a_topic_that_changed_its_type(tmp_path, kinds, texts, what):
     (tmp_path / 'bag').mkdir()
-    for number, text in enumerate(('string data', 'string data\nint32 more')):
+    for number, text in enumerate(texts):
         part = tmp_path / f'bag_{number}'
         with BagWriter(part) as writer:
-            topic = writer.add_topic('/a', 'std_msgs/msg/String', text, type_hash='')
+            topic = writer.add_topic('/a', kinds[number], text, type_hash='')
             writer.write(topic, number, b'\x00\x01\x00\x00\x01\x00\x00\x00\x00')
         (part / f'{part.name}_0.mcap').rename(tmp_path / 'bag' / f'bag_{number}.mcap')
-    texts = [f.text for f in found(tmp_path / 'bag')]
-    assert any('its type changed: std_msgs/msg/String, defined differently' in t for t in texts)
+    findings = [(f.severity, f.text) for f in found(tmp_path / 'bag') if f.where == '/a']
+    assert findings[0] == ('error', what)
+    assert len(findings) == 2  # and that its values cannot be looked at
 
 
 def test_a_topic_that_is_not_there_cannot_have_a_rate(tmp_path, steady):
