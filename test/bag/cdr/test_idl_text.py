@@ -57,7 +57,7 @@ def test_arrays_of_arrays_are_one_and_what_has_no_size_is_in_none():
     assert fields(declared + 'struct A { table t; };') == [('t', 'float64', True, 6)]
     many = 'typedef sequence<double> many;'
     for wrong in (declared + 'struct A { rows r; };', many + 'struct A { many m[2]; };'):
-        with pytest.raises(ConfigurationError, match='(row|many) is an array in an array'):
+        with pytest.raises(ConfigurationError, match=r'(row|many) is an array in an array'):
             fields(wrong)
 
 

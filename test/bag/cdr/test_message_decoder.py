@@ -5,6 +5,7 @@ from __future__ import annotations
 from struct import pack
 
 import pytest
+from rosbags.interfaces import Nodetype
 
 from agv_motion.bag.cdr.message_decoder import MessageDecoder
 from agv_motion.bag.connection import Connection, Message
@@ -20,7 +21,11 @@ def message(data):
 
 
 def test_a_type_that_is_installed_nowhere_is_understood():
-    found = MessageDecoder(TOPIC)(message(DATA))
+    decoder = MessageDecoder(TOPIC)
+    number = (Nodetype.BASE, ('float64', 0))
+    inner = [('values', (Nodetype.SEQUENCE, (number, 0)))]
+    assert decoder.store.fielddefs['mine/msg/Inner'] == ([], inner)
+    found = decoder(message(DATA))
     assert (found.x, list(found.inner.values), list(found.two)) == (-7, [0.5], [5, 6])
 
 

@@ -36,6 +36,15 @@ def test_messages_with_other_strings_or_lengths_are_no_rows(names):
     assert rows.read([joints(1), joints(2, names)]) is None
 
 
+def test_a_length_that_takes_in_the_padding_is_another_layout():
+    """ "left" with two zeros has the same bytes as with one, but for its length."""
+    rows, lying = MessageRows(JOINTS, joints(0)), bytearray(joints(1))
+    at = lying.index(b'left') - 4
+    assert lying[at : at + 12] == b'\5\0\0\0left\0\0\0\0'
+    lying[at] = 6
+    assert rows.read([joints(1), bytes(lying)]) is None
+
+
 def test_others_read_what_is_written_by_columns():
     rows = MessageRows(JOINTS, joints(0))
     table = rows.table(3)
