@@ -28,6 +28,7 @@ def test_what_others_wrote_is_read_by_columns():
     assert table['header.stamp.sec'].tolist() == list(range(5))
     assert table['position'].tolist() == [[i, i / 3] for i in range(5)]
     assert table['velocity'].shape == (5, 2)
+    assert table.shape == (5,)
 
 
 @pytest.mark.parametrize('names', [('left', 'rigth'), ('left', 'right one'), ('a', 'b', 'c')])
@@ -37,12 +38,20 @@ def test_messages_with_other_strings_or_lengths_are_no_rows(names):
 
 
 def test_a_length_that_takes_in_the_padding_is_another_layout():
-    """ "left" with two zeros has the same bytes as with one, but for its length."""
+    """With two zeros "left" has the same bytes as with one, but for its length."""
     rows, lying = MessageRows(JOINTS, joints(0)), bytearray(joints(1))
     at = lying.index(b'left') - 4
     assert lying[at : at + 12] == b'\5\0\0\0left\0\0\0\0'
     lying[at] = 6
     assert rows.read([joints(1), bytes(lying)]) is None
+
+
+@pytest.mark.parametrize(('place', 'same'), [(0, False), (1, False), (2, True), (3, True)])
+def test_the_order_of_bytes_counts_and_options_do_not(place, same):
+    other = bytearray(joints(1))
+    other[place] ^= 1
+    found = MessageRows(JOINTS, joints(0)).read([bytes(other)])
+    assert (found is not None) is same
 
 
 def test_others_read_what_is_written_by_columns():
