@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, isnan, pi
+from math import cos, inf, isnan, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.kinematics.steering.state import Rolling
@@ -56,7 +56,7 @@ class RollingShare:
 
         """
         self._rolled = [0.0] * count  # (n,) speeds commanded last, without sign [m/s]
-        self._most = 1.0
+        self._most = inf
 
     def stop(self) -> None:
         """Take note that all wheels stand."""
@@ -77,7 +77,7 @@ class RollingShare:
     def update(self, phase: Phase, measured: Sequence[float] | None, change: float) -> None:
         """Let the share rise so far that no wheel gains more than ``change`` [m/s] in a step."""
         speeds = list(map(abs, phase.setpoints.speeds))
-        self._most = 1.0
+        self._most = inf
         for speed, before in zip(speeds, self._rolled, strict=True):
             if speed * SHARE_ROUNDING > before + change:
                 self._most = min(self._most, (before + change) / speed)

@@ -67,7 +67,7 @@ class SimulatedSource:
         self._light = min(max(factor, 0.0), 1.0)
 
     def history(self, now: float) -> Iterator[ProbeSample]:
-        """Yield a reading every quarter of an hour of the days before ``now``, in full sun."""
+        """Yield a reading every quarter of an hour before that of ``now``, in full sun."""
         for k in range(ceil((now - self._warm_up) / 900.0), floor(now / 900.0)):
             yield self.sample(900.0 * k, 1.0)
 

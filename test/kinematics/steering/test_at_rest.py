@@ -77,6 +77,9 @@ def test_turrets_that_turn_are_brought_to_a_stop_and_have_no_stance():
     assert rest.setpoints.rates == pytest.approx([0.6, 0.0])
     assert rest.setpoints.angles == pytest.approx([0.06, 0.0])
     assert rest.stance is None
+    hold(rest, LIMITS, 0.1)  # also while one of them stands
+    assert rest.setpoints.rates == pytest.approx([0.2, 0.0])
+    assert rest.setpoints.angles == pytest.approx([0.08, 0.0])
 
 
 def test_alignment_ends_in_the_stance_that_was_asked_for():

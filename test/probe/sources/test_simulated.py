@@ -36,11 +36,52 @@ def test_the_same_seed_says_the_same_whatever_was_asked_before():
     assert another.sample(JUNE + 5e4, 1.0) != one.sample(JUNE + 5e4, 1.0)
 
 
+@pytest.mark.parametrize(
+    ('day', 'values', 'radiation', 'deficit'),
+    [
+        (0, (17.941786701632847, 18.096692019309028), 846.5270010552764, 1.157106146533812),
+        (1, (18.549460069230626, 18.270079961900393), 529.6684603803413, 1.1569144105282911),
+    ],
+)
+def test_a_seed_says_the_same_in_every_version(day, values, radiation, deficit):
+    """What was found out with a seed stays true: a fair noon, and a dull one."""
+    source = SimulatedSource(SimulatedSourceParameters(probes=2), 1.0)
+    found = source.sample(JUNE + day * DAY + 43900.0, 1.0)
+    assert found.values == pytest.approx(values, abs=1e-9)
+    assert found.environment == pytest.approx((radiation, deficit), abs=1e-9)
+
+
+def test_history_is_of_whole_quarters_of_an_hour_and_ends_before_the_present_one():
+    source = SimulatedSource(SimulatedSourceParameters(), 1.0 / 24.0)
+    for late in (0.0, 100.0, 899.0):
+        first = -3600.0 if late == 0.0 else -2700.0
+        times = [sample.time - JUNE for sample in source.history(JUNE + late)]
+        assert times == [*np.arange(first, -1.0, 900.0)]
+        for sample in source.history(JUNE + late):
+            assert sample == source.sample(sample.time, 1.0)
+
+
 def test_readings_come_at_their_period():
     source = SimulatedSource(SimulatedSourceParameters(period=25.0), 1.0)
     assert [s.time for s in source.read(JUNE)] == [JUNE]
     assert [s.time for s in source.read(JUNE + 60.0)] == [JUNE + 25.0, JUNE + 50.0]
     assert source.read(JUNE + 61.0) == []
+    assert source.complaint() == ''
+
+
+def test_a_clock_that_leaps_brings_no_flood_and_no_silence():
+    """Forwards: the last 1001 readings; backwards: the present one, as at the start."""
+    source = SimulatedSource(SimulatedSourceParameters(period=10.0, probes=1), 1.0)
+
+    def times(after):
+        return [sample.time - JUNE for sample in source.read(JUNE + after)]
+
+    assert times(0.0) == [0.0]
+    assert times(20_000.0) == [10.0 * k for k in range(1000, 2001)]
+    assert times(20_000.0) == []
+    assert times(19_990.0) == [19_990.0]
+    assert times(19_999.0) == []
+    assert times(20_000.0) == [20_000.0]
 
 
 def test_it_looks_like_the_spruce():
@@ -62,6 +103,17 @@ def test_shade_makes_the_sap_slow_after_some_minutes():
     assert later[1] > later[0] + 0.3
 
 
+@pytest.mark.parametrize(('light', 'told'), [(-1.0, 0.0), (0.3, 0.3), (2.0, 1.0)])
+def test_the_flow_follows_the_light_in_a_quarter_of_an_hour(light, told):
+    """By `1 - 1/e` of the way in 900 s."""
+    source = SimulatedSource(SimulatedSourceParameters(period=900.0), 1.0)
+    source.set_light(light)
+    noon = JUNE + DAY / 2
+    followed = 1.0 + (told - 1.0) * (1.0 - np.exp(-1.0))
+    (found,) = source.read(noon)
+    assert found.values == pytest.approx(source.sample(noon, followed).values)
+
+
 def test_a_probe_that_has_learnt_from_its_history_knows_at_once():
     source = SimulatedSource(SimulatedSourceParameters(), 8.0)
     probe = Probe(ProbeParameters())
@@ -74,6 +126,8 @@ def test_the_noise_is_normal_enough():
     numbers = np.array([gauss(1, k) for k in range(20_000)])
     assert numbers.mean() == pytest.approx(0.0, abs=0.03)
     assert numbers.std() == pytest.approx(1.0, abs=0.03)
+    four = sum(uniform(seed, 7) for seed in (1, 102, 203, 304))
+    assert gauss(1, 7) == pytest.approx((four - 2.0) * np.sqrt(3.0))
 
 
 def test_smooth_noise_goes_from_one_number_to_the_next_without_a_corner():
