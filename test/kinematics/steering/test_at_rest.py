@@ -92,6 +92,7 @@ def test_alignment_ends_in_the_stance_that_was_asked_for():
     assert rest.setpoints.signs == [1.0, -1.0]
     assert rest.stance == (wanted, pytest.approx([1.0, 1.0]))
     assert rest.goals is None
+    assert rest.changes == 0
     assert 10 < steps < 25
 
 

@@ -5,7 +5,13 @@ from __future__ import annotations
 import pytest
 
 from agv_motion.errors import SourceError
-from agv_motion.probe.tables.file_text import POWER_CUT, encoding_of, lines_of, whole_lines
+from agv_motion.probe.tables.file_text import (
+    POWER_CUT,
+    encoding_of,
+    lines_of,
+    require_text,
+    whole_lines,
+)
 
 TABLE = 'Zeit;ΔT °C\n01.06.2013 10:00;8,25\n'
 
@@ -41,6 +47,44 @@ def test_a_few_letters_of_another_script_do_not_hide_utf_16():
     for codec in ('utf-16-le', 'utf-16-be'):
         assert encoding_of(('a' * 90 + 'Δ' * 5 + 'Ā' * 3).encode(codec), 'auto', 'x.csv') == codec
         assert encoding_of(('ab' * 40 + 'ΔΔ' * 10).encode(codec), 'auto', 'x.csv') != codec
+
+
+@pytest.mark.parametrize(
+    ('none', 'some', 'known'), [(91, 9, True), (90, 9, False), (91, 10, False), (100, 100, False)]
+)
+def test_utf_16_has_more_than_nine_tenths_of_its_other_bytes_zero(none, some, known):
+    """And less than a tenth of those that are letters: of 100 pairs, each byte counts."""
+    zeros, letters = b'\0' * none + b'a' * (100 - none), b'\0' * some + b'a' * (100 - some)
+    for first, second, codec in ((letters, zeros, 'utf-16-le'), (zeros, letters, 'utf-16-be')):
+        data = bytes(byte for pair in zip(first, second, strict=True) for byte in pair)
+        assert encoding_of(data, 'auto', 'x.csv') == (codec if known else 'utf-8')
+
+
+def test_two_letters_are_enough_and_what_comes_after_4096_bytes_is_not_looked_at():
+    assert encoding_of(b'1\0\n\0', 'auto', 'x.csv') == 'utf-16-le'
+    assert encoding_of(b'1\0' * 2048 + b'22' * 2048, 'auto', 'x.csv') == 'utf-16-le'
+    assert encoding_of(b'1\0' * 1840 + b'22' * 2048, 'auto', 'x.csv') == 'utf-8'
+
+
+@pytest.mark.parametrize('odd', ['\x01', '\x08', '\x0b', '\x1f', '\x7f'])
+def test_a_text_has_no_more_than_two_control_characters_in_a_hundred(odd):
+    require_text(b'', odd * 2 + 'a' * 98, 'x.csv')
+    require_text(b'', 'a' * 4096 + odd * 4096, 'x.csv')
+    with pytest.raises(
+        SourceError, match=r"^x\.csv is no table in text: it begins with b'begins a'$"
+    ):
+        require_text(b'begins as it does', odd * 3 + 'a' * 97, 'x.csv')
+
+
+@pytest.mark.parametrize('letter', ['\t', '\n', '\f', '\r', '\0', ' ', '~', '\x80'])
+def test_what_tables_hold_is_text_however_much_of_it_there_is(letter):
+    require_text(b'', letter * 100, 'x.csv')
+
+
+def test_a_kind_of_file_is_known_by_how_it_begins():
+    with pytest.raises(SourceError, match=r'^x is no table in text: it is compressed: gunzip it$'):
+        require_text(b'\x1f\x8b12', 'a' * 100, 'x')
+    require_text(b'1\x1f\x8b', 'a' * 100, 'x')
 
 
 @pytest.mark.parametrize(
