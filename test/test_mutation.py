@@ -65,6 +65,15 @@ def test_what_is_a_matter_of_size_alone_is_no_behaviour():
     assert changes('FEW = 999') == ['999 -> 1000']
 
 
+def test_half_a_turn_more_is_not_taken_for_half_a_turn_less():
+    """It is the same direction, which no test can notice."""
+    assert changes('turn = angle + pi') == ['Add -> Mult']
+    assert changes('turn -= math.tau') == ['Sub -> Mult']
+    assert changes('turn = angle + pit') == ['Add -> Sub']
+    (site,) = sites('turn -= math.tau')
+    assert ast.unparse(mutated('turn -= math.tau', site)) == 'turn *= math.tau'
+
+
 def test_code_written_elsewhere_draws_no_other_changes(tmp_path, monkeypatch):
     """Who has mended what survived asks the same again; alike lines are told apart."""
     for name, before in (('first', ''), ('second', '"""More."""\n\n\n')):

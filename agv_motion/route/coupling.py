@@ -17,6 +17,7 @@ left, and at its end the output is the target. The first tick after a reset is t
 from __future__ import annotations
 
 from enum import Enum
+from math import inf
 
 
 class CouplingForm(Enum):
@@ -68,7 +69,7 @@ class Coupling:
     def follow(self, target: float, dt: float) -> float:
         """Return the output when the target is ``target`` and ``dt`` [s] have passed."""
         before = self.share
-        self.share = before + dt / self._ramp if self._ramp > 0.0 else 1.0
+        self.share = before + dt / self._ramp if self._ramp > 0.0 else inf
         if self.share > 1.0 - ROUNDING:
             self.share = 1.0
         last = self._target if self._form is CouplingForm.ORIGINAL else self.output

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from math import degrees, pi, sin
 from typing import Annotated, NamedTuple
 
+import numpy as np
+
 from agv_motion.parameters import Spec, check
 from agv_motion.route.coupling import CouplingForm
 from agv_motion.route.table import ProfileTable
@@ -146,8 +148,7 @@ class FollowParameters:
         on a circle of that radius, and from D = dp on the point waits. Empty if this cannot be.
         """
         profiles = self.profiles()
-        for step in range(101):
-            angle = pi / 2.0 + step / 100.0 * pi / 2.0
+        for angle in np.linspace(pi / 2.0, pi, 91).tolist():
             speed, turn = profiles.v_dphi(angle), profiles.omega_dphi(angle)
             if not self.holonomic and turn * self.virtual_point_distance <= speed * sin(angle):
                 return (

@@ -61,7 +61,7 @@ class Prediction(NamedTuple):
     def cross_track(self, route: Route) -> tuple[float, float]:
         """Return root mean square and maximum of the distance from ``route`` [m]."""
         line = shapely.linestrings(route.waypoints)
-        off = shapely.distance(shapely.points([pose[:2] for pose in self.poses]), line)
+        off = shapely.distance(shapely.points([(x, y) for x, y, _ in self.poses]), line)
         return float(np.sqrt(np.mean(off**2))), float(np.max(off))
 
 

@@ -22,6 +22,8 @@ COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.NotEq: ast.Eq, ast.Is: ast.IsNot, ast.IsNot: ast.Is, ast.In: ast.NotIn, ast.NotIn: ast.In,
 }  # fmt: skip
 """The opposite: whether a limit itself belongs to a side seldom matters to a float."""
+TURNS = ('pi', 'tau')
+"""One more or one less is the same direction: they are multiplied by instead."""
 NAMES = {
     'min': 'max', 'max': 'min', 'sin': 'cos', 'cos': 'sin', 'any': 'all', 'all': 'any',
     'floor': 'ceil', 'ceil': 'floor',
@@ -121,6 +123,8 @@ def _operator(node: Any, *, apply: bool) -> str:
            for part in ast.walk(node)):  # fmt: skip
         return ''  # of texts and lists, not of numbers
     before, after = type(node.op), OPERATORS[type(node.op)]
+    if before in {ast.Add, ast.Sub} and any(map(_is_turn, ast.iter_child_nodes(node))):
+        after = ast.Mult
     if apply:
         node.op = after()
     return f'{before.__name__} -> {after.__name__}'
@@ -189,6 +193,10 @@ def _name(node: Any, *, apply: bool) -> str:
     if apply:
         node.func.id = NAMES[before]
     return f'{before} -> {NAMES[before]}'
+
+
+def _is_turn(node: ast.AST) -> bool:
+    return (getattr(node, 'id', '') or getattr(node, 'attr', '')) in TURNS
 
 
 def _is_text(node: ast.AST) -> bool:

@@ -36,6 +36,17 @@ def test_without_a_time_there_is_no_coupling(form):
 
 
 @pytest.mark.parametrize('form', CouplingForm)
+def test_many_small_steps_make_a_whole_one(form):
+    """Ten of 0.1 s are a digit short of a second."""
+    coupling = Coupling(1.0, form)
+    for _ in range(9):
+        coupling.follow(0.3, 0.1)
+        assert coupling.share < 1.0
+    assert coupling.follow(0.7, 0.1) == 0.7
+    assert coupling.share == 1.0
+
+
+@pytest.mark.parametrize('form', CouplingForm)
 def test_once_joined_it_follows_exactly_until_it_is_reset(form):
     coupling = Coupling(0.4, form)
     for _ in range(4):

@@ -78,6 +78,8 @@ def test_looking_elsewhere_it_slows_down_and_turns():
     assert found.limits.heading_error == pytest.approx(-1.0)
     assert found.twist == pytest.approx((0.6, 0.0, -1.0))
     assert found.limits.limiter is RouteLimiter.HEADING
+    coupled = step(Pose(2.0, 0.0, 1.0), turn_coupling_ms=400.0, speed_coupling_ms=200.0)
+    assert coupled.twist == pytest.approx((0.3, 0.0, -0.25))
 
 
 def test_holonomic_it_drives_straight_at_the_point():

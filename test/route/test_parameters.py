@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, radians
 
 import pytest
 
@@ -66,3 +66,16 @@ def test_a_robot_that_could_circle_for_ever_is_warned_of():
     assert FollowParameters(v_dphi=fast, virtual_point_distance=0.43).orbit() == ''
     assert FollowParameters(v_dphi=fast, holonomic=True).orbit() == ''
     assert FollowParameters().orbit() == ''
+
+
+def test_each_degree_is_looked_at_from_a_quarter_turn_on():
+    """0.2 m/s and 1 rad/s, but 0.6 m/s within a third of a degree about 150: 0.3 > 0.25."""
+    at = radians(150.0)
+    narrow = (0.0, 0.2, at - 0.006, 0.2, at, 0.6, at + 0.006, 0.2)
+    turning = (0.0, 0.0, 1.0, 1.0)
+    given = FollowParameters(v_dphi=narrow, omega_dphi=turning, virtual_point_distance=0.25)
+    assert given.orbit().startswith('at dphi = 150 deg the tables give 0.6 m/s and 1 rad/s')
+    behind = FollowParameters(omega_dphi=(*turning, 3.0, 1.0, pi, 0.0))
+    assert behind.orbit().startswith('at dphi = 180 deg the tables give 0.02 m/s and 0 rad/s')
+    ahead = FollowParameters(v_dphi=(0.0, 9.0, 1.55, 9.0, 1.57, 0.02), omega_dphi=turning)
+    assert ahead.orbit() == ''

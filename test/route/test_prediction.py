@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import random
 from itertools import pairwise
-from math import hypot, pi
+from math import hypot, pi, sqrt
 
 import pytest
 
-from agv_motion.planar import Pose
+from agv_motion.planar import Pose, Twist
 from agv_motion.route.parameters import FollowParameters
-from agv_motion.route.prediction import predict
+from agv_motion.route.prediction import Prediction, predict
 from agv_motion.route.route import Route
+from agv_motion.route.speeds import RouteLimiter
 
 PARAMETERS = FollowParameters()
 
@@ -57,6 +58,37 @@ def test_a_larger_distance_cuts_corners_more():
         for d in (0.3, 1.0)
     )
     assert near.cross_track(corner)[1] < far.cross_track(corner)[1] < 1.0
+
+
+def test_how_far_beside_the_route_it_is():
+    """Hand calculation: 3, 4 and 0 m off; the mean square is 25/3."""
+    route = Route([(0, 0), (10, 0)])
+    poses = [Pose(1.0, 3.0, 0.0), Pose(2.0, -4.0, 1.0), Pose(5.0, 0.0, 0.0)]
+    off, most = Prediction(0.1, poses, [], 1.0).cross_track(route)
+    assert off == pytest.approx(sqrt(25.0 / 3.0))
+    assert most == pytest.approx(4.0)
+
+
+def test_what_holds_it_down_is_told_by_shares_of_the_time():
+    """Turning counts for no speed: of four steps one is at the top speed of 0.5 m/s."""
+    (first, *_), twists = (
+        predict(Route([(0, 0), (4, 0)]), PARAMETERS, Pose(0.0, 0.0, 0.0), longest=0.1).steps,
+        [Twist(0.3, 0.0, 0.4), Twist(0.3, 0.4, 0.0), Twist(0.4, 0.0, 0.4), Twist(0.0, 0.2, 1.0)],
+    )
+    bend = first.limits._replace(limiter=RouteLimiter.BEND)
+    steps = [first._replace(twist=twist, limits=bend) for twist in twists]
+    run = Prediction(0.1, [], steps, 0.5)
+    assert run.held_by() == ['v(alpha)', 'nothing', 'v(alpha)', 'v(alpha)']
+    assert run.limiter_shares() == {'v(alpha)': 0.75, 'nothing': 0.25}
+    assert next(iter(run.limiter_shares())) == 'v(alpha)'
+    assert run.duration == pytest.approx(0.3)
+
+
+def test_it_starts_from_rest():
+    """No time has passed at the start; then the speed joins 0.5 m/s within 0.3 s."""
+    run = predict(Route([(0, 0), (20, 0)]), PARAMETERS, Pose(0.0, 0.0, 0.0), 0.1, longest=0.4)
+    assert [step.twist.vx for step in run.steps] == pytest.approx([0.0, 1 / 6, 1 / 3, 0.5, 0.5])
+    assert [pose.x for pose in run.poses] == pytest.approx([0.0, 0.0, 1 / 60, 0.05, 0.1])
 
 
 def test_on_a_straight_route_it_is_never_beside_it():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi, tau
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from agv_motion.kinematics.steering.braking import BRAKING, braking_rate, changed, usable_period
 from agv_motion.kinematics.steering.direction import (
@@ -11,7 +11,7 @@ from agv_motion.kinematics.steering.direction import (
     bearings,
     wheel_lengths,
 )
-from agv_motion.kinematics.steering.state import Goals, Limiter, Stance
+from agv_motion.kinematics.steering.state import BACKWARDS, FORWARDS, Goals, Limiter, Stance
 from agv_motion.planar import wrap
 
 if TYPE_CHECKING:
@@ -32,13 +32,16 @@ NONE, ALIGNING, UNWINDING = Limiter.NONE, Limiter.ALIGNING, Limiter.UNWINDING
 ARRIVED = 1e-12
 """[rad] A turret so near to its goal is there."""
 
+ROUNDING = 1e-9
+"""[rad] A goal so little beyond the turn limit lies at it."""
+
 
 def hold(rest: AtRest, limits: SteeringLimits, period: float) -> None:
     """Nothing is wanted: for one step, bring turrets that still turn to a stop."""
     rest.goals, rest.setpoints.limiter = None, NONE
     if any(rest.setpoints.rates):
         rest.stance = None
-        _turn(rest, limits, period)
+        _stop(rest.setpoints, limits, period)
 
 
 def align(chassis: Chassis, rest: AtRest, wanted: Direction, period: float) -> None:
@@ -55,7 +58,7 @@ def align(chassis: Chassis, rest: AtRest, wanted: Direction, period: float) -> N
     if goals is None or goals.direction is None or not are_near(goals.direction, wanted):
         goals = _set_goals(chassis, rest, wanted)
     rest.stance, rest.setpoints.limiter = None, ALIGNING
-    if _turn(rest, chassis.limits, period) and goals.direction is not None:
+    if _turn(rest.setpoints, goals, chassis.limits, period) and goals.direction is not None:
         rest.setpoints.signs = goals.signs
         rest.stance = Stance(goals.direction, wheel_lengths(chassis.arms, goals.direction))
         rest.goals, rest.changes = None, 0
@@ -68,12 +71,12 @@ def unwind(rest: AtRest, limits: SteeringLimits, period: float) -> bool:
         Whether all are there.
 
     """
-    setpoints = rest.setpoints
-    if rest.goals is None or rest.goals.direction is not None:
+    setpoints, goals = rest.setpoints, rest.goals
+    if goals is None or goals.direction is not None:
         straight = [angle - pi * round(angle / pi) for angle in setpoints.angles]
-        rest.goals = Goals(straight, setpoints.signs, None)
+        goals = rest.goals = Goals(straight, setpoints.signs, None)
     rest.stance = None
-    there = _turn(rest, limits, period)
+    there = _turn(setpoints, goals, limits, period)
     if there:
         rest.goals = None
     setpoints.limiter = NONE if there else UNWINDING
@@ -93,7 +96,7 @@ def _is_too_far(chassis: Chassis, setpoints: Setpoints, wanted: Direction) -> bo
     most, ways = chassis.limits.turn_limit * tau, bearings(chassis.arms, wanted)
     for angle, sign, way in zip(setpoints.angles, setpoints.signs, ways, strict=True):
         if abs(angle) > most - pi and way is not None:
-            turn = wrap(way + (pi if sign < 0.0 else 0.0) - angle)
+            turn = wrap(way - angle) if sign == FORWARDS else wrap(way + pi - angle)
             if abs(angle + turn) > most:
                 return True
     return False
@@ -138,54 +141,42 @@ def choose_goals(chassis: Chassis, setpoints: Setpoints, wanted: Direction) -> G
             signs.append(sign)
             continue
         forwards = near + wrap(way - near)
+        backwards = forwards + pi
         _, _, goal, sign_there = min(
-            (s < 0.0 or turn > reversal, turn, goal, s)
-            for s, first in ((1.0, forwards), (-1.0, forwards + pi))
-            for goal in (first - tau, first, first + tau)
+            (s == BACKWARDS or turn > reversal, turn, goal, s)
+            for s, goal in (
+                (FORWARDS, forwards),
+                (BACKWARDS, backwards),
+                (BACKWARDS, backwards - tau),
+            )
             for turn in [abs(goal - angle)]
-            if abs(goal) <= most
+            if abs(goal) <= most + ROUNDING
         )
-        angles.append(goal)
+        angles.append(min(max(goal, -most), most))
         signs.append(sign_there)
     return Goals(angles, signs, wanted)
 
 
-class _Turned(NamedTuple):
-    """The turrets after one step of turning."""
-
-    angles: list[float]
-    rates: list[float]
-    arrived: bool
-    """whether all stand exactly at their goals, and slowly enough to go on from there"""
-
-
-def _turn(rest: AtRest, limits: SteeringLimits, period: float) -> bool:
-    """Turn every turret for one step; return whether all have arrived."""
-    setpoints = rest.setpoints
-    if rest.goals is None:
-        turned = _stopped(setpoints, limits, period)
-    else:
-        turned = _turned(setpoints, rest.goals.angles, limits, period)
-    setpoints.angles, setpoints.rates, arrived = turned
-    return arrived
-
-
-def _stopped(setpoints: Setpoints, limits: SteeringLimits, period: float) -> _Turned:
-    """Return the turrets after a step in which they brake."""
+def _stop(setpoints: Setpoints, limits: SteeringLimits, period: float) -> None:
+    """Brake every turret for one step."""
     change = limits.steering_acceleration * usable_period(setpoints, period)
-    rates = [changed(rate, 0.0, change) for rate in setpoints.rates]
+    setpoints.rates = rates = [changed(rate, 0.0, change) for rate in setpoints.rates]
     pairs = zip(setpoints.angles, rates, strict=True)
-    return _Turned([angle + rate * period for angle, rate in pairs], rates, arrived=False)
+    setpoints.angles = [angle + rate * period for angle, rate in pairs]
 
 
-def _turned(
-    setpoints: Setpoints, goals: Sequence[float], limits: SteeringLimits, period: float
-) -> _Turned:
-    """Return the turrets after a step towards ``goals``, (n,) [rad]."""
+def _turn(setpoints: Setpoints, goals: Goals, limits: SteeringLimits, period: float) -> bool:
+    """Turn every turret for one step.
+
+    Returns:
+        Whether all stand exactly at their goals, and slowly enough to go on from there.
+
+    """
     change = limits.steering_acceleration * usable_period(setpoints, period)
     braking, top = BRAKING * limits.steering_acceleration, limits.steering_rate
     angles, rates, arrived = [], [], True
-    for angle, before, goal in zip(setpoints.angles, setpoints.rates, goals):  # noqa: B905 - hot
+    each = zip(setpoints.angles, setpoints.rates, goals.angles)  # noqa: B905 - hot
+    for angle, before, goal in each:
         way = goal - angle
         fastest = min(top, braking_rate(abs(way), braking, period))
         rate = min(max(fastest if way > 0.0 else -fastest, before - change), before + change)
@@ -193,4 +184,5 @@ def _turned(
         angles.append(goal if there else angle + rate * period)
         rates.append(rate)
         arrived = arrived and there and abs(rate) <= BRAKING * change
-    return _Turned(angles, rates, arrived)
+    setpoints.angles, setpoints.rates = angles, rates
+    return arrived

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from agv_motion.kinematics.steering.braking import BRAKING, braking_rate, changed, usable_period
 from agv_motion.kinematics.steering.direction import STILL
+from agv_motion.kinematics.steering.state import BACKWARDS, FORWARDS
 from agv_motion.planar import wrap
 
 if TYPE_CHECKING:
@@ -50,7 +51,8 @@ def _turn(rolling: Rolling, limits: SteeringLimits, i: int, line: float, period:
     off = wrap(2.0 * (line - setpoints.angles[i])) / 2.0
     if abs(setpoints.angles[i] + off) > limits.turn_limit * tau:
         off -= copysign(pi, off)
-    setpoints.signs[i] = 1.0 if cos(line - setpoints.angles[i] - off) > 0.0 else -1.0
+    forwards = cos(line - setpoints.angles[i] - off) > 0.0
+    setpoints.signs[i] = FORWARDS if forwards else BACKWARDS
     acceleration, before = limits.steering_acceleration, setpoints.rates[i]
     change = acceleration * usable_period(setpoints, period)
     if abs(off) < ALONG and abs(before) <= BRAKING * change:

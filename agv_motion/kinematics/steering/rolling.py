@@ -9,7 +9,7 @@ from agv_motion.kinematics.steering.direction import POINT, STILL
 from agv_motion.kinematics.steering.follow import all_follow, nearest_velocity
 from agv_motion.kinematics.steering.free_turret import brake_free_turret, turn_free_turrets
 from agv_motion.kinematics.steering.move import GROWTH, HERE, TOO_FAR, TURNING, plan_move
-from agv_motion.kinematics.steering.state import AtRest, Limiter
+from agv_motion.kinematics.steering.state import BACKWARDS, AtRest, Limiter
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.chassis import Chassis
@@ -104,7 +104,7 @@ def _turn(arms: Arms, rolling: Rolling, arrived: Direction | None, period: float
             rates[i] = 0.0
             continue
         turn = atan2(wy, wx) - angles[i]
-        if signs[i] < 0.0:
+        if signs[i] == BACKWARDS:
             turn += pi
         turn = (turn + pi) % tau - pi
         angles[i] += turn

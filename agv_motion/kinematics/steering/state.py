@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from agv_motion.planar import Twist
 
 
+FORWARDS, BACKWARDS = 1.0, -1.0
+"""How a wheel rolls along the angle of its turret: the sign of its speed."""
+
+
 class Limiter(Enum):
     """What keeps the platform from making the wanted twist at once, in words for a person."""
 
@@ -55,8 +59,8 @@ class Setpoints:
         """(n,) mean steering rates over the last step [rad/s]"""
         self.speeds = [0.0] * n
         """(n,) wheel speeds, negative where a wheel rolls backwards [m/s]"""
-        self.signs = [1.0] * n
-        """(n,) -1 where a wheel is reversed, also while it stands"""
+        self.signs = [FORWARDS] * n
+        """(n,) `BACKWARDS` where a wheel is reversed, also while it stands"""
         self.period = 0.0
         """[s] of the last step; 0 before the first"""
         self.limiter = Limiter.NONE
@@ -81,7 +85,7 @@ class Goals(NamedTuple):
     angles: list[float]
     """(n,) [rad]"""
     signs: list[float]
-    """(n,) -1 where the wheel shall roll backwards"""
+    """(n,) `BACKWARDS` where the wheel shall roll so"""
     direction: Direction | None
     """in which the platform shall roll from there; None: the cables are unwound"""
 

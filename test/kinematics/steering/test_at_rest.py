@@ -19,8 +19,9 @@ from agv_motion.kinematics.steering.at_rest import (
 )
 from agv_motion.kinematics.steering.chassis import measure
 from agv_motion.kinematics.steering.limits import SteeringLimits
-from agv_motion.kinematics.steering.state import AtRest, Limiter, Stance
+from agv_motion.kinematics.steering.state import BACKWARDS, AtRest, Limiter, Stance
 from agv_motion.kinematics.turrets import Turrets
+from agv_motion.planar import wrap
 
 PAIR = Turrets([(0.5, 0.0), (-0.5, 0.0)])
 LIMITS = SteeringLimits(steering_rate=2.0, steering_acceleration=4.0)
@@ -54,6 +55,20 @@ def test_a_goal_is_the_nearest_along_the_line_forwards_up_to_the_reversal_angle(
     chosen = sign < 0.0 or abs(goal - angle) > reversal, abs(goal - angle)
     assert chosen[0] == min(ways)[0] or abs(chosen[1] - reversal) < 1e-9
     assert chosen[1] <= min(way for late, way in ways if late == chosen[0]) + 1e-9
+
+
+@pytest.mark.parametrize('turns', [0.3, 1.5])
+@pytest.mark.parametrize('side', [-1.0, 1.0])
+def test_a_turret_at_the_end_of_its_cables_reverses_its_wheel_where_it_stands(side, turns):
+    """Whatever the last digit of the way back: it neither turns round nor goes a digit too far."""
+    end = side * turns * tau
+    chassis = measure(PAIR, SteeringLimits(turn_limit=turns))
+    for k in range(-3, 4):
+        wanted = towards(wrap(end + pi) + k * 4e-16)
+        goals = choose_goals(chassis, AtRest.at([end, end]).setpoints, wanted)
+        assert goals.angles == pytest.approx([end, end], abs=1e-12)
+        assert max(map(abs, goals.angles)) <= turns * tau
+        assert goals.signs == [BACKWARDS, BACKWARDS]
 
 
 def test_a_wheel_that_does_not_move_stays_or_comes_back_within_its_limit():
@@ -170,6 +185,10 @@ def test_near_the_stance_the_rest_is_steered_while_rolling(off, may):
         (0.05 - 3 * pi, -1.0, 0.1, True),
         (3 * pi - 0.2, -1.0, 0.1, True),
         (2 * pi + 0.1, 1.0, 0.1, True),
+        (3 * pi - 0.05, 1.0, 0.1, False),
+        (3 * pi - 0.05, 1.0, -0.1, True),
+        (0.05 - 3 * pi, 1.0, -0.1, False),
+        (0.05 - 3 * pi, 1.0, 0.1, True),
     ],
 )
 def test_no_turret_leaves_its_cables_on_the_way(angle, sign, off, may):
