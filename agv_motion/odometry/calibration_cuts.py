@@ -83,11 +83,14 @@ def _apart(
     agreeing = _consensus(_windows(model, recording, values, share))
     rows, columns = np.nonzero(agreeing)
     kept = np.unique(rows + columns)
-    linked = np.zeros(max(len(kept) - 1, 0), dtype=bool)
-    for i, (a, b) in enumerate(pairwise(kept)):
-        windows = range(max(b - WINDOW + 1, 0), min(a, len(agreeing) - 1) + 1)
-        linked[i] = any(agreeing[j, a - j] and agreeing[j, b - j] for j in windows)
-    return groups(kept, linked)
+    linked = [_is_linked(agreeing, a, b) for a, b in pairwise(kept)]
+    return groups(kept, np.array(linked, dtype=bool))
+
+
+def _is_linked(agreeing: Mask, a: int, b: int) -> bool:
+    """Return whether one placing explains both references."""
+    windows = range(max(b - WINDOW + 1, 0), min(a, len(agreeing) - 1) + 1)
+    return any(agreeing[j, a - j] and agreeing[j, b - j] for j in windows)
 
 
 def groups(kept: NDArray[np.int_], linked: Mask) -> list[NDArray[np.int_]]:

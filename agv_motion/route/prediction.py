@@ -11,14 +11,11 @@ import shapely
 
 from agv_motion.planar import REST, Pose, integrate
 from agv_motion.route.follower import RouteFollower, RouteStep
-from agv_motion.twist_limits import TwistLimits
 
 if TYPE_CHECKING:
     from agv_motion.route.parameters import FollowParameters
     from agv_motion.route.route import Route
-
-NO_LIMITS = TwistLimits(track=0.001, wheel_speed=100.0, turn_rate=100.0)
-"""Faster than any table can sensibly ask for."""
+    from agv_motion.twist_limits import TwistLimits
 
 NOTHING = 'nothing'
 """What holds the speed down where the robot goes as fast as the tables ever allow."""
@@ -88,11 +85,11 @@ def predict(  # noqa: PLR0913 - all but three have a default
         ConfigurationError: The distance of the virtual point is too large for the route.
 
     """
-    follower, hold = RouteFollower(route, parameters), (limits or NO_LIMITS).hold
+    follower = RouteFollower(route, parameters)
 
     def step(pose: Pose, passed: float) -> RouteStep:
         found = follower.step(pose, passed)
-        return found._replace(twist=hold(found.twist))
+        return found if limits is None else found._replace(twist=limits.hold(found.twist))
 
     poses, steps = [start], [step(start, 0.0)]
     while not steps[-1].arrived and (len(steps) - 1) * dt < longest:

@@ -13,6 +13,7 @@ from agv_motion.route.parameters import FollowParameters
 from agv_motion.route.prediction import Prediction, predict
 from agv_motion.route.route import Route
 from agv_motion.route.speeds import RouteLimiter
+from agv_motion.twist_limits import TwistLimits
 
 PARAMETERS = FollowParameters()
 
@@ -89,6 +90,30 @@ def test_it_starts_from_rest():
     run = predict(Route([(0, 0), (20, 0)]), PARAMETERS, Pose(0.0, 0.0, 0.0), 0.1, longest=0.4)
     assert [step.twist.vx for step in run.steps] == pytest.approx([0.0, 1 / 6, 1 / 3, 0.5, 0.5])
     assert [pose.x for pose in run.poses] == pytest.approx([0.0, 0.0, 1 / 60, 0.05, 0.1])
+
+
+def test_its_commands_are_held_within_its_limits():
+    """Fast tables: 120 m/s and 3 rad/s, unless somebody limits them."""
+    fast = FollowParameters(
+        v_dphi=(0.0, 120.0), v_dn=(0.0, 120.0), v_d=(0.0, 0.0, 1.0, 120.0),
+        omega_dphi=(0.0, 0.0, 1.0, 3.0), speed_coupling_ms=0.0, turn_coupling_ms=0.0,
+    )  # fmt: skip
+
+    def first(**options):
+        start = Pose(0.0, 0.0, 1.0)
+        run = predict(Route([(0, 0), (90, 0)]), fast, start, longest=0.01, **options)
+        assert run.dt == 0.05
+        return run.steps[0].twist
+
+    assert first() == pytest.approx((120.0, 0.0, -3.0))
+    assert first(limits=TwistLimits(turn_rate=1.5, wheel_speed=90.0)) == pytest.approx(
+        (60.0, 0.0, -1.5)
+    )
+
+
+def test_after_an_hour_a_prediction_is_given_up():
+    endless = Route([(0, 0), (4, 0), (4, 4)], laps=0)
+    assert predict(endless, PARAMETERS, Pose(0.0, 0.0, 0.0), dt=60.0).duration == 3600.0
 
 
 def test_on_a_straight_route_it_is_never_beside_it():
