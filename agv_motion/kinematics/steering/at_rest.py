@@ -93,7 +93,7 @@ def may_roll(chassis: Chassis, rest: AtRest, wanted: Direction) -> bool:
 
 def _is_too_far(chassis: Chassis, setpoints: Setpoints, wanted: Direction) -> bool:
     """Return whether a turret would leave its cables on the way to ``wanted``."""
-    most, ways = chassis.limits.turn_limit * tau, bearings(chassis.arms, wanted)
+    most, ways = chassis.limits.cables_end, bearings(chassis.arms, wanted)
     for angle, sign, way in zip(setpoints.angles, setpoints.signs, ways, strict=True):
         if abs(angle) > most - pi and way is not None:
             turn = wrap(way - angle) if sign == FORWARDS else wrap(way + pi - angle)
@@ -132,7 +132,7 @@ def choose_goals(chassis: Chassis, setpoints: Setpoints, wanted: Direction) -> G
         wanted: Unit direction; a wheel that it does not move may stand at any angle.
 
     """
-    most, reversal = chassis.limits.turn_limit * tau, chassis.limits.reversal_angle
+    most, reversal = chassis.limits.cables_end, chassis.limits.reversal_angle
     angles, signs, ways = [], [], bearings(chassis.arms, wanted)
     for angle, way, sign in zip(setpoints.angles, ways, setpoints.signs, strict=True):
         near = min(max(angle, -most), most)

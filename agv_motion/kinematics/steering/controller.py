@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import tau
 from typing import TYPE_CHECKING
 
 from agv_motion.errors import ConfigurationError, SignalError
@@ -81,7 +80,7 @@ class SteeringController:
 
     def overturned(self) -> str:
         """Return which turret stands beyond its turn limit, in words; empty if none does."""
-        most = self.planner.limits.turn_limit * tau
+        most = self.planner.limits.cables_end
         angles = [] if self._phase is None else self._phase.setpoints.angles
         furthest = max(angles, key=abs, default=0.0)
         if abs(furthest) <= most:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import copysign, cos, pi, tau
+from math import copysign, cos, pi
 from typing import TYPE_CHECKING
 
 from agv_motion.kinematics.steering.braking import BRAKING, braking_rate, changed, usable_period
@@ -49,14 +49,14 @@ def _turn(rolling: Rolling, limits: SteeringLimits, i: int, line: float, period:
         return False
     setpoints = rolling.setpoints
     off = wrap(2.0 * (line - setpoints.angles[i])) / 2.0
-    if abs(setpoints.angles[i] + off) > limits.turn_limit * tau:
+    if abs(setpoints.angles[i] + off) > limits.cables_end:
         off -= copysign(pi, off)
     forwards = cos(line - setpoints.angles[i] - off) > 0.0
     setpoints.signs[i] = FORWARDS if forwards else BACKWARDS
     acceleration, before = limits.steering_acceleration, setpoints.rates[i]
     change = acceleration * usable_period(setpoints, period)
     if abs(off) < ALONG and abs(before) <= BRAKING * change:
-        rolling.free_turret = -1
+        rolling.free_turret = None
         return True
     rate = min(limits.steering_rate, braking_rate(abs(off), BRAKING * acceleration, period))
     _set_rate(setpoints, i, changed(before, copysign(rate, off), change), period)
@@ -67,10 +67,11 @@ def _turn(rolling: Rolling, limits: SteeringLimits, i: int, line: float, period:
 def brake_free_turret(rolling: Rolling, limits: SteeringLimits, period: float) -> None:
     """Bring a turret that turns at the centre of rotation to a stop: it is not needed any more."""
     i, setpoints = rolling.free_turret, rolling.setpoints
+    assert i is not None
     change = limits.steering_acceleration * usable_period(setpoints, period)
     _set_rate(setpoints, i, changed(setpoints.rates[i], 0.0, change), period)
     if setpoints.rates[i] == 0.0:
-        rolling.free_turret = -1
+        rolling.free_turret = None
 
 
 def _set_rate(setpoints: Setpoints, i: int, rate: float, period: float) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from functools import cached_property
+from math import pi, tau
 from typing import Annotated
 
 from agv_motion.parameters import Spec, check
@@ -50,3 +51,8 @@ class SteeringLimits:
     def __post_init__(self) -> None:
         """Check every row."""
         check(self)
+
+    @cached_property
+    def cables_end(self) -> float:
+        """How far the cables let a turret turn from straight, either way [rad]."""
+        return self.turn_limit * tau

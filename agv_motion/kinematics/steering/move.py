@@ -5,7 +5,7 @@ The equations are those of :mod:`agv_motion.kinematics.steering.planner`.
 
 from __future__ import annotations
 
-from math import atan2, pi, sqrt, tan, tau
+from math import atan2, inf, pi, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.kinematics.steering.braking import BRAKING, braking_rate, usable_period
@@ -69,13 +69,13 @@ class _Demand(NamedTuple):
     turning: float
     """[rad/s] steering rate"""
     nearing: float
-    """[1/s] rate at which the velocity of a wheel vanishes"""
+    """[1/s] rate at which the velocity of a wheel vanishes, 1 at least"""
     receding: float
     """product of both where it grows instead"""
     growing: float
     """square of the rate at which the speed of a wheel changes"""
     landing: float
-    """as ``nearing``, of turrets at which the centre of rotation comes to lie in the end"""
+    """the same of turrets at which the centre of rotation comes to lie in the end, no less"""
     lands_turning: bool
     """whether one of those turns too fast to stop within a step"""
     free: tuple[tuple[int, float], ...]
@@ -96,10 +96,10 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
     ta, tb, tc = tangent = ta / sine, tb / sine, tc / sine
     distance = atan2(sine, cosine)
     limits, angles = chassis.limits, rolling.setpoints.angles
-    edge = limits.turn_limit * tau - pi
-    turning, nearing, receding, growing = 1e-9, 0.0, 0.0, 0.0
+    edge = limits.cables_end - pi
+    turning, nearing, receding, growing = 1e-9, 1.0, 0.0, 0.0
     free: tuple[tuple[int, float], ...] = ()
-    lands_turning, landing = False, 0.0
+    lands_turning, landing = False, -inf
     for i, (x, y) in enumerate(chassis.arms):
         wx, wy = a - c * y, b + c * x
         tx, ty = ta - tc * y, tb + tc * x
@@ -113,7 +113,7 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
         if growth > growing:
             growing = growth
         there = cosine + sine * along
-        if there < POINT or not -edge < angles[i] < edge:
+        if there < POINT or abs(angles[i]) >= edge:
             aside = sine * across
             if there * there + aside * aside < POINT_SQUARED:
                 lands_turning = lands_turning or not is_slow(rolling.setpoints, limits, i, period)
@@ -124,9 +124,8 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
             across = -across
         if across > turning:
             turning = across
-        if along < 0.0:
-            if -along > nearing:
-                nearing = -along
+        if -along > nearing:
+            nearing = -along
         elif along * across > receding:
             receding = along * across
     demand = _Demand(
@@ -145,7 +144,7 @@ def _is_too_far(
     limits: SteeringLimits, rolling: Rolling, i: int, turn: float, distance: float
 ) -> bool:
     """Return whether turret ``i`` had better be reversed, or must not turn so far."""
-    if abs(rolling.setpoints.angles[i] + turn) > limits.turn_limit * tau:
+    if abs(rolling.setpoints.angles[i] + turn) > limits.cables_end:
         return True
     most = limits.reversal_angle + (0.0 if rolling.stopping else limits.reversal_hysteresis)
     return distance > START_ERROR and abs(turn) > most
@@ -156,7 +155,7 @@ def _bounded(limits: SteeringLimits, speed: float, demand: _Demand, period: floa
     tangent, distance, turning, nearing, receding, growing, landing, lands_turning, free = demand
     rate, acceleration = limits.steering_rate, limits.steering_acceleration
     limit, limiter = rate / turning, RATE
-    risk = turning * (nearing if nearing > 1.0 else 1.0)
+    risk = turning * nearing
     if limit * limit * risk > PLANNED * acceleration:
         limit, limiter = sqrt(PLANNED * acceleration / risk), ACCELERATION
     if limit * limit * receding > RECEDING * acceleration:
@@ -169,7 +168,7 @@ def _bounded(limits: SteeringLimits, speed: float, demand: _Demand, period: floa
         limit, limiter = braking, ACCELERATION
     step = limit * period
     if step > FARTHEST or step * nearing > FARTHEST > step * landing:
-        step = FARTHEST / nearing if nearing > 1.0 else FARTHEST
+        step = FARTHEST / nearing
     arrives = step >= distance and not lands_turning
     if arrives:
         limit, limiter = tan(distance) / period, NONE

@@ -39,7 +39,7 @@ def roll(
     target, arrives, limiter, free = move
     if free and not turn_free_turrets(rolling, chassis.limits, free, period):
         target, arrives, limiter, _ = move = TURNING
-    if rolling.free_turret >= 0 and move is not TURNING:
+    if rolling.free_turret is not None and move is not TURNING:
         brake_free_turret(rolling, chassis.limits, period)
         target = STILL
     rolling.stopping = stopping = move is TOO_FAR
@@ -135,19 +135,18 @@ def _drive(
 
     """
     change = limits.wheel_acceleration * period
-    low, high, fastest = 0.0, wanted, 0.0
+    low, high = 0.0, wanted
     lengths, speeds = rolling.lengths, rolling.setpoints.speeds
     for length, signed in zip(lengths, speeds):  # noqa: B905 - measured: strict costs
         if length < POINT:
             continue
-        if length > fastest:
-            fastest = length
         before = signed if signed > 0.0 else -signed
         if before - change > low * length:
             low = (before - change) / length
         if before + change < high * length:
             high = (before + change) / length
     held = WHEEL_ACCELERATION if high < wanted or low > high else NONE
+    fastest = max(lengths)
     if high * fastest > limits.max_wheel_speed:
         high, held = limits.max_wheel_speed / fastest, WHEEL_SPEED
     if high * growth > GROWTH * limits.wheel_acceleration:
@@ -163,5 +162,5 @@ def _at_rest(rolling: Rolling) -> AtRest:
     """Return the platform after its last step."""
     setpoints = rolling.setpoints
     stands = rolling.velocity is STILL and not any(setpoints.rates)
-    rolling.free_turret = -1
+    rolling.free_turret = None
     return AtRest(setpoints, rolling.stance if stands else None)

@@ -139,15 +139,15 @@ class Rolling:
         """[1/s] of ``direction``"""
         self.speed = 0.0
         """[m/s] length of the twist in the planner's measure"""
-        self.free_turret = -1
-        """number of the turret at the centre of rotation, while it turns there; else -1"""
+        self.free_turret: int | None = None
+        """number of the turret at the centre of rotation, while it turns there"""
         self.stopping = False
         """whether it comes to rest because a turret would have to turn too far"""
 
     @property
     def stance(self) -> Stance | None:
         """As which the turrets stand; None while one of them turns for itself."""
-        return Stance(self.direction, self.lengths) if self.free_turret < 0 else None
+        return Stance(self.direction, self.lengths) if self.free_turret is None else None
 
 
 Phase = AtRest | Rolling

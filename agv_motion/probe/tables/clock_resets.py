@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime, timezone
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING
 
 from agv_motion.probe.tables.time_readers import DAY
@@ -27,12 +28,12 @@ def after_reset(shown: Sequence[float]) -> list[bool]:
         shown: What the clock showed [s since 1970], in the order in which rows were written.
 
     """
-    found, right, lost = [], float('-inf'), _begins_unset(shown)
-    before = shown[0] if shown else 0.0
+    found, lost, before = [], _begins_unset(shown), inf
+    right: float | None = None
     for seconds in shown:
         if lost:
-            lost = seconds < right if right > 0.0 else seconds - before <= YEAR
-        else:
+            lost = seconds - before <= YEAR if right is None else seconds < right
+        elif right is not None:
             lost = right - seconds > YEAR and _is_beginning(seconds)
         before = seconds
         if not lost:

@@ -69,7 +69,7 @@ def _like(name: str, told: NDArray[np.float64]) -> str:
     """Return in what unit a column may be a probe, by its name or else by what is usual in it."""
     if unit := unit_in(name):
         return unit
-    usual = float(np.median(told)) if len(told) else 0.0
+    usual = float(np.median(told)) if len(told) else np.nan
     if MILLIVOLT[0] <= usual < MILLIVOLT[1]:
         return 'mV'
     return 'K' if KELVIN[0] <= usual < KELVIN[1] else ''
@@ -78,8 +78,8 @@ def _like(name: str, told: NDArray[np.float64]) -> str:
 def unit_in(name: str) -> str:
     """Return the unit on which the name of a column ends; empty where it ends on none."""
     words = name.lower().replace('[', '_').replace('(', '_').replace(' ', '_')
-    ending = words.rstrip('])').rsplit('_', 1)
-    return UNIT_ENDINGS.get(ending[-1], '') if len(ending) > 1 else ''
+    _, begun, ending = words.rstrip('])').rpartition('_')
+    return UNIT_ENDINGS.get(ending, '') if begun else ''
 
 
 def parameters_for(

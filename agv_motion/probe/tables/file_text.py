@@ -88,9 +88,11 @@ def whole_lines(data: bytes, encoding: str) -> bytes:
     newline, old = ('\n'.encode(encoding), '\r'.encode(encoding))
     newline = newline if newline in data or old not in data else old
     end = data.rfind(newline)
-    while end > 0 and end % len(newline):
-        end = data.rfind(newline, 0, end + len(newline) - 1)
-    return data[: end + len(newline)] if end >= 0 and not end % len(newline) else b''
+    while end >= 0:
+        if not end % len(newline):  # else it is half of one letter and half of the next
+            return data[: end + len(newline)]
+        end = data.rfind(newline, 0, end)
+    return b''
 
 
 def _unmarked_utf16(head: bytes) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from math import cos, pi, sin, tau
+from math import cos, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.kinematics.steering.limits import SteeringLimits
@@ -52,7 +52,7 @@ class SteeringTrial:
             reversal_angle=draw.uniform(pi / 2, pi),
         )
         self.planner = SteeringPlanner(self.turrets, self.limits)
-        most = self.limits.turn_limit * tau
+        most = self.limits.cables_end
         self.phase: Phase = AtRest.at([draw.uniform(-most, most) for _ in range(count)])
         self.period = draw.choice([0.01, 0.02, 0.05, 0.1])
         self._last = 0.0
@@ -102,7 +102,7 @@ class SteeringTrial:
             _most_change(rates, new_rates) / passed / limits.steering_acceleration,
             fastest / limits.max_wheel_speed,
             _most_change(speeds, made.speeds) / period / limits.wheel_acceleration,
-            max(map(abs, made.angles)) / (limits.turn_limit * tau),
+            max(map(abs, made.angles)) / limits.cables_end,
             fit.residual / fastest if fastest else 0.0,
         )
 

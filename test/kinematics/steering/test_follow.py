@@ -82,6 +82,33 @@ def test_where_it_cannot_turn_aside_so_soon_it_brakes_straight_on():
     assert not found.whole
 
 
+@pytest.mark.parametrize(
+    ('rate', 'least', 'most'),
+    [(0.9, 0.5, 1.3), (-0.9, -1.3, -0.5), (0.1, -0.3, 0.5), (1.9, 1.5, 2.0), (-1.9, -2.0, -1.5)],
+)
+def test_all_follow_within_what_rate_and_acceleration_allow(rate, least, most):
+    """Hand calculation: 2 rad/s, and 0.4 rad/s more or less in a step."""
+    platform = moving((0.0, rate, 0.0), rates=(rate, rate))
+    for turn, may in ((least - 0.01, False), (least + 0.01, True), (most - 0.01, True),
+                      (most + 0.01, False)):  # fmt: skip
+        target = (0.0, tan(0.1 * turn) / 0.1, 0.0)
+        assert all_follow(*platform, target, 0.1) == may
+        assert (longest_share(*platform, target, 0.1) == 1.0) == may
+
+
+@pytest.mark.parametrize('side', [1.0, -1.0])
+def test_in_a_long_step_no_turret_turns_by_more_than_69_degrees(side):
+    """1.2 rad, of the 2 that a second would allow: tan(1.2) of 4."""
+    platform = moving((0.0, 0.0, 0.0), acceleration=100.0)
+    assert longest_share(*platform, (0.0, 4.0 * side, 0.0), 1.0) == pytest.approx(tan(1.2) / 4.0)
+
+
+def test_where_no_turret_can_follow_the_direction_stands_at_once():
+    """They turn to the right while the direction goes left: neither braking keeps the limits."""
+    found = nearest_velocity(*moving((0.0, 1.0, 0.0), rates=(-1.0, -1.0)), (0.0, 1.1, 0.0), 0.1)
+    assert found == ((0.0, 0.0, 0.0), False)
+
+
 def test_turrets_that_turn_against_each_other_cannot_follow_a_translation():
     chassis, rolling = moving((0.0, 0.0, 0.0), rates=(1.0, -1.0))
     assert longest_share(chassis, rolling, (0.0, 1.0, 0.0), 0.1) is None

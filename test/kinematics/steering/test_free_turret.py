@@ -52,7 +52,7 @@ def test_its_cables_hold(angle, way):
 def test_it_is_there_when_it_stands_along_the_line_and_could_stop(rate, done):
     rolling = platform(0.5, rate)
     assert turn(rolling, 0.5) == turn(platform(0.5, rate), 0.5 - pi) == done
-    assert rolling.free_turret == (-1 if done else 1)
+    assert rolling.free_turret == (None if done else 1)
 
 
 def test_all_of_them_must_be_there():
@@ -82,4 +82,4 @@ def test_it_brakes_where_it_is_not_needed_any_more():
     assert rolling.free_turret == 1
     brake_free_turret(rolling, LIMITS, 0.1)
     assert rolling.setpoints.rates[1] == 0.0
-    assert rolling.free_turret == -1
+    assert rolling.free_turret is None

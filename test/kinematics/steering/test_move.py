@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, sin, sqrt, tan
+from math import atan2, cos, hypot, inf, pi, sin, sqrt, tan
 
 import pytest
 
 from agv_motion.kinematics.steering.chassis import measure
 from agv_motion.kinematics.steering.limits import SteeringLimits
-from agv_motion.kinematics.steering.move import HERE, TOO_FAR, is_slow, plan_move
+from agv_motion.kinematics.steering.move import (
+    HERE,
+    TOO_FAR,
+    TURNING,
+    _bounded,
+    _Demand,
+    is_slow,
+    plan_move,
+)
 from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling, Stance
 from agv_motion.kinematics.turrets import Turrets
 
@@ -44,6 +52,44 @@ def test_the_last_step_ends_at_the_wanted_direction():
     move = plan(left(0.1))
     assert move.velocity == pytest.approx((0.0, tan(0.1) / 0.1, 0.0))
     assert (move.arrives, move.limiter) == (True, Limiter.NONE)
+
+
+def test_who_stays_arrives_nowhere():
+    assert [move.arrives for move in (HERE, TURNING, TOO_FAR)] == [False] * 3
+
+
+EASY = _Demand(AHEAD, 3.0, 1.0, 1.0, 0.0, 0.0, -inf, lands_turning=False, free=())
+
+
+@pytest.mark.parametrize(
+    ('asked', 'period', 'limits', 'rate', 'limiter'),
+    [
+        ({}, 0.1, {}, 2.0, Limiter.STEERING_RATE),
+        ({'turning': 4.0}, 0.1, {}, 0.5, Limiter.STEERING_RATE),
+        # an eighth of 8 rad/s2, and a quarter where the wheel speeds up
+        ({'turning': 2.0}, 0.1, {'steering_acceleration': 8.0}, sqrt(1 / 2), 'acceleration'),
+        ({'nearing': 4.0}, 0.1, {'steering_acceleration': 8.0}, sqrt(1 / 4), 'acceleration'),
+        ({'receding': 9.0}, 0.1, {'steering_acceleration': 8.0}, sqrt(2 / 9), 'acceleration'),
+        # two fifths of 1 m/s2 at 5 m/s, of wheels that gain 2 for each
+        ({'growing': 4.0}, 0.1, {'wheel_acceleration': 1.0}, 0.4 / 5.0 / 2.0, 'wheels'),
+        # half a radian in a step, and half of the velocity of a wheel, unless it shall vanish
+        ({}, 1.0, {}, 0.5, Limiter.STEERING_RATE),
+        ({'nearing': 2.0}, 0.3, {}, 0.25 / 0.3, Limiter.STEERING_RATE),
+        ({'nearing': 2.0}, 0.2, {}, 0.25 / 0.2, Limiter.STEERING_RATE),
+        ({'nearing': 2.0, 'landing': 1.2}, 0.2, {}, 0.25 / 0.2, Limiter.STEERING_RATE),
+        ({'nearing': 2.0, 'landing': 1.3}, 0.2, {}, 2.0, Limiter.STEERING_RATE),
+    ],
+)
+def test_each_limit_has_its_share_of_what_there_is(asked, period, limits, rate, limiter):
+    """At 2 rad/s, 1000 rad/s2 and 100 m/s2 but for what is told."""
+    found = _bounded(SteeringLimits(**(FAST | limits)), 5.0, EASY._replace(**asked), period)
+    assert found.velocity == pytest.approx((rate, 0.0, 0.0))
+    words = {
+        'acceleration': Limiter.STEERING_ACCELERATION,
+        'wheels': Limiter.WHEEL_ACCELERATION,
+    }
+    assert found.limiter is words.get(limiter, limiter)
+    assert not found.arrives
 
 
 def test_the_acceleration_limits_the_rate():
@@ -100,7 +146,10 @@ def test_a_turret_at_which_the_centre_of_rotation_comes_to_lie_must_be_able_to_s
     setpoints.rates[1] = rate
     rolling = Rolling(setpoints, Stance(before, [1.0, 1.0]))
     rolling.speed = 0.1
-    assert plan_move(chassis, rolling, (0.0, half, half), 0.1).arrives is arrives
+    move = plan_move(chassis, rolling, (0.0, half, half), 0.1)
+    assert move.arrives is arrives
+    if not arrives:  # half of the way, and as much again in each step that follows
+        assert hypot(*move.velocity) == pytest.approx(0.05 / 0.1)
 
 
 @pytest.mark.parametrize(('angle', 'far'), [(1.7, False), (1.8, True), (-1.7, False), (-1.8, True)])

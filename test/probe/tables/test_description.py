@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from math import isnan
+from math import isnan, nan
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from agv_motion.errors import ConfigurationError
@@ -36,9 +38,37 @@ def test_one_row_has_no_step(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ('usual', 'like'),
+    [
+        (0.049, ''), (0.05, 'mV'), (2.49, 'mV'), (2.5, 'K'), (29.9, 'K'), (30.0, ''), (nan, ''),
+    ],
+)  # fmt: skip
+def test_what_is_usual_in_a_column_tells_its_unit(usual, like):
+    """A thermocouple of type T tells 0.05 to 2.5 mV, which are 1 to 60 K; kelvin go from 2.5."""
+    values = np.array([[usual], [usual], [9999.0 if like else usual]])
+    (found,) = describe(SimpleNamespace(times=np.arange(3.0), values=values), ['a']).columns
+    assert found.like == like
+    assert (found.values, found.missing) == ((0, 3) if isnan(usual) else (3, 0))
+
+
+def test_more_than_one_and_a_half_steps_are_a_gap():
+    times = np.array([0.0, 10.0, 25.0, 40.1, 50.0, 60.0, 70.0])
+    found = describe(SimpleNamespace(times=times, values=np.zeros((7, 0))), [])
+    assert found.step == 10.0
+    assert found.gaps == ((25.0, 40.1),)
+
+
+@pytest.mark.parametrize(
     ('name', 'unit'),
-    [('delta_v_mv', 'mV'), ('dT [K]', 'K'), ('T (°C)', 'K'), ('a_uV', 'uV'), ('probe', '')],
-)
+    [
+        ('delta_v_mv', 'mV'),
+        ('dT [K]', 'K'),
+        ('T (°C)', 'K'),
+        ('a_uV', 'uV'),
+        ('probe', ''),
+        ('k', ''),
+    ],
+)  # fmt: skip
 def test_units_in_names(name, unit):
     assert unit_in(name) == unit
 

@@ -103,6 +103,24 @@ def test_a_line_that_has_no_end_yet_is_left(codec, rest):
     assert whole_lines('8,25'.encode(codec), codec) == b''
 
 
+@pytest.mark.parametrize('codec', ['utf-8', 'utf-16-le', 'utf-16-be'])
+@pytest.mark.parametrize(
+    ('text', 'whole'),
+    [
+        ('a\rb\rc', 'a\rb\r'),  # as an old Macintosh ends them
+        ('a\r\nb\rc', 'a\r\n'),
+        ('a\nb', 'a\n'),
+        ('\n\u0100\u0a61\u0100', '\n'),  # half a letter each of two make a newline too
+        ('ab\n\u0100\u0a61\u0100\u0a61\u0100', 'ab\n'),
+        ('\u0100\u0a61\u0100', ''),
+        ('ab', ''),
+        ('', ''),
+    ],
+)
+def test_a_line_ends_with_lf_or_where_there_is_none_with_cr(codec, text, whole):
+    assert whole_lines(text.encode(codec), codec) == whole.encode(codec)
+
+
 def test_lines_are_counted_as_an_editor_does_and_a_power_cut_is_told():
     found = lines_of('\ufeffa\r\n\n  \n\0\0\0\nb\0c\rd', first=10)
     assert [(line.number, line.text, line.fault) for line in found] == [
