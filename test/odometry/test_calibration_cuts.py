@@ -150,9 +150,7 @@ def straight(off, turns=None, far=0.1):
     """Return one window: wheels along x, places beside it by ``off`` [m]."""
     wheels = np.arange(9.0)[None] + 0j
     turns = np.full((1, 9), np.nan) if turns is None else np.array([turns], dtype=float)
-    return _Path(
-        wheels, wheels + 1j * np.array([off]), turns, np.array([[far]]), np.array([[0.2]])
-    )
+    return _Path(wheels, wheels + 1j * np.array([off]), turns, np.array([[far]]), np.array([[0.2]]))
 
 
 @pytest.mark.parametrize(('spoilt', 'kept'), [(3, 6), (4, 0)])

@@ -80,9 +80,10 @@ class SteeringController:
 
     def overturned(self) -> str:
         """Return which turret stands beyond its turn limit, in words; empty if none does."""
-        most = self.planner.limits.cables_end
-        angles = [] if self._phase is None else self._phase.setpoints.angles
-        furthest = max(angles, key=abs, default=0.0)
+        if self._phase is None:
+            return ''
+        most, angles = self.planner.limits.cables_end, self._phase.setpoints.angles
+        furthest = max(angles, key=abs)
         if abs(furthest) <= most:
             return ''
         return (

@@ -13,6 +13,7 @@ from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.kinematics.steering.controller import SteeringController
 from agv_motion.kinematics.steering.limits import SteeringLimits
 from agv_motion.kinematics.steering.readings import LOST_TURRET, MOST_TURNS
+from agv_motion.kinematics.steering.state import Limiter
 from agv_motion.kinematics.turrets import Turrets
 from agv_motion.planar import REST, Twist
 
@@ -40,6 +41,7 @@ def test_nothing_is_commanded_while_nothing_is_known_or_wanted():
     assert not one.step(0.0, 0.05)
     one.set_target(REST)
     assert one.setpoints is None
+    assert one.overturned() == ''
     one.set_target(AHEAD)
     assert one.setpoints.angles == [0.0, 0.0]
 
@@ -109,6 +111,29 @@ def test_cables_are_not_unwound_while_driving_or_where_there_is_nothing_to_do():
     one.set_target(AHEAD)
     with pytest.raises(ConfigurationError, match='zero cmd_vel'):
         one.unwind()
+
+
+def test_who_wants_to_drive_or_to_stop_ends_the_unwinding():
+    for end in (lambda one: one.set_target(AHEAD), lambda one: one.stop()):
+        one = drive()
+        one.set_measured([pi, pi])
+        one.unwind()
+        one.set_target(REST)
+        assert one.unwinding
+        end(one)
+        assert not one.unwinding
+
+
+def test_turrets_that_turn_for_a_twist_are_not_resting():
+    """From 3 rad to a quarter turn at 2 rad/s: longer than the rest after which it is unwound."""
+    one, now = drive(unwind_after=0.3), 0.0
+    one.set_measured([3.0, 3.0])
+    one.set_target(Twist(0.0, 0.3, 0.0))
+    for _ in range(7):
+        now = steps(one, 1, now)
+        assert not one.unwinding
+        assert one.setpoints.limiter is Limiter.ALIGNING
+    assert one.setpoints.angles == pytest.approx([1.6, 1.6], abs=0.04)
 
 
 def test_a_stop_holds_the_angles_and_the_next_start_takes_them_as_they_are():

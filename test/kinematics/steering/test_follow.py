@@ -103,6 +103,71 @@ def test_in_a_long_step_no_turret_turns_by_more_than_69_degrees(side):
     assert longest_share(*platform, (0.0, 4.0 * side, 0.0), 1.0) == pytest.approx(tan(1.2) / 4.0)
 
 
+def wheels_and_changes(chassis, direction, change):
+    """Return (3,) velocity of each wheel, and how it changes, as complex numbers."""
+    (a, b, c), (va, vb, vc), arms = direction, change, np.array(chassis.arms)
+    x, y = arms.T
+    return a - c * y + 1j * (b + c * x), va - vc * y + 1j * (vb + vc * x)
+
+
+def chosen(seed):
+    """Return a platform on three turrets, a wanted velocity, and a random number."""
+    chance = np.random.default_rng(seed)
+    direction = chance.normal(size=3)
+    direction /= np.hypot.reduce(direction)
+    velocity, target = 0.5 * chance.normal(size=3), 2.0 * chance.normal(size=3)
+    limits = SteeringLimits(steering_rate=2.0, steering_acceleration=4.0)
+    rolling = Rolling(AtRest.at([0.0] * 3).setpoints, Stance(tuple(direction), [1.0] * 3))
+    rolling.velocity = tuple(velocity)
+    chassis = measure(CORNERS, limits)
+    wheels, changes = wheels_and_changes(chassis, direction, velocity)
+    rolling.setpoints.rates = ((changes / wheels).imag + 0.3 * chance.normal(size=3)).tolist()
+    return chassis, rolling, tuple(target)
+
+
+def test_the_longest_share_is_that_of_a_search_over_all():
+    """The turn of each wheel in a step of 0.1 s, by its own angle, for each of 4001 shares."""
+    shares, found = np.linspace(0.0, 1.0, 4001)[:, None], []
+    for seed in range(60):
+        chassis, rolling, target = chosen(seed)
+        rates = np.array(rolling.setpoints.rates)
+        wheels, now = wheels_and_changes(chassis, rolling.direction, rolling.velocity)
+        _, then = wheels_and_changes(chassis, rolling.direction, target)
+        turns = np.angle((wheels + 0.1 * (now + shares * (then - now))) / wheels) / 0.1
+        least, most = rates - 0.4, rates + 0.4
+        most = np.where(most > 2.0, np.maximum(least, 2.0), most)
+        least = np.where(least < -2.0, np.minimum(most, -2.0), least)
+        may = np.all((least <= turns) & (turns <= most), axis=1)
+        share = longest_share(chassis, rolling, target, 0.1)
+        if may.any():
+            assert share == pytest.approx(shares[may].max(), abs=3e-4), seed
+        else:
+            assert share is None, seed
+        found.append(share)
+    assert 10 < found.count(None) < 40
+
+
+def test_braking_is_certain_by_the_turn_and_the_nearing_of_the_fastest_wheel():
+    for seed in range(20):
+        chassis, rolling, velocity = chosen(seed)
+        wheels, changes = wheels_and_changes(chassis, rolling.direction, velocity)
+        ratio = changes / wheels
+        nearing = max(np.hypot.reduce(velocity), *-ratio.real)
+        enough = 4.0 * nearing * np.abs(ratio.imag).max()
+        for share in (0.99, 1.01):
+            limits = SteeringLimits(steering_acceleration=share * enough)
+            assert can_brake(measure(CORNERS, limits), rolling, velocity) == (share > 1.0)
+
+
+@pytest.mark.parametrize(('rate', 'share'), [(0.5, 1.0), (1.0, None), (0.0, None)])
+@pytest.mark.parametrize('side', [1.0, -1.0])
+def test_a_velocity_that_stays_is_followed_or_is_not(rate, share, side):
+    """0.5 rad/s, of turrets that turn already, too fast to slow down to it, or not yet."""
+    velocity = (0.0, 0.5 * side, 0.0)
+    platform = moving(velocity, rates=(rate * side, rate * side))
+    assert longest_share(*platform, velocity, 0.1) == share
+
+
 def test_where_no_turret_can_follow_the_direction_stands_at_once():
     """They turn to the right while the direction goes left: neither braking keeps the limits."""
     found = nearest_velocity(*moving((0.0, 1.0, 0.0), rates=(-1.0, -1.0)), (0.0, 1.1, 0.0), 0.1)
