@@ -6,6 +6,7 @@ import csv
 import re
 from collections import Counter
 from itertools import chain
+from statistics import mode
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.errors import AgvMotionError, SourceError
@@ -111,7 +112,7 @@ def inspect(file: str) -> Inspection:
     if not rows[delimiter]:
         msg = f'{file} has no row: give a file with a row of names and rows of numbers'
         raise SourceError(msg)
-    width = Counter(len(cells) for _, cells in rows[delimiter]).most_common(1)[0][0]
+    width = _usual_width(rows[delimiter])
     _require_points(rows[delimiter], width, str(files[0]))
     table = [row for row in rows[delimiter] if len(row[1]) >= width]
     of_data = [_is_data(cells) for _, cells in table]
@@ -146,10 +147,11 @@ def _require_points(rows: Sequence[tuple[int, list[str]]], width: int, file: str
 
     """
     data = [cells for _, cells in rows if len(cells) == width and _is_data(cells)]
-    number, names = next((row for row in rows if len(row[1]) > 1), (0, []))
+    if not data:
+        return
+    number, names = next(row for row in rows if len(row[1]) > 1)
     if (
-        data
-        and width == 2 * len(names) - 1
+        width == 2 * len(names) - 1
         and not any(map(is_number, names))
         and all(cell.lstrip('+-').isdecimal() for cells in data for cell in cells[1:])
     ):
@@ -173,9 +175,13 @@ def _rows(lines: Sequence[FileLine], delimiter: str) -> list[tuple[int, list[str
     return found
 
 
+def _usual_width(rows: Sequence[tuple[int, list[str]]]) -> int:
+    return mode(len(cells) for _, cells in rows)
+
+
 def _clean_share(rows: Sequence[tuple[int, list[str]]]) -> float:
     """Return how many of the cells are each one thing: a number, a time, nothing, a mere word."""
-    if not rows or Counter(len(cells) for _, cells in rows).most_common(1)[0][0] < 2:
+    if not rows or _usual_width(rows) < 2:
         return 0.0
     data = [cells for _, cells in rows if _is_data(cells)]
     cells = list(chain.from_iterable(data))
@@ -206,8 +212,8 @@ def _time_of(columns: Sequence[Column]) -> tuple[str, tuple[str, ...]]:
     ranked = sorted(columns, key=lambda column: not sounds_like(column.name, TIME_WORDS))
     for column in ranked:
         named = sounds_like(column.name, TIME_WORDS) or column is columns[0]
-        formats = _formats(column.cells, numbers=named)
-        if not formats:
+        formats = _formats(column.cells)
+        if not formats or (_are_numbers(column.cells) and not named):
             continue
         clock = _clock_beside(column, columns)
         return (f'{column.name} {JOIN} {clock}' if clock else column.name), formats
@@ -216,20 +222,22 @@ def _time_of(columns: Sequence[Column]) -> tuple[str, tuple[str, ...]]:
             parts = columns[begin : begin + length]
             words = [' '.join(row) for row in zip(*(part.cells for part in parts), strict=False)]
             whole = all(map(str.isdecimal, chain.from_iterable(part.cells for part in parts)))
-            formats = _formats(words, numbers=False) if whole or length == 2 else ()
+            formats = _formats(words) if whole or length == 2 else ()
             if formats and set(formats) <= set(OF_COLUMNS):
                 return f' {JOIN} '.join(part.name for part in parts), formats
     return '', ()
 
 
-def _formats(words: Sequence[str], *, numbers: bool) -> tuple[str, ...]:
-    """Return the formats that read most of the words; of numbers only if they are looked for."""
+def _are_numbers(words: Sequence[str]) -> bool:
+    return all(map(is_number, words))
+
+
+def _formats(words: Sequence[str]) -> tuple[str, ...]:
+    """Return the formats that read most of the words: one, unless they are numbers alone."""
     found = Counter(chain.from_iterable(readings(word) for word in words))
     most = [name for name, count in found.items() if count >= MOST * len(words)]
-    if words and all(map(is_number, words)):
-        return tuple(most) if numbers else ()
-    if not most:
-        return ()
+    if not most or _are_numbers(words):
+        return tuple(most)
     try:
         return (choose(words, joined=True).name,)
     except SourceError:
