@@ -7,7 +7,6 @@ milliseconds) is never guessed into one, and neither is 10/06/2013: the error na
 from __future__ import annotations
 
 import re
-from collections import Counter
 from datetime import datetime, timezone
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -173,13 +172,12 @@ def second_reading(words: Sequence[str]) -> str:
 
 def without_clock(words: Sequence[str], times: Sequence[float]) -> str:
     """Return what is missing where all times are days alone, and some have several rows."""
-    if all(time % 86400.0 == 0.0 for time in times) and not any(':' in word for word in words):
-        repeated = Counter(times).most_common(1)[0][1] > 1
-        if repeated:
-            return (
-                'days alone, some with several rows: name the column of the clock too, '
-                "as csv.time_column: 'date + clock'"
-            )
+    days = all(time % 86400.0 == 0.0 for time in times) and not any(':' in word for word in words)
+    if days and len(set(times)) < len(times):
+        return (
+            'days alone, some with several rows: name the column of the clock too, '
+            "as csv.time_column: 'date + clock'"
+        )
     return ''
 
 

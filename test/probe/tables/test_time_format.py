@@ -47,6 +47,14 @@ def test_days_that_may_be_months_are_refused_with_both_readings(words):
         choose(words, joined=False)
 
 
+def test_ten_times_as_many_days_alone_are_not_enough_and_eleven_are():
+    both = ['06/13/2013', '10/06/2013']
+    words = [f'{day}/06/2013' for day in range(13, 24)]
+    assert choose([*both, *words], joined=False).name == 'day_first'
+    with pytest.raises(SourceError, match=r"'10/06/2013' may be .*2013-06-10.*2013-10-06"):
+        choose([*both, *words[1:]], joined=False)
+
+
 def test_columns_that_are_joined():
     assert choose(['2013 161 0', '2013 161 30'], joined=True).name == 'year_day'
     assert choose(['2013 6 10 0 30'], joined=True).name == 'fields'
@@ -83,6 +91,8 @@ def test_ten_digits_of_a_date_and_days_with_several_rows_are_refused():
     assert 'date + clock' in without_clock(['2013-06-10'] * 2, [86400.0, 86400.0])
     assert not without_clock(['2013-06-10', '2013-06-11'], [0.0, 86400.0])
     assert not without_clock(['2013-06-10 00:00'] * 2, [0.0, 0.0])
+    assert not without_clock(['2013-06-10', '2013-06-10 00:00'], [0.0, 0.0])
+    assert not without_clock(['2013-06-10'] * 2, [0.0, 1.0])
     assert not without_clock(['20130610', '2013061006', '2013061006'], [0.0, 21600.0, 21600.0])
 
 
