@@ -21,6 +21,44 @@ def test_three_rows_by_hand():
         assert CALIBRATIONS[name].flux_density(0.25) == pytest.approx(flux, rel=1e-4)
 
 
+FITTED = """
+coniferous 116.6 1.079 0.40
+diffuse_porous 153.4 1.095 0.53
+ring_porous 120.8 1.124 0.39
+abies_concolor 138.9 0.915 0.22
+acer_campestre 128.4 1.151 0.62
+acer_pseudoplatanus 66.5 0.769 0.17
+fagus_grandifolia 203.7 0.899 0.30
+fagus_sylvatica 162.2 1.118 0.18
+larix_decidua 169.5 1.223 0.10
+liquidambar_styraciflua 116.0 1.147 0.26
+malus_domestica 134.4 1.201 0.40
+picea_abies 215.0 1.456 0.13
+pinus_echinata 63.5 0.610 0.18
+pinus_taeda 69.4 1.090 0.32
+populus_deltoides 151.0 1.019 0.20
+populus_nigra 174.5 1.144 0.14
+prunus_persica 133.4 1.063 0.18
+pseudotsuga_menziesii 112.5 1.181 0.23
+quercus_alba 273.1 1.597 0.37
+tilia_cordata 115.1 0.947 0.20
+ulmus_americana 101.6 0.977 0.28
+"""
+"""a [g/m2/s], b and the standard deviation of ln F, as fitted to what was published"""
+
+
+def test_every_row_is_as_it_was_fitted():
+    rows = [line.split() for line in FITTED.split('\n')[1:-1]]
+    assert len(rows) == 21
+    assert list(CALIBRATIONS) == ['granier', *(name for name, *_ in rows)]
+    for name, *numbers in rows:
+        coefficient, exponent, spread = map(float, numbers)
+        expected = pytest.approx((1e-6 * coefficient, exponent, spread), rel=1e-12)
+        assert tuple(CALIBRATIONS[name]) == expected, name
+    granier = CALIBRATIONS['granier']
+    assert granier == FluxCalibration(118.99e-6, 1.231, 0.58)
+
+
 def test_ones_own_pair():
     own = CalibrationParameters(of='custom', coefficient=2e-4, exponent=1.5, spread=0.2).chosen()
     assert own == FluxCalibration(2e-4, 1.5, 0.2)

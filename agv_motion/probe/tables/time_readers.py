@@ -95,7 +95,7 @@ def offset_of(zone: str | None) -> float | None:
         return None
     if zone in {'Z', 'UTC'}:
         return 0.0
-    minutes = int(zone[-2:]) if len(zone) > 3 else 0
+    minutes = int(zone[3:].lstrip(':') or 0)
     seconds = int(zone[1:3]) * 3600.0 + minutes * 60.0
     if minutes > 59 or seconds > MOST_AHEAD:
         raise ValueError(zone)
@@ -151,11 +151,9 @@ def _year_day(word: str) -> Instant:
     if not (word.isascii() and year.isdecimal() and len(year) == 4 and len(clock) < 2):
         raise ValueError(word)
     number = _number(day)
-    if not 1.0 <= number < 367.0 or (clock and number % 1.0):
-        raise ValueError(word)
     begin = datetime(int(year), 1, 1, tzinfo=timezone.utc)
     whole = begin + timedelta(days=int(number) - 1)
-    if whole.year != begin.year:
+    if whole.year != begin.year or (clock and number % 1.0):
         raise ValueError(word)
     seconds = _clock(clock[0]) if clock else round(number % 1.0 * DAY, 1)
     return Instant(whole.timestamp() + seconds, zoned=False)

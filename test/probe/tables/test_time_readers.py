@@ -36,6 +36,9 @@ NOON = 43200.0
         ('excel', '41435.5', NOON),
         ('excel', '41435.0208333', 1800.0),
         ('excel', '41435.521', NOON + 1800.0),  # three digits tell 86 s: a whole minute is meant
+        ('excel', '41435.5215', NOON + 1860.0),  # four tell 8.6 s: 2.4 s from it is meant for it
+        ('excel', '41435.5001', NOON + 9.0),  # and 8.64 s from it is meant for a whole second
+        ('excel_1904', '39973.5', NOON),
         ('matlab', '735395.5', NOON),
         ('year_day', '2013 161 1200', NOON),
         ('year_day', '2013 161 2400', 86400.0),
@@ -44,6 +47,22 @@ NOON = 43200.0
         ('fields', '2013 6 10', 0.0),
         ('fields', '2013 6 10 12', NOON),
         ('fields', '2013 6 10 11 59 60', None),
+        ('fields', '2013 6 10 11 59 59.5', NOON - 0.5),
+        ('fields', '2013 6 10 24', 86400.0),
+        ('year_day', '2012 366', -161 * 86400.0),
+        ('year_day', '2013 161 0', 0.0),
+        ('year_day', '2013 161 5', 300.0),
+        ('year_day', '2013 161 12:00:01,5', NOON + 1.5),
+        ('year_day', '2013 161 1:00PM', NOON + 3600.0),
+        ('year_day', '2013 161.000012', 1.0),
+        ('iso', '2013-06-10 12:59:59', NOON + 3599.0),
+        ('iso', '2013-06-10 12:30 AM', 1800.0),
+        ('iso', '2013-06-10 01:30 PM', NOON + 5400.0),
+        ('YYYYMMDDHHMMSS', '20130610120102', NOON + 62.0),
+        ('YYYYMMDDHHMM', '201306101201', NOON + 60.0),
+        ('epoch_us', '1370822400250000', 0.25),
+        ('epoch_ns', '1370822400250000000', 0.25),
+        ('epoch_s', '1370822400', 0.0),
     ],
 )
 def test_words(name, word, since_dawn):
@@ -80,6 +99,12 @@ def test_a_zone_in_the_word_counts(word, seconds):
         ('year_day', '2013 0.5'), ('year_day', '2013 161.5 1200'), ('fields', '13 6 10'),
         ('fields', '2013 6 10 12.5'), ('fields', '2013 0_6 1_0'),
         ('iso', '2013-06-10 12:30+14:30'), ('iso', '2013-06-10 12:30+01:60'),
+        ('year_day', '13 161'), ('year_day', '20133 161'), ('year_day', 'x013 161'),
+        ('year_day', '2013 161 12 30'), ('year_day', '201\uff13 161'), ('year_day', '2012 367'),
+        ('year_day', '2013 0'), ('year_day', '2013 161 1260'),
+        ('year_day', '2013 161 12:00Z'), ('fields', '2013 6 10 1 2 3 4'), ('fields', '2013 6'),
+        ('fields', '2013 6 10 12 30.5'), ('YYYYMMDD', '2013061\uff10'), ('YYYYMMDD', '2013061x'),
+        ('iso', '2013-06-10 0:30 PM'), ('iso', '2013-06-10 25:00'), ('iso', '2013-06-10 24:00:01'),
     ],
 )  # fmt: skip
 def test_what_is_no_such_time_is_refused(name, word):
@@ -100,6 +125,31 @@ def test_no_number_but_seconds_is_taken_unasked(word):
 def test_days_of_a_spreadsheet_tell_no_zone_whatever_their_digits():
     for word in ('41435.5', '41435.12345678'):
         assert not FORMATS['excel'](word).zoned
+
+
+def test_what_is_less_than_a_hundredth_of_a_millisecond_is_rounding():
+    read = FORMATS['excel']
+    assert read('41435.50000000009').seconds == DAWN + NOON
+    assert read('41435.50000000017').seconds == pytest.approx(DAWN + NOON + 1.5e-5, abs=1e-6)
+    assert read('41435.50000000017').seconds != DAWN + NOON
+
+
+def test_who_tells_no_zone_is_known():
+    """Seconds since 1970 have one; what is written in digits may be of any place."""
+    assert all(FORMATS[f'epoch_{unit}']('7').zoned for unit in ('s', 'ms', 'us', 'ns'))
+    words = {
+        'iso': ('2013-06-10', '2013-06-10 12:00'), 'YYYYMMDD': ('20130610',),
+        'matlab': ('735395',), 'year_day': ('2013 161', '2013 161 1200'),
+        'fields': ('2013 6 10',), 'day_first': ('10.06.2013 12:00',),
+    }  # fmt: skip
+    assert not any(FORMATS[name](word).zoned for name, told in words.items() for word in told)
+    assert not of_pattern('%d.%m.%Y')('10.06.2013').zoned
+
+
+def test_a_logger_wrote_from_1990_to_2099():
+    seconds = 631_151_999.0, 631_152_000.0, 4_102_444_799.0, 4_102_444_800.0
+    found = [in_range(Instant(one, zoned=True)) for one in seconds]
+    assert found == [False, True, True, False]
 
 
 def test_patterns():
