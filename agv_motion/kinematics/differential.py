@@ -110,7 +110,7 @@ class DifferentialDrive:
         vx, vy, wz = twist
         across = 0.5 * self.track * wz
         left, right = vx - across, vx + across
-        if not isfinite(left + right + vy):
+        if not (isfinite(left) and isfinite(right) and isfinite(vy)):
             require_finite('twist', twist)
             require_finite('wheel speeds', (left, right))
         if abs(vy) > STANDSTILL:
@@ -165,6 +165,6 @@ class DifferentialDrive:
             msg = f'{len(values)} {name} for 2 wheels: give left and right'
             raise SignalError(msg)
         left, right = values
-        if not isfinite(left + right):
+        if not (isfinite(left) and isfinite(right)):
             require_finite(name, (left, right))
         return left, right

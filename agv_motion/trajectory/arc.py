@@ -99,7 +99,7 @@ class Arc:
     def turn_rate(self) -> float:
         """Of the heading at full speed, left positive [rad/s]; the ramps are slower."""
         rate = self.speed / (0.5 * self.diameter + self.track)
-        return copysign(rate, self.angle * self.speed)
+        return rate if self.angle >= 0.0 else -rate
 
     @property
     def duration(self) -> float:
@@ -123,5 +123,5 @@ class Arc:
 
         """
         require_finite('start', start)
-        turn = copysign(self.angle, self.angle * self.speed)
+        turn = self.angle if self.speed >= 0.0 else -self.angle
         return integrate(start, Twist(copysign(self.length, self.speed), 0.0, turn), 1.0)

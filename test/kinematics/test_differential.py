@@ -31,6 +31,12 @@ def test_a_hand_calculation():
     assert DRIVE.rates(command.speed) == pytest.approx((6.0, 17.5), abs=1e-13)
 
 
+def test_the_matrix_has_a_row_for_each_wheel():
+    assert DRIVE.matrix == ((1.0, 0.0, -0.2), (1.0, 0.0, 0.2))
+    assert len(DRIVE) == 2
+    assert DifferentialDrive(0.4, [0.05, 0.04]).track == 0.4
+
+
 @given(DRIVES, SPEEDS, SPEEDS)
 def test_the_maps_are_inverse(drive, vx, wz):
     there = drive.command(Twist(vx, 0.0, wz)).speed
@@ -82,6 +88,9 @@ def test_what_is_not_finite_is_refused(bad):
         lambda: DRIVE.twist([bad, 0.0]),
         lambda: DRIVE.rates([0.0, bad]),
         lambda: DRIVE.speeds([bad, bad]),
+        lambda: DRIVE.speeds([bad, 0.0]),
+        lambda: DRIVE.twist([0.0, bad]),
+        lambda: DRIVE.command(Twist(bad, bad, bad)),
     ):
         with pytest.raises(SignalError, match='must be finite'):
             act()

@@ -20,6 +20,14 @@ def test_a_probe_is_as_its_quality_or_learns_or_has_said_nothing():
     assert condition(reading(Quality.OFF, None, 0.1)) == 'off'
 
 
+def test_a_probe_that_never_spoke_has_been_silent_since_the_epoch():
+    conditions = ProbeConditions((), 1)
+    conditions.update(10.0, [None])
+    assert conditions.values([None]) == {
+        'probe_1 condition': 'no reading', 'probe_1 since [s]': '0.0', 'probe_1 signal': '',
+    }  # fmt: skip
+
+
 def test_since_when_counts_from_the_last_change():
     conditions = ProbeConditions(('probe_2', 'probe_1', 'probe_2'), 2)
     good, off = reading(), reading(Quality.OFF, None, 0.8)
@@ -31,5 +39,8 @@ def test_since_when_counts_from_the_last_change():
     assert (values['probe_1 signal'], values['probe_2 condition']) == ('s2', 'off')
     assert values['probe_1 sap flow'] == '0.500'
     assert 'probe_2 sap flow' not in values
+    assert values['probe_1 flux density [m/s]'] == '1.0000e-05'
+    learning = good._replace(flux_density=None, sap_flow=None)
+    assert 'probe_1 flux density [m/s]' not in conditions.values([learning, off])
     assert values['probe_2 dT [K]'] == '0.800'
     assert conditions.values([reading(Quality.MISSING, None, nan), off])['probe_1 dT [K]'] == 'nan'

@@ -33,8 +33,10 @@ def test_a_needle_in_sapwood_alone_is_not_corrected(difference, zero_flow):
 
 
 def test_heartwood_alone_is_no_reading():
-    """Half in heartwood, dT 10 of 20: the sapwood would have none left."""
-    assert Conversion(CALIBRATIONS['granier'], 0.5, NONE).index(0.0, 10.0, 20.0) == inf
+    """Half in heartwood, dT 10 of 20: the sapwood would have none left; of 10.25 it has 0.5 K."""
+    half = Conversion(CALIBRATIONS['granier'], 0.5, NONE)
+    assert half.index(0.0, 10.0, 20.0) == half.index(0.0, 9.0, 20.0) == inf
+    assert half.index(0.0, 10.25, 20.0) == pytest.approx(19.5 / 0.5, rel=1e-14)
 
 
 def test_an_old_probe_is_scaled():

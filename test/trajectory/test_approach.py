@@ -21,11 +21,11 @@ def test_the_first_measurement_is_the_average():
 
 
 def test_later_ones_count_by_the_time_that_they_took():
-    """A third of 3 s is the time constant: after 0.1 s, 1 - e^-0.1 of the way is gone."""
+    """A third of 6 s is the time constant: after 0.1 s, 1 - e^-0.05 of the way is gone."""
     approach = Approach()
-    approach.update(FAR, 1.0, AHEAD, 0.1, patience=3.0)
-    approach.update(NEAR, 0.5, REST, 0.1, patience=3.0)
-    left = exp(-0.1)
+    approach.update(FAR, 1.0, AHEAD, 0.1, patience=6.0)
+    approach.update(NEAR, 0.5, REST, 0.1, patience=6.0)
+    left = exp(-0.05)
     assert approach.error == pytest.approx((0.5 + 0.5 * left, 0.2 * (1 - left), 0.2 * left))
     assert approach.twist == pytest.approx((0.4 * left, 0.0, 0.1 * left))
 

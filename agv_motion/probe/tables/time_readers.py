@@ -192,9 +192,7 @@ def of_pattern(pattern: str) -> Callable[[str], Instant]:
         try:
             moment, later = datetime.strptime(word, pattern), 0.0  # noqa: DTZ007 - may be without
         except ValueError:
-            begun = re.sub(r'\b24(?=:?00)', '00', word, count=1)
-            if begun == word or '%H' not in pattern:
-                raise
+            begun = re.sub(r'\b24(?=:?00)', '00', word)
             moment, later = datetime.strptime(begun, pattern), DAY  # noqa: DTZ007
             if moment.hour or moment.minute or moment.second:
                 raise

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from agv_motion.probe.tables import time_readers
 from agv_motion.probe.tables.time_readers import FORMATS, UNASKED, Instant, in_range, of_pattern
 
 DAWN = 1_370_822_400.0
@@ -52,6 +53,7 @@ NOON = 43200.0
         ('year_day', '2012 366', -161 * 86400.0),
         ('year_day', '2013 161 0', 0.0),
         ('year_day', '2013 161 5', 300.0),
+        ('year_day', '2013 161 12345', 5025.0),
         ('year_day', '2013 161 12:00:01,5', NOON + 1.5),
         ('year_day', '2013 161 1:00PM', NOON + 3600.0),
         ('year_day', '2013 161.000012', 1.0),
@@ -152,9 +154,26 @@ def test_a_logger_wrote_from_1990_to_2099():
     assert found == [False, True, True, False]
 
 
+@pytest.mark.parametrize(
+    ('word', 'zoned'),
+    [('2013-06-10 12:00', False), ('2013-06-10T12:00:00', False), ('2013-06-10 12:00:00Z', True)],
+)
+def test_the_usual_word_is_read_the_quick_way(word, zoned, monkeypatch):
+    monkeypatch.setattr(time_readers, '_iso', None)
+    assert UNASKED['iso'](word) == Instant(DAWN + NOON, zoned)
+
+
+def test_unasked_a_number_is_of_seconds_since_1970():
+    assert UNASKED['iso']('1370822400.5') == Instant(DAWN + 0.5, zoned=True)
+    assert UNASKED['iso']('2013-6-10') == Instant(DAWN, zoned=False)
+
+
 def test_patterns():
     assert of_pattern('%d.%m.%Y %H:%M')('10.06.2013 24:00').seconds == DAWN + 86400.0
     assert of_pattern('%Y-%m-%d %H:%M %z')('2013-06-10 02:00 +0200') == Instant(DAWN, zoned=True)
+    assert of_pattern('%H%M %d.%m.%Y')('2400 10.06.2013').seconds == DAWN + 86400.0
+    with pytest.raises(ValueError, match='time data'):
+        of_pattern('%H:%M:%S %d.%m.%Y')('24:00:30 10.06.2013')
     for word in ('10.06.2013 24:30', '10.06.2013', 'soon'):
         with pytest.raises(ValueError, match='time data'):
             of_pattern('%d.%m.%Y %H:%M')(word)
