@@ -98,13 +98,9 @@ def fit_damping(days: ArrayLike, index: ArrayLike) -> tuple[float, float, float,
     if t.ndim != 1 or t.shape != k.shape or len(t) < 8:
         msg = f'days of shape {t.shape}, K of shape {k.shape}: give columns of eight days or more'
         raise SignalError(msg)
-    scale = float(np.max(np.abs(t))) or 1.0
-    u = t / scale
     below: NDArray[np.float64] = np.ones(len(t))
-    found: NDArray[np.float64] = np.zeros(4)
     for _ in range(50):
-        rows = np.column_stack([np.ones(len(u)), u, -u * k, -u * u * k]) / below[:, None]
-        found = np.asarray(np.linalg.lstsq(rows, k / below, rcond=None)[0], np.float64)
-        below = np.maximum(1.0 + found[2] * u + found[3] * u * u, LEFT)
-    a, b, c, d = (float(value) for value in found)
-    return a, b / scale, c / scale, d / scale**2
+        rows = np.column_stack([np.ones(len(t)), t, -t * k, -t * t * k]) / below[:, None]
+        a, b, c, d = map(float, np.linalg.lstsq(rows, k / below, rcond=None)[0])
+        below = np.maximum(1.0 + c * t + d * t * t, LEFT)
+    return a, b, c, d

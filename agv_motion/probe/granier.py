@@ -39,7 +39,6 @@ def flux_density_columns(
     temperature_difference: NDArray[np.float64], zero_flow: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return flux density [m/s] for columns of dT and dT_max; NaN where dT is not positive."""
-    valid = temperature_difference > 0.0
-    safe = np.where(valid, temperature_difference, 1.0)
-    index = np.maximum((zero_flow - safe) / safe, 0.0)
-    return np.where(valid, COEFFICIENT * index**EXPONENT, np.nan)
+    known = np.where(temperature_difference > 0.0, temperature_difference, np.nan)
+    index = np.maximum((zero_flow - known) / known, 0.0)
+    return np.asarray(COEFFICIENT * index**EXPONENT)

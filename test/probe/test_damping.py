@@ -35,6 +35,8 @@ def test_the_curve_is_found_in_its_values():
     days = np.arange(0.0, 900.0, 7.0)
     values = (0.4 + 0.001 * days) / (1.0 + 0.01 * days + 2e-5 * days**2)
     assert fit_damping(days, values) == pytest.approx(tuple(CURVE.values()), rel=1e-6)
+    assert fit_damping(days[::17], values[::17]) == pytest.approx(tuple(CURVE.values()), rel=1e-6)
+    assert len(days[::17]) == 8
     noisy = values * (1.0 + 0.01 * np.random.default_rng(3).normal(size=len(days)))
     a, b, c, d = fit_damping(days, noisy)
     again = (a + b * days) / (1.0 + c * days + d * days**2)
@@ -42,7 +44,13 @@ def test_the_curve_is_found_in_its_values():
 
 
 @pytest.mark.parametrize(
-    ('days', 'values'), [([1.0, 2.0], [0.1, 0.1]), (np.arange(9.0), np.arange(8.0))]
+    ('days', 'values'),
+    [
+        ([1.0, 2.0], [0.1, 0.1]),
+        (np.arange(9.0), np.arange(8.0)),
+        (np.arange(7.0),) * 2,
+        (np.zeros((8, 2)),) * 2,
+    ],
 )
 def test_too_little_to_fit_is_refused(days, values):
     with pytest.raises(SignalError, match='eight days'):

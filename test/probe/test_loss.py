@@ -87,6 +87,31 @@ def test_noise_that_was_believed_is_taken_back():
     assert ladder.update(noon + 40.0, None).step is LossStep.LOST
 
 
+def test_an_hour_is_known_when_the_next_has_begun_and_no_other_is():
+    course = DayCourse(2)
+    for quarter, flow in enumerate((0.1, 0.2, 0.6)):
+        course.add(NOON + quarter * 900.0, flow)
+    assert course.state() == []
+    course.add(NOON + HOUR, 0.9)
+    assert course.state() == [[12, pytest.approx(0.3)]]
+    assert course.at(0.0) is None
+
+
+def test_a_course_takes_up_the_hours_of_a_day_that_have_values():
+    course = DayCourse(2)
+    course.restore([[24, 0.5], [-1, 0.5], [0, 0.5], [23, 0.1, 0.2, 1.0], [5]])
+    assert course.state() == [[0, 0.5], [23, 0.2, 1.0]]
+
+
+def test_the_course_learns_what_was_measured_six_hours_ago():
+    ladder = LossLadder(LADDER)
+    for quarter in range(8 * 4 + 1):
+        ladder.update(quarter * 900.0, 0.25)
+    assert ladder.course.state() == [[0, 0.25]]
+    ladder.update(8 * HOUR + 900.0, 0.25)
+    assert ladder.course.state() == [[0, 0.25], [1, 0.25]]
+
+
 def test_the_course_of_the_day_is_the_mean_of_the_last_days():
     course = DayCourse(2)
     for day, flow in enumerate((0.9, 0.2, 0.4)):
@@ -100,7 +125,19 @@ def test_the_course_of_the_day_is_the_mean_of_the_last_days():
     assert again.at(NOON) == course.at(NOON)
 
 
-@pytest.mark.parametrize('state', [None, [[1, 2.0]], [['x', 0.5]], [[1, float('nan')]], [5], 7])
+@pytest.mark.parametrize(
+    'state',
+    [
+        None,
+        [[1, 2.0]],
+        [['x', 0.5]],
+        [[1, float('nan')]],
+        [5],
+        7,
+        [[1, 0.5, 2.0]],
+        [[1, 0.5], [2, -0.1]],
+    ],
+)
 def test_a_course_that_is_none_is_refused(state):
     with pytest.raises(ConfigurationError, match='delete the state file'):
         DayCourse(2).restore(state)

@@ -84,15 +84,16 @@ class LoggerTables:
 
     def _rows_of(self, path: Path, *, growing: bool) -> FileRows | None:
         """Return what was not read before of a file; None where nothing is new."""
-        known = self._files.get(path)
-        size = _size_of(path) if growing else -1
+        if not growing:
+            return TableFile(path, self._given).read(growing=False)
+        known, size = self._files.get(path), _size_of(path)
         if known and size == known.bytes_read:
             return None
         if known is None or size < known.bytes_read or not known.is_as_read():
-            if growing and not size:
+            if not size:
                 return None
             known = self._files[path] = TableFile(path, self._given)
-        return known.read(growing=growing)
+        return known.read(growing=True)
 
 
 def _size_of(path: Path) -> int:

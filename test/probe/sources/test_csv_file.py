@@ -259,6 +259,75 @@ def test_rows_are_told_as_a_logger_writes_them_and_never_what_was_there_before(t
     assert source.complaint() == ''
 
 
+HOURS = [(3600 * hour, 1, 2) for hour in range(3)]
+AWAY = 40 * 86400
+
+
+def append(file, *rows):
+    with file.open('a') as written:
+        written.write(seconds(*rows).partition('\n')[2])
+
+
+def told(source, samples):
+    return [sample.time - DAWN for sample in samples], source.complaint()
+
+
+LEFT_OUT = 'rows are days ahead of the clock here: left out; set the logger'
+
+
+def test_rows_of_a_logger_whose_clock_runs_days_ahead_are_left_out_of_the_history(tmp_path):
+    file = tmp_path / 'live.csv'
+    file.write_text(seconds(*HOURS, (AWAY, 3, 4), (AWAY + 3600, 3, 4)))
+    source = follow(file)
+    found = told(source, source.history(DAWN + 7300.0))
+    assert found == ([0.0, 3600.0, 7200.0], f'2 {LEFT_OUT}')
+    append(file, (10_800, 5, 6))
+    assert told(source, source.read(DAWN + 10_900.0)) == ([10_800.0], '')
+
+
+@pytest.mark.parametrize(
+    ('rows', 'now', 'count'),
+    [
+        ([(0, 1, 2), (AWAY, 3, 4)], 0.0, 1),
+        ([(0, 1, 2), (86400, 3, 4)], -43_200.0, 2),  # no more than a day apart
+        ([(0, 1, 2), (86460, 3, 4)], -43_200.0, 1),
+        ([(43_200 * k, 1, 2) for k in range(8)], 86400.0, 8),  # the clock here may be wrong
+        ([(AWAY, 1, 2), (2 * AWAY, 3, 4)], 0.0, 2),  # and is, where all is ahead of it
+    ],
+)
+def test_history_ends_where_it_leaps_ahead_of_the_clock(tmp_path, rows, now, count):
+    file = tmp_path / 'live.csv'
+    file.write_text(seconds(*rows))
+    given = CsvParameters(
+        file=str(file), follow=True, columns=('a', 'b'), day_offsets=(0.0, 0.0), unit='K'
+    )
+    source = GrowingSource(given, 1000.0)
+    times, problem = told(source, source.history(DAWN + now))
+    assert times == [float(row[0]) for row in rows[:count]]
+    assert problem == (f'{len(rows) - count} {LEFT_OUT}' if count < len(rows) else '')
+
+
+@pytest.mark.parametrize(
+    ('now', 'rows', 'count'),
+    [
+        (7200.0, [(10_800, 1, 2), (AWAY, 1, 2)], 1),
+        (7200.0, [(7200 + 86400, 1, 2)], 1),
+        (7200.0, [(7200 + 86401, 1, 2)], 0),
+        (3 * 86400.0, [(216_000, 1, 2)], 1),  # nothing came for days: by the clock here
+        (-79_000.0, [(80_000, 1, 2)], 1),  # within a day of the last, if not of the clock here
+        (-10 * 86400.0, [(AWAY, 1, 2)], 1),  # what was there is ahead: the clock here is wrong
+    ],
+)
+def test_a_row_days_ahead_of_the_clock_and_of_the_last_one_is_left_out(tmp_path, now, rows, count):
+    file = tmp_path / 'live.csv'
+    file.write_text(seconds(*HOURS))
+    source = follow(file)
+    append(file, *rows)
+    times, problem = told(source, source.read(DAWN + now))
+    assert times == [float(row[0]) for row in rows[:count]]
+    assert problem == (f'{len(rows) - count} {LEFT_OUT}' if count < len(rows) else '')
+
+
 def test_a_disk_that_goes_away_is_told_and_comes_back(tmp_path):
     file = tmp_path / 'live.csv'
     file.write_text(seconds((0, 1, 2)))

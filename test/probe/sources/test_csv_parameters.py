@@ -21,3 +21,13 @@ def test_no_column_is_two_things(air):
     with pytest.raises(ConfigurationError, match='give each a column of its own'):
         CsvParameters(**given, **air)
     CsvParameters(**given, radiation_column='sun', vpd_column='dry')
+
+
+@pytest.mark.parametrize('offsets', [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)])
+def test_a_file_that_is_followed_has_no_offset_at_all(offsets):
+    given = {'columns': ('a', 'b'), 'day_offsets': offsets, 'follow': True}
+    if not any(offsets):
+        assert CsvParameters(**given).follow
+        return
+    with pytest.raises(ConfigurationError, match='leave out start, speed and day_offsets'):
+        CsvParameters(**given)
