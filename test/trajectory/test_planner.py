@@ -35,7 +35,7 @@ ORDERS = st.one_of(
 )
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(ORDERS, st.sampled_from([0.0, 0.3]), st.booleans(), st.lists(st.floats(0.0, 0.4)))
 def test_whatever_is_asked_it_is_planned_in_finite_numbers_or_refused(order, rounding, moving, dts):
     ghost = Ghost(ORIGIN, GhostParameters(s_curve=rounding))

@@ -222,7 +222,7 @@ EVENTS = st.lists(
 )
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(EVENTS)
 def test_whatever_the_turrets_tell_the_wheels_keep_their_limits(events):
     one, now = drive(unwind_after=0.5), 0.0

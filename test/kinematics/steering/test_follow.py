@@ -26,7 +26,6 @@ CORNERS = Turrets([(cos(a), sin(a)) for a in (-pi / 3, pi / 3, pi)])
 LIMITS = SteeringLimits()
 
 
-@settings(max_examples=100)
 @given(st.integers(0, 10**6))
 def test_all_follow_just_where_the_longest_share_is_the_whole(seed):
     chance = np.random.default_rng(seed)

@@ -36,7 +36,7 @@ def test_what_must_hold_on_every_day(kind, trees, days, told):
 
 def test_hours_off_the_air_are_no_standstill():
     """Every day one of two trees is off the air for an hour, within which none is said to stand."""
-    given = SeasonParameters(kind='hall', trees=2, days=1, hours=2.0, seed=7, outages=1.0)
+    given = SeasonParameters(kind='rooms', trees=2, days=1, hours=2.0, seed=7, outages=1.0)
     season = Season(given)
     count_from = season.trees[0].count_from
     counted = []

@@ -52,7 +52,7 @@ def test_a_search_begins_as_asked_and_not_otherwise(what):
 
 @pytest.mark.parametrize(
     ('given', 'states'),
-    [({'cells': (0, 2), **MUTUAL}, 1500), (THREE, 3000), (THREE_PARKED, 3000)],
+    [({'cells': (0, 2), **MUTUAL}, 1000), (THREE, 1800), (THREE_PARKED, 1800)],
 )
 def test_nor_where_floor_is_taken_in_what_was_searched(given, states):
     """A search in which nobody may move proves nothing."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise, permutations
+from itertools import pairwise
 from math import dist
 
 import pytest
@@ -228,9 +228,12 @@ def test_corners_are_cut_by_no_more_than_half_the_tolerance(tolerance):
 T = Zone([[0, 6], [0, 9], [20, 9], [20, 6], [11.5, 6], [11.5, 0], [8.5, 0], [8.5, 6]], margin=1.0)
 
 
-@pytest.mark.parametrize('starts', list(permutations(((2.0, 7.5), (18.0, 7.5), (10.0, 1.5)), 2)))
+WEST, EAST, SOUTH = (2.0, 7.5), (18.0, 7.5), (10.0, 1.5)
+
+
+@pytest.mark.parametrize('starts', [(WEST, EAST), (WEST, SOUTH), (SOUTH, EAST)])
 def test_two_with_fixed_goals_in_a_t_both_get_there(starts):
-    """Each goes where the other starts: one steps into the third arm."""
+    """Each goes where the other starts: one steps into the third arm. Mirrored it is the same."""
     oak, ash = (tree(name, *at, T) for name, at in zip(('oak', 'ash'), starts, strict=True))
     trees = {oak: starts[0], ash: starts[1]}
     goals = {oak: starts[1], ash: starts[0]}
