@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.errors import ConfigurationError
@@ -30,6 +31,9 @@ KEYS = (
 )  # fmt: skip
 """Of one profile in a file."""
 
+USUAL = 2000
+"""[characters] below which the text of a topic is that of many others: it is read once"""
+
 NO_PROFILE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of entries that are no profile: a word for a number, a list for keys, infinity."""
 
@@ -52,11 +56,7 @@ class OfferedQos(NamedTuple):
     @classmethod
     def from_yaml(cls, text: str) -> tuple[OfferedQos, ...]:
         """Return the profiles of a topic's publishers; what cannot be read counts as not given."""
-        try:
-            entries = yaml_text.plain(text, 'offered_qos_profiles') or []
-            return tuple(cls.from_entries(entry) for entry in entries)
-        except (ConfigurationError, *NO_PROFILE):
-            return ()
+        return _usual(text) if len(text) < USUAL else _profiles(text)
 
     @classmethod
     def from_entries(cls, entries: dict[str, Any]) -> OfferedQos:
@@ -93,6 +93,17 @@ class OfferedQos(NamedTuple):
             'liveliness_lease_duration': _time(self.lease_duration),
             'avoid_ros_namespace_conventions': False,
         }
+
+
+def _profiles(text: str) -> tuple[OfferedQos, ...]:
+    try:
+        entries = yaml_text.plain(text, 'offered_qos_profiles') or []
+        return tuple(OfferedQos.from_entries(entry) for entry in entries)
+    except (ConfigurationError, *NO_PROFILE):
+        return ()
+
+
+_usual = lru_cache(maxsize=128)(_profiles)
 
 
 def kept(profiles: Iterable[OfferedQos]) -> int:

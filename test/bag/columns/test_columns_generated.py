@@ -125,7 +125,7 @@ def folder(tmp_path_factory):
 
 
 @given(data=st.data())
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_every_field_of_every_message_is_that_of_rosbags(folder, data):
     text = data.draw(definitions())
     store = store_of(text)
@@ -147,7 +147,7 @@ def test_every_field_of_every_message_is_that_of_rosbags(folder, data):
 
 
 @given(data=st.data())
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 def test_a_selected_field_is_the_same_as_among_all(folder, data):
     text = data.draw(definitions())
     store = store_of(text)

@@ -52,7 +52,7 @@ def recovered(damaged, saved):
 
 def cut_off(file, sizes):
     """Yield each size, the longest first, with a file that ends there: ever more is cut off one."""
-    cut = file.with_name('cut.mcap')
+    cut = file.parents[1] / 'cut.mcap'  # beside the bag, whose metadata says nothing of it
     cut.write_bytes(file.read_bytes())
     for size in sorted(sizes, reverse=True):
         os.truncate(cut, size)

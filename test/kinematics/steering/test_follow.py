@@ -6,7 +6,7 @@ from math import cos, pi, sin, tan
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.kinematics.steering.chassis import measure
