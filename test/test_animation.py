@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip('rclpy')
-pytest.importorskip('matplotlib')
 
 from PIL import Image, ImageSequence
 
@@ -23,6 +22,7 @@ SQUARE = Zone([[0, 0], [20, 0], [20, 15], [0, 15]], rim=1.18)
 @pytest.fixture
 def animation():
     """Return the script; it imports all of pyplot, so not in each process that lists the tests."""
+    pytest.importorskip('matplotlib')
     import animation
 
     return animation

@@ -62,6 +62,7 @@ class Pictures(list):
 @pytest.fixture
 def sketched(monkeypatch):
     """Return the figures as they are before they are written, which they are not."""
+    pytest.importorskip('matplotlib')  # here, since it takes long where tests are only listed
     figures = Pictures()
 
     def looked_at(each, _path):

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
-
-pytest.importorskip('matplotlib')
 
 from agv_motion.report.fields_figure import FieldLine
 from agv_motion.report.fields_figure import draw as draw_fields

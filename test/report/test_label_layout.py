@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-pytest.importorskip('matplotlib')
-
 from agv_motion.report import figure as module
 from agv_motion.report import style
 from agv_motion.report.figure import figure
@@ -23,6 +21,7 @@ def test_labels_and_events_that_would_overlap_are_moved_apart(sketched, tmp_path
 
 
 def test_a_figure_is_written_as_it_was_laid_out_for_its_labels(tmp_path, monkeypatch):
+    pytest.importorskip('matplotlib')
     laid_out = []
 
     def look(drawn):

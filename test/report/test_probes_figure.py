@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-pytest.importorskip('matplotlib')
-
 from agv_motion.probe.parameters import ProbeParameters
 from agv_motion.probe.series import read_series
 from agv_motion.probe.water import DayOfWater, Litres

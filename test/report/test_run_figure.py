@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-pytest.importorskip('matplotlib')
-
 from agv_motion.bag.notes import Note
 from agv_motion.kinematics.differential_platform import DifferentialBaseParameters
 from agv_motion.model.footprint import footprint

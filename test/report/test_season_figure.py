@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
-
-pytest.importorskip('matplotlib')
 
 from agv_motion.report.season_figure import FloorCoverage
 from agv_motion.report.season_figure import draw as draw_season

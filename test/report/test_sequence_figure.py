@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
-pytest.importorskip('matplotlib')
-
 from agv_motion.planar import Pose
 from agv_motion.report.sequence_figure import draw as draw_sequence
 from agv_motion.ros.config import find_config

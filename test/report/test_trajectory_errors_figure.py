@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
-
-pytest.importorskip('matplotlib')
 
 from agv_motion.report.stamped_poses import stamped_poses
 from agv_motion.report.trajectory_errors import ComparisonRequest, Relation, compare

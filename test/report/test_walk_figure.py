@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip('matplotlib')
-
 from agv_motion.motion.navigation.zone import Zone
 from agv_motion.report.walk import Remembered, WalkRun
 from agv_motion.report.walk_figure import WalkLimits, finding

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import pi
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -28,6 +27,8 @@ CURVES = st.builds(
 
 def measured(curve):
     """Return the length by mpmath, cut where the curve is nearest to a cusp."""
+    import mpmath  # it takes long where tests are only listed
+
     u = np.linspace(0.0, 1.0, 4001)
     speed = np.abs(curve.velocity(u))
     slowest = u[1:-1][(speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:])]
