@@ -49,7 +49,9 @@ def settle(figure: Any) -> None:
 
 def _lay_out(figure: Any) -> None:
     """Place the axes as drawing would: that costs as much again, and comes once, in the end."""
-    figure.get_layout_engine().execute(figure)
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
     for axes in figure.axes:
         axes.apply_aspect()
 
