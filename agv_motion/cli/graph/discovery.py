@@ -42,8 +42,8 @@ ALONE = 1.5
 CALLS = 0.1, 0.3, 0.9, 2.7
 """[s] How long after the start all are called who may not have been heard"""
 
-LOOK, EXAMINE = 0.01, 0.04
-"""[s] between two looks whether it is enough, and between two at all ends: those cost 5 to 20 ms"""
+FIRST, EXAMINE, LATER = 0.01, 0.04, 0.1
+"""[s] until the first look at all ends, between two, which cost 5 to 20 ms, and after a second"""
 
 
 def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: False) -> int:
@@ -54,7 +54,8 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
     """
     import rclpy
 
-    start = changed = due = time.monotonic()
+    start = changed = time.monotonic()
+    due = start + FIRST
     calls = list(CALLS)
     domain = node.context.get_domain_id()
     counted = are_all_on_this_machine(domain)
@@ -63,7 +64,7 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
     known: Ends | None = None
     with ParticipantEntities(node) as graph:
         while not until():
-            rclpy.spin_once(node, timeout_sec=LOOK)
+            rclpy.spin_once(node, timeout_sec=max(due - time.monotonic(), 0.001))
             now = time.monotonic()
             if now < due:
                 continue
@@ -80,7 +81,7 @@ def settle(node: Any, spin_time: float, until: Callable[[], bool] = lambda: Fals
             if calls and listened >= calls[0] and (missing(node, found) or not counted):
                 call(domain)
                 del calls[0]
-            due = time.monotonic() + EXAMINE
+            due = time.monotonic() + (EXAMINE if listened < 1.0 else LATER)
     return 0
 
 
