@@ -23,25 +23,34 @@ from importlib import import_module
 from io import BytesIO
 
 import matplotlib as mpl
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from lifecycle_msgs.srv import GetState
 from matplotlib import pyplot as plt
 from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.serialization import serialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 from typer.testing import CliRunner
+from visualization_msgs.msg import MarkerArray
 
 import agv_motion
 
 MAIN = 'agv_motion.cli.main'
 """What runs in each fork, and is therefore not there before it"""
-OTHERS = 'rclpy.executors', 'rclpy.lifecycle'
+OTHERS = (
+    '_strptime', 'numpy.random', 'rclpy.executors', 'rclpy.lifecycle',
+    'rclpy.topic_or_service_is_hidden', 'rosbags.serde.primitives', 'rosbags.typesys.stores.empty',
+    'type_description_interfaces.msg',
+)  # fmt: skip
 REHEARSED = ['--help'], ['bag', 'info', 'nothing'], ['bag', 'plot', '--help']
 MESSAGES = (
-    GetState.Request, GetState.Response, JointState, Odometry, PoseWithCovarianceStamped, String,
-    TwistStamped,
+    Clock, DiagnosticArray, GetState.Request, GetState.Response, JointState, MarkerArray, Odometry,
+    ParameterEvent, PoseWithCovarianceStamped, String, Trigger.Request, TwistStamped,
 )  # fmt: skip
 
 
