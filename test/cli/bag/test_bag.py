@@ -7,8 +7,6 @@ import math
 import os
 import pty
 import re
-import subprocess
-import sys
 from contextlib import suppress
 
 import numpy as np
@@ -121,11 +119,10 @@ def test_check_tells_by_its_exit_status(bag):
         run('check', bag, '--rate', '/joints')
 
 
-def test_each_finding_has_a_line_of_its_own_in_a_terminal(bag):
+def test_each_finding_has_a_line_of_its_own_in_a_terminal(bag, alone):
     master, slave = pty.openpty()
-    command = [sys.executable, '-m', 'agv_motion.cli.main', 'bag', 'check', str(bag)]
-    ended = subprocess.run(  # noqa: S603 - our own command
-        command, stdin=slave, stdout=slave, stderr=slave, check=False,
+    status, *_ = alone(
+        'bag', 'check', bag, stdin=slave, stdout=slave, stderr=slave,
         env=os.environ | {'TERM': 'xterm-256color'},
     )  # fmt: skip
     os.close(slave)
@@ -134,7 +131,7 @@ def test_each_finding_has_a_line_of_its_own_in_a_terminal(bag):
         while some := os.read(master, 65536):
             shown += some
     os.close(master)
-    assert ended.returncode == 0
+    assert status == 0
     assert b'Looking' in shown
     before = re.findall(rb'([^\n]*)warning: ', shown)
     assert len(before) == 2

@@ -84,6 +84,7 @@ def test_where_a_bag_is_torn_is_told_and_costs_the_status(driven, tmp_path, comm
         status, told = run(command, torn, tmp_path)
         assert status == 1, told
         assert problem.replace(' ', '') in told.replace(' ', '')
+        assert (command[0] != 'plot') or '/fix: ' in told
     for made in ('run.png', 'new.yaml', 'again'):
         assert (tmp_path / made).exists() == any(made in word for word in command)
 
