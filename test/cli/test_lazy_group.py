@@ -48,7 +48,8 @@ sys.argv = ["agv", "bag", "export", "-h"]
 try:
     main()
 except SystemExit:
-    print([module for module in ("rclpy", "matplotlib", "rosbags") if module in sys.modules])
+    heavy = "matplotlib", "mcap", "networkx", "rclpy", "rosbags", "scipy", "shapely"
+    print([module for module in heavy if module in sys.modules])
 """
 
 

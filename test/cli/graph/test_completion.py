@@ -8,8 +8,12 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer
 
 pytest.importorskip('rclpy')
+
+from agv_motion.cli.graph import completion
+from agv_motion.cli.main import app
 
 
 class Bash:
@@ -28,16 +32,16 @@ class Bash:
         return subprocess.Popen(words, env=environment, **options)  # noqa: S603 - the words are ours
 
 
-def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal, tmp_path):
+def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal, oak, tmp_path):
     screen = terminal.func(Bash(tmp_path), columns=120)
     screen.press(b'agv --install-completion; . ~/.bashrc; echo in""stalled\n')
     screen.wait(lambda text: '\ninstalled' in text)
     for typed, completed in (
         (b'agv self', 'agv selftest'),
         (b'agv topic ec', 'agv topic echo'),
-        (b'agv up diff', 'agv up differential'),
         (b'agv run granier', 'agv run granier_probe'),
         (b'agv topic info /ros', 'agv topic info /rosout'),
+        (b'agv node info /oak/w', f'agv node info {oak}'),
     ):
         screen.press(b'\x15' + typed + b'\t')  # the line anew
         screen.wait(lambda text, completed=completed: completed in text)
@@ -46,20 +50,29 @@ def test_install_completion_makes_a_new_shell_offer_commands_and_names(terminal,
 
 
 @pytest.mark.parametrize(
-    'words', ['agv node info /oak', 'agv param get /oak', 'agv lifecycle get ']
+    ('words', 'names'),
+    [
+        ('node info', 'node_names'),
+        ('param get', 'node_names'),
+        ('param dump', 'node_names'),
+        ('lifecycle get', 'node_names'),
+        ('topic echo', 'topics'),
+        ('topic hz', 'topics'),
+        ('service call', 'services'),
+        ('service type', 'services'),
+    ],
 )
-def test_nodes_of_the_graph_are_offered(alone, oak, words):
-    asked = words.split(' ')
-    environment = os.environ | {
-        '_AGV_COMPLETE': 'complete_bash', 'COMP_WORDS': words, 'COMP_CWORD': str(len(asked) - 1),
-    }  # fmt: skip
-    folder = Path(sys.executable).parent
-    told = subprocess.run(  # noqa: S603 - the words are ours
-        [folder / 'agv'], env=environment, capture_output=True, text=True, check=False
+def test_names_of_the_graph_are_offered(monkeypatch, words, names):
+    asked = []
+    monkeypatch.setattr(
+        completion, '_offered', lambda begun, of: asked.append(of.__name__) or [f'{begun}/oak']
     )
-    offered = told.stdout.split()  # others may be on the graph
-    assert oak in offered, told.stderr
-    assert all(name.startswith(asked[-1] or '/') for name in offered)
+    command = typer.main.get_command(app)
+    context = command.make_context('agv', [], resilient_parsing=True)
+    for word in words.split():
+        command = command.get_command(context, word)
+    offered = command.params[0].shell_complete(context, '/robot')
+    assert ([item.value for item in offered], asked) == (['/robot/oak'], [names])
 
 
 @pytest.mark.parametrize(
@@ -74,6 +87,14 @@ def test_the_shell_that_is_named_counts(alone, word, mark):
     status, told, _ = alone('--show-completion', word)
     assert status == 0
     assert mark in told
+
+
+def test_names_of_ours_are_offered():
+    command = typer.main.get_command(app)
+    context = command.make_context('agv', [], resilient_parsing=True)
+    for word, begun, whole in (('up', 'diff', 'differential'), ('run', 'gran', 'granier_probe')):
+        (offered,) = command.get_command(context, word).params[0].shell_complete(context, begun)
+        assert offered.value == whole
 
 
 def test_a_shell_that_nobody_knows_is_refused(alone):

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
-import sys
 
 import pytest
 
@@ -111,17 +109,6 @@ def test_square_brackets_are_shown_as_they_are(alone):
     with told.capture() as captured:
         told.print('pip install "agv_motion[ros]" [m/s] :sos:')
     assert captured.get() == 'pip install "agv_motion[ros]" [m/s] :sos:\n'
-
-
-def test_help_waits_for_nothing_heavy(alone):
-    """What takes long to import is imported by the commands that need it."""
-    status, out, _ = alone('--help')
-    assert status == 0
-    assert 'demo' in out
-    heavy = 'matplotlib', 'mcap', 'networkx', 'rclpy', 'rosbags', 'scipy', 'shapely'
-    seen = f'import sys; print([name for name in {heavy} if name in sys.modules])'
-    code = f'import agv_motion.cli.main; {seen}'
-    assert subprocess.check_output([sys.executable, '-c', code], text=True).strip() == '[]'  # noqa: S603 - our own
 
 
 def test_a_parameter_that_cannot_be_is_told_with_its_limits(alone):

@@ -90,15 +90,3 @@ def test_no_bag_at_all(alone, tmp_path):
     assert status == 1
     assert 'does not exist: give the folder of a bag' in errors
     assert 'Traceback' not in errors
-
-
-def test_a_bag_that_was_cut_off_is_read_up_to_there(alone, tmp_path):
-    times = [10.0 + 0.02 * i for i in range(2000)]
-    write(tmp_path / 'whole', {'/ground_truth': [stamped(t, 0.5 * t, 0.0, 0.0) for t in times]})
-    (file,) = (tmp_path / 'whole').glob('*.mcap')
-    data = file.read_bytes()
-    (tmp_path / 'cut.mcap').write_bytes(data[:-2000])
-    status, out, errors = alone('plot', tmp_path / 'cut.mcap', '-o', tmp_path / 'run.png')
-    assert status == 1
-    assert 'cut.mcap, byte ' in errors.replace('\n', '')
-    assert '/ground_truth: ' in out

@@ -28,9 +28,8 @@ def test_a_dry_run_tells_what_poses_ask_for_and_draws_it(alone, tmp_path):
 def test_a_dry_run_predicts_where_an_arc_ends(alone):
     """Inner radius 0.5 m, half a track of 0.15 m: from (1, 1) looking along y to (0.35, 1.65)."""
     status, out, errors = alone(
-        'drive', 'arc', '--angle', 90, '--diameter', 1.0, '--start', '1,1,90', '--dry-run',
-        cold=True,
-    )  # fmt: skip
+        'drive', 'arc', '--angle', 90, '--diameter', 1.0, '--start', '1,1,90', '--dry-run'
+    )
     assert status == 0, errors
     assert 'ends at 0.350 m, 1.650 m, -180.0 degrees' in out
 

@@ -9,7 +9,7 @@ pytest.importorskip('rclpy')
 
 def test_it_tells_how_the_example_would_be_followed_and_draws_it(alone, tmp_path):
     picture = tmp_path / 'route.png'
-    status, out, errors = alone('route', 'route_example.yaml', '--plot', picture, cold=True)
+    status, out, errors = alone('route', 'route_example.yaml', '--plot', picture)
     assert status == 0, errors
     assert '6 waypoints, 11.50 m' in out
     assert 'v(dphi)' in out
