@@ -244,6 +244,7 @@ def folder_with(folder, named, **contents):
     (['a.mcap'], {'a__mcap': b'', 'b__mcap': b''}, 'a.mcap b.mcap'),
     ([], {'bag_10__mcap': b'1', 'bag_2__mcap': b'2', 'bag_1__mcap': b'3'},
      'bag_1.mcap bag_2.mcap bag_10.mcap'),
+    ([], {'x__mcap': b'1', 'x__mcap0__mcap': b'2'}, 'x.mcap x.mcap0.mcap'),
 ])  # fmt: skip
 def test_files_that_belong_to_a_bag_each_once_and_in_order(tmp_path, named, contents, files):
     folder = folder_with(tmp_path / 'bag', named, **contents)
@@ -251,6 +252,15 @@ def test_files_that_belong_to_a_bag_each_once_and_in_order(tmp_path, named, cont
     assert [path.name for path in found.paths] == files.split()
     assert all(str(p).startswith(f'{folder}/metadata.yaml, byte 0: ') for p in found.problems)
     assert all(problem.harmless for problem in found.problems)
+
+
+def test_a_name_that_no_file_can_have_is_not_there(tmp_path):
+    folder = folder_with(
+        tmp_path / 'bag', ['a.mcap', 'a\0b.mcap', 'x' * 300 + '.mcap'], a__mcap=b'1'
+    )
+    found = find(folder)
+    assert ([path.name for path in found.paths], found.messages) == (['a.mcap'], 0)
+    assert [problem.harmless for problem in found.problems] == [False, False]
 
 
 def test_files_of_one_size_and_time_are_no_copies_for_that(tmp_path):

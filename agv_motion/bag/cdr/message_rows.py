@@ -70,10 +70,10 @@ class MessageRows:
         size = len(self._example)
         if any(len(message) != size for message in messages):
             return None
-        content = np.frombuffer(b''.join(messages), np.uint8).reshape(-1, size)
+        content = np.frombuffer(b''.join(messages), np.uint8).reshape(len(messages), size)
         if (content[:, self._constant] != self._example[self._constant]).any():
             return None
-        return content.view(self.dtype).reshape(-1)
+        return content.view(self.dtype)[:, 0]
 
     def table(self, count: int) -> NDArray[Any]:
         """Return rows like the example, to be filled by columns."""

@@ -179,26 +179,23 @@ def _values(bag: BagReader, topic: str) -> Iterator[Finding]:
             headers.append(columns.nanoseconds('header.stamp'))
     if headers:
         times = np.concatenate(headers)
-        severity = 'warning' if _several_publishers(bag, topic, times) else 'error'
-        yield from _back(severity, topic, 'header.stamp', times)
+        if (times[1:] < times[:-1]).any():
+            severity = 'warning' if _several_publishers(bag, topic) else 'error'
+            yield from _back(severity, topic, 'header.stamp', times)
     for field, (count, first) in nan.items():
         when = (first - bag.start) * 1e-9
         yield Finding('error', topic, f'{field} is NaN in {count} messages, first at {when:.3f} s')
 
 
-def _several_publishers(bag: BagReader, topic: str, times: NDArray[np.int64]) -> bool:
+def _several_publishers(bag: BagReader, topic: str) -> bool:
     """Return whether stamps may go back because several publishers send on a topic.
 
     The bag tells their number, or each of them numbers its messages from 1 on. Diagnostics,
     transforms and logs have many by their nature.
     """
-    connections = [c for c in bag.connections if c.topic == topic]
-    if len(connections) > 1 or any(
-        len(c.qos) > 1 or c.type.rpartition('/')[2] in _SHARED for c in connections
-    ):
+    one, *others = (c for c in bag.connections if c.topic == topic)
+    if others or len(one.qos) > 1 or one.type.rpartition('/')[2] in _SHARED:
         return True
-    if not (times[1:] < times[:-1]).any():
-        return False
     numbers = [message.sequence for message in bag.messages([topic])]
     return any(numbers) and any(b <= a for a, b in pairwise(numbers))
 
@@ -219,5 +216,4 @@ def _rows_with_nan(column: Column) -> NDArray[np.intp]:
         return np.unique(np.searchsorted(column.offsets, inner, side='right') - 1)
     if not isinstance(column, np.ndarray) or column.dtype.kind != 'f':
         return np.empty(0, np.intp)
-    wrong = np.isnan(column)
-    return np.flatnonzero(wrong.reshape(len(column), -1).any(axis=1) if column.size else [])
+    return np.flatnonzero(np.isnan(column).any(axis=tuple(range(1, column.ndim))))

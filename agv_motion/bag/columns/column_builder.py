@@ -109,7 +109,8 @@ class ColumnBuilder:
         self._expected, self._limit = rows, limit // self._dtype.itemsize
         self._same: NDArray[Any] | None = None
         self._values: Growing | None = None
-        self._each = 0
+        self._each: int
+        """values of every row, once memory was taken for them"""
         self._counts: Growing | None = None
         self._rows = 0
 

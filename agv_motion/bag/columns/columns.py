@@ -240,7 +240,7 @@ def _columns(decoder: TopicDecoder, start: int) -> Columns:
         if order is not None:
             values, counts = _ordered(values, counts, order)
         if leaf.type == 'length':
-            lengths[leaf.number] = values.reshape(-1)
+            lengths[leaf.number] = values.ravel()
         else:
             fields[leaf.path] = _column(decoder, leaf, values, lengths, len(stamps))
     return Columns(decoder.connection, stamps, fields, start)

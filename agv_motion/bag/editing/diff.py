@@ -117,15 +117,22 @@ def _topic(topic: str, first: BagReader, second: BagReader, compare: _Comparison
             found.compared += 1
             differences = compare(one, other)
             found.differing += bool(differences)
+            _keep_worst(found.worst, one.stamp, differences)
         known = one or other
         if found.since is None and (differences or one is None or other is None) and known:
             found.since = known.stamp
-        for path, a, b in differences:
-            worst = found.worst.get(path)
-            if worst is None or distance(a, b) > distance(worst.first, worst.second):
-                found.worst[path] = Difference(path, known.stamp if known else 0, a, b)
     found.apart = compare.apart
     return found
+
+
+def _keep_worst(
+    worst: dict[str, Difference], stamp: int, differences: list[tuple[str, Any, Any]]
+) -> None:
+    """Keep of each field the values that lie furthest apart, the first of such."""
+    for path, a, b in differences:
+        known = worst.get(path)
+        if known is None or distance(a, b) > distance(known.first, known.second):
+            worst[path] = Difference(path, stamp, a, b)
 
 
 def _unlike(topic: str, first: BagReader, second: BagReader) -> str:
@@ -208,7 +215,7 @@ class _Comparison:
 
 def _unequal(a: Any, b: Any) -> Iterator[tuple[int, Any, Any]]:
     """Yield place and values of the items of two sequences that may differ, as Python's own."""
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+    if isinstance(a, np.ndarray):
         common = min(len(a), len(b))
         places = np.flatnonzero(a[:common] != b[:common])
         for i, x, y in zip(places.tolist(), a[places].tolist(), b[places].tolist(), strict=True):
@@ -232,10 +239,9 @@ def equal(a: Any, b: Any, tolerance: Tolerance) -> bool:
 
 def distance(a: Any, b: Any) -> float:
     """Return how far apart two values are; infinite where they are no numbers."""
+    a, b = (x.item() if isinstance(x, np.generic) else x for x in (a, b))
     try:
-        distance = (
-            abs(a - b) if isinstance(a, int) and isinstance(b, int) else abs(float(a) - float(b))
-        )
-    except (TypeError, ValueError):
+        distance = abs(a - b)
+    except TypeError:
         return inf
     return inf if isnan(distance) else float(distance)

@@ -83,7 +83,9 @@ def batches(
     stamps, offsets = table[:, 0], np.minimum(table[:, 1], len(data)).astype(np.int64)
     places = offsets + np.repeat(begins * len(channels), counts)
     limits = np.repeat(np.tile(ends, len(channels)), counts)
-    numbers = np.repeat(np.array(channels), np.reshape(counts, (len(channels), -1)).sum(axis=1))
+    numbers = np.repeat(
+        np.array(channels), np.reshape(counts, (len(channels), len(parts))).sum(axis=1)
+    )
     if start > 0 or stop <= _LATEST:
         wanted = inside(stamps, start, stop)
         stamps, places = stamps[wanted], places[wanted]

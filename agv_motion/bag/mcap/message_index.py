@@ -47,7 +47,7 @@ def rows(data: Buffer, channel: int, at: int, path: Path) -> NDArray[np.uint64]:
     if found != channel or pairs % _ENTRY or not 0 <= room - pairs < _ENTRY:
         finding = f'a message index of channel {found} with {pairs} bytes in a record of {length}'
         raise DamagedBagError(path, at, f'{finding}, expected channel {channel}')
-    return np.frombuffer(data, '<u8', pairs // 8, at + size).reshape(-1, 2)
+    return np.frombuffer(data, '<u8', pairs // 8, at + size).reshape(pairs // _ENTRY, 2)
 
 
 def most(data: Buffer, at: int) -> int:

@@ -44,6 +44,8 @@ def test_a_length_that_takes_in_the_padding_is_another_layout():
     assert lying[at : at + 12] == b'\5\0\0\0left\0\0\0\0'
     lying[at] = 6
     assert rows.read([joints(1), bytes(lying)]) is None
+    assert rows.read([joints(1), joints(2) + bytes(4)]) is None
+    assert rows.read([]).shape == (0,)
 
 
 @pytest.mark.parametrize(('place', 'same'), [(0, False), (1, False), (2, True), (3, True)])

@@ -7,6 +7,7 @@ from struct import pack
 import numpy as np
 import pytest
 
+from agv_motion.bag.cdr import message_type
 from agv_motion.bag.cdr.message_decoder import MessageDecoder
 from agv_motion.bag.cdr.message_type import unfold
 from agv_motion.bag.columns.columns import read_topic
@@ -185,3 +186,22 @@ def test_only_a_line_of_equal_signs_begins_another_type(line):
     else:
         with pytest.raises(ConfigurationError, match='MSG: a/B'):
             unfold('a/msg/A', text, 'ros2msg')
+
+
+def test_a_second_name_behind_a_line_is_no_field():
+    for text in ('int8 x\n=====\nMSG: a/B\nMSG: a/C\nint8 y', 'MSG: a/C\nint8 y'):
+        with pytest.raises(ConfigurationError, match="'MSG: a/C' is no field"):
+            unfold('a/msg/A', text, 'ros2msg')
+
+
+def test_types_are_as_deep_and_large_as_they_may_be_and_no_more(monkeypatch):
+    """A, B and C are three deep; they have 2, 2 and 1 fields, and count themselves: 8."""
+    text = 'B b\nint8 x\n=====\nMSG: a/B\nC c\nint8 y\n=====\nMSG: a/C\nint8 z'
+    for limit, enough, words in (('DEEPEST', 2, 'more than 1 deep'),
+                                 ('MOST_FIELDS', 8, 'more than 7 fields')):  # fmt: skip
+        monkeypatch.setattr(message_type, limit, enough)
+        assert unfold('a/msg/A', text, 'ros2msg').members[1].name == 'x'
+        monkeypatch.setattr(message_type, limit, enough - 1)
+        with pytest.raises(ConfigurationError, match=words):
+            unfold('a/msg/A', text, 'ros2msg')
+        monkeypatch.undo()

@@ -68,11 +68,14 @@ def test_a_stamp_that_goes_back(tmp_path, steady):
     assert found(write(tmp_path / 'bag', steady, headers=headers)) == [('error', '/flow', text)]
 
 
+@pytest.mark.parametrize('first', [0, 1])
 @pytest.mark.parametrize(('talkers', 'severity'), [(1, 'error'), (2, 'warning')])
-def test_stamps_of_two_who_number_their_messages_may_go_back(tmp_path, steady, talkers, severity):
+def test_stamps_of_two_who_number_their_messages_may_go_back(
+    tmp_path, steady, talkers, severity, first
+):
     headers = steady.copy()
     headers[200] = headers[198]
-    numbers = np.arange(COUNT) // talkers + 1
+    numbers = np.arange(COUNT) // talkers + first
     (finding,) = found(write(tmp_path / 'bag', steady, headers=headers, numbers=numbers))
     assert (finding.severity, finding.where) == (severity, '/flow')
 
@@ -87,6 +90,22 @@ def test_stamps_of_two_publishers_that_the_bag_tells_of_may_go_back(tmp_path, ta
             writer.write(topic, i * TENTH, vector(header * TENTH))
     (finding,) = found(tmp_path / 'bag')
     assert (finding.severity, finding.where) == (severity, '/flow')
+
+
+def test_stamps_of_two_channels_or_of_transforms_may_go_back(tmp_path):
+    text = STORE.generate_msgdef(VECTOR, ros_version=2)[0]
+    for number, kind in enumerate((VECTOR, 'a/msg/Log', VECTOR)):
+        writer = McapWriter(tmp_path / f'{number}.mcap', '')
+        for one in ('RIHS01_1', 'RIHS01_2')[: 2 - (number > 0)]:
+            writer.add_topic(Topic('/flow', kind, text, one, ()))
+        for i, header in enumerate((1, 3, 2, 4)):
+            channel = i % 2 + 1 if number == 0 else 1
+            writer.write(channel, i * TENTH, vector(header * TENTH), i, 0)
+        writer.flush()
+        writer.close({})
+        finding = found(tmp_path / f'{number}.mcap')[-1]
+        assert (finding.severity, finding.where) == (('warning', 'error')[number == 2], '/flow')
+        assert finding.text.startswith('header.stamp goes back 1 times, first by 0.100000000 s at')
 
 
 def test_log_times_that_go_back_are_a_warning(tmp_path, steady):
@@ -138,7 +157,9 @@ def test_a_large_bag_is_looked_through_in_slices_of_time(tmp_path, steady, monke
 
     monkeypatch.setattr('agv_motion.bag.checks.check.read_topic', read)
     for room, expected in ((size + 1, [(TENTH, None)]),
-                           (size, [(TENTH, 250_000_000), (250_000_000, None)])):  # fmt: skip
+                           (size, [(TENTH, 250_000_000), (250_000_000, None)]),
+                           (size // 2, [(TENTH, 2 * TENTH), (2 * TENTH, 3 * TENTH),
+                                        (3 * TENTH, None)])):  # fmt: skip
         monkeypatch.setattr('agv_motion.bag.checks.check._SLICE', room)
         slices.clear()
         (finding,) = found(path)
@@ -156,9 +177,9 @@ def test_nan_in_sequences_whose_length_changes(tmp_path):
         for i in range(6):
             position = np.full(i, np.nan if i in {2, 5} else 0.0)
             message = make[JOINTS](header, [], position, empty, empty)
-            writer.write(topic, i, bytes(STORE.serialize_cdr(message, JOINTS)))
+            writer.write(topic, i * 10**9, bytes(STORE.serialize_cdr(message, JOINTS)))
     (finding,) = found(tmp_path / 'bag')
-    assert 'position is NaN in 2 messages' in finding.text
+    assert finding.text == 'position is NaN in 2 messages, first at 2.000 s'
 
 
 def test_a_flipped_bit_is_a_crc_error_and_does_not_hide_the_rest(tmp_path, steady):
@@ -193,6 +214,7 @@ def test_what_cannot_be_decoded_is_told_and_not_looked_at(tmp_path):
     writer.add_topic(Topic('/a', 'a/msg/A', 'int8 x', '', (), encoding='json'))
     writer.add_topic(Topic('/b', 'a/msg/A', '', '', ()))
     writer.write(1, 5, b'{}', 5, 0)
+    writer.flush()
     writer.close({})
     assert found(tmp_path / 'a.mcap') == [
         ('warning', '/a', "its messages are encoded in 'json': values were not looked at"),

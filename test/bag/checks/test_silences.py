@@ -31,6 +31,7 @@ def test_few_messages_or_no_time_between_them_are_not_regular():
     assert regular(STEADY[:10])
     assert not regular(np.zeros(20, np.int64))
     assert regular(STEADY[::-1])
+    assert regular(np.arange(20))
 
 
 def test_a_silence_tells_what_is_missing():

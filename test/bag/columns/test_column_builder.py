@@ -99,6 +99,45 @@ def test_memory_is_handed_out_once():
     assert memory.take(np.dtype('u1'), 10).flags.owndata
 
 
+def test_memory_is_taken_for_what_is_expected_and_no_more_than_can_be():
+    """Of 100 bytes 12 floats have room; of rows of changing length nothing is known."""
+    asked = []
+
+    class Memory(ColumnMemory):
+        def take(self, dtype, count):
+            asked.append((dtype.str, count))
+            return super().take(dtype, count)
+
+    ragged = Part(slice(0, 2), np.array([1, 2]), np.array([1.0, 2.0, 3.0]))
+    for rows, parts in (
+        (4, [table([1.0, 2.0], [3.0, 4.0])]), (100, [table([1.0, 2.0], [3.0, 4.0])]),
+        (7, [ragged]),
+    ):  # fmt: skip
+        ColumnBuilder(Memory(), '<f8', rows, 100).put(2, parts)
+    assert asked == [('<f8', 8), ('<f8', 12), ('<f8', 0), ('<i8', 7)]
+    column = ColumnBuilder(Memory(), '<f8', 1, 100)
+    column.put(2, [table([1.0], [3.0])])
+    column.put(2, [ragged])
+    assert asked[4:] == [('<f8', 1), ('<i8', 4)]
+
+
+def test_parts_that_tell_the_same_number_in_two_ways_are_a_table():
+    column = builder()
+    even = Part(np.array([0, 2]), 1, np.array([[1.0], [3.0]]))
+    column.put(3, [even, Part(np.array([1]), np.array([1]), np.array([2.0]))])
+    values, counts = column.finish()
+    assert (values.tolist(), counts) == ([[1.0], [2.0], [3.0]], 1)
+
+
+def test_an_array_grows_by_a_fifth_or_by_what_is_needed():
+    growing = Growing(np.empty(10))
+    growing.more(10)
+    for more, size in ((1, 12), (1, 12), (1, 14), (10, 23)):
+        growing.more(more)
+        assert len(growing._array) == size  # noqa: SLF001 - how far ahead it takes memory
+    assert len(growing.finish()) == 23
+
+
 def test_an_array_grows_whoever_owns_its_memory():
     for begin in (np.empty(2), np.empty(8)[:2]):
         growing = Growing(begin)

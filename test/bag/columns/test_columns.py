@@ -17,7 +17,7 @@ from rosbags.typesys import Stores, get_typestore
 from agv_motion.bag.checks.stamps import stamps
 from agv_motion.bag.columns import topic_decoder
 from agv_motion.bag.columns.column import Ragged, Texts
-from agv_motion.bag.columns.columns import read_topic, read_topics
+from agv_motion.bag.columns.columns import _expected, columns_of, read_topic, read_topics
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import batches as mcap_batches
 from agv_motion.bag.mcap import chunk_batches
@@ -289,6 +289,17 @@ def test_seconds_of_all_topics_count_from_the_start_of_the_bag(tmp_path):
     assert later.seconds(since=later.stamps[0])[:2] == pytest.approx([0.0, 0.1], abs=1e-12)
     with pytest.raises(ConfigurationError, match=r'since = 1000\.0: give whole nanoseconds'):
         later.seconds(since=1000.0)
+
+
+def test_without_messages_there_are_no_seconds_and_no_start(tmp_path):
+    with BagReader(two_topics(tmp_path / 'bag')) as bag:
+        none = columns_of(bag.topics['/a'], None, [])
+        assert (none.start, none.seconds().shape) == (0, (0,))
+        size = bag.files[0].unpacked_size
+        assert _expected(bag, frozenset(('/a',)), 0, 2**64) == {'/a': (20, size)}
+        assert _expected(bag, frozenset(('/a', '/b')), 0, bag.start) == {
+            '/a': (0, size), '/b': (0, size),
+        }  # fmt: skip
 
 
 @pytest.mark.parametrize('time', [1000.5, np.float64(1e12), '1000', True, float('nan')])

@@ -18,7 +18,7 @@ def message(stamp, size=69):
     return Message(TOPIC, stamp, bytes(size), stamp, 0)
 
 
-@pytest.mark.parametrize('size', [1, 100, 250, 10_000])
+@pytest.mark.parametrize('size', [1, 100, 101, 250, 10_000])
 def test_all_messages_come_in_their_order_in_blocks_that_are_just_full(size):
     given = [message(stamp) for stamp in range(10)]
     found = list(blocks_ahead(iter(given), size))

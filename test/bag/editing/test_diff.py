@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from agv_motion.bag.editing.diff import BY_STAMP, Tolerance, diff
+from agv_motion.bag.editing.diff import BY_STAMP, Tolerance, diff, distance, equal
 from agv_motion.bag.editing.pairing import Pairing
+from agv_motion.bag.mcap.writer import McapWriter
+from agv_motion.bag.metadata import Topic
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
 from agv_motion.errors import ConfigurationError, SourceError
@@ -68,7 +70,7 @@ def walk(change=lambda i, values: values, keep=lambda i: True, delay=0):
 def test_equal_content_is_the_same_whenever_it_was_received(compare):
     found = compare(walk(), walk(delay=12345))['/joints']
     assert found.same
-    assert (found.compared, found.counts) == (10, (10, 10))
+    assert (found.compared, found.counts, found.apart) == (10, (10, 10), 0)
 
 
 def test_the_worst_of_each_field_and_the_first_time(compare):
@@ -130,7 +132,51 @@ def test_topics_that_one_bag_lacks_and_topics_that_none_has(compare):
     found = compare(first, second)
     assert found['/number'].note == 'not in the second bag'
     assert found['/joints'].note == 'not in the first bag'
+    assert (found['/number'].counts, found['/joints'].counts) == ((1, 0), (0, 10))
     assert not found['/number'].same
+
+
+def test_messages_of_other_types_and_what_nobody_can_decode(tmp_path):
+    """The bags have both types on a topic, in turn and the other way round."""
+    for name, first in (('one', 1), ('two', 2)):
+        writer = McapWriter(tmp_path / f'{name}.mcap', '')
+        for kind in 'AB':
+            writer.add_topic(Topic('/a', f'a/msg/{kind}', 'int8 x', '', ()))
+        writer.add_topic(Topic('/b', 'a/msg/A', 'nonsense', '', ()))
+        for stamp, channel in ((5, first), (6, 3 - first), (7, 3)):
+            writer.write(channel, stamp, b'\0\1\0\0' + bytes((first,)) * 8, 0, 0)
+        writer.flush()
+        writer.close({})
+    with BagReader(tmp_path / 'one.mcap') as one, BagReader(tmp_path / 'two.mcap') as two:
+        found = {topic.topic: topic for topic in diff(one, two, None, Tolerance())}
+    assert list(found['/a'].worst.values()) == [('type', 5, 'a/msg/A', 'a/msg/B')]
+    assert (found['/a'].since, found['/a'].differing) == (5, 2)
+    what = 'bytes that cannot be decoded'
+    assert found['/b'].worst[what] == (what, 7, '0001000001010101', '0001000002020202')
+
+
+@pytest.mark.parametrize(('a', 'b', 'same'), [
+    (inf, inf, True), (-inf, inf, False), (inf, 1.0, False), (1.0, inf, False), (nan, nan, True),
+    (nan, 1.0, False), (-1.0, -1.5, True), (-1.0, -1.51, False), (1.0, 1.5, True),
+    ('a', 'a', True), ('a', 'b', False), (True, True, True), (np.bool_(True), False, False),
+    (np.int8(100), np.int8(-100), False), (np.float32(0.5), 1.0, True),
+])  # fmt: skip
+def test_values_that_count_as_equal_within_a_half(a, b, same):
+    assert equal(a, b, Tolerance(0.5)) is same
+    assert equal(b, a, Tolerance(0.5)) is same
+
+
+def test_what_is_relative_is_so_to_the_larger():
+    for limit, same in ((0.5, True), (0.49, False)):
+        assert equal(1.0, -2.0, Tolerance(relative=3 * limit)) is same
+        assert equal(2.0, 1.0, Tolerance(relative=limit)) is same
+
+
+def test_how_far_apart_values_are():
+    assert distance(127, -1) == distance(np.int8(127), np.int8(-1)) == 128
+    assert distance(2**63 + 5000, 2**63) == 5000
+    assert distance(-0.5, 1.0) == 1.5
+    assert distance('a', 'b') == distance(nan, 1.0) == inf
 
 
 def test_a_topic_of_neither_bag_is_refused(compare):
