@@ -92,7 +92,7 @@ def edit(
         for extra in (*extras(bags), *([what.record] if what.record else [])):
             new.keep(extra)
         work = EditWork(new, fill_of(sources, what), what.file_size)
-        total = sum(os.path.getsize(source.file.path) for source in sources) or 1  # noqa: PTH202
+        total = sum(os.path.getsize(source.file.path) for source in sources)  # noqa: PTH202
 
         def show(read: int) -> None:
             progress(min(read / total, 1.0))

@@ -291,6 +291,17 @@ def test_seconds_of_all_topics_count_from_the_start_of_the_bag(tmp_path):
         later.seconds(since=1000.0)
 
 
+def test_what_is_the_same_in_all_messages_is_there_once_though_they_are_put_in_order(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        topic = writer.add_topic('/a', 'a/msg/A', 'int8 x\nint8 y', type_hash='')
+        for stamp in (3, 1, 2):
+            writer.write(topic, stamp, b'\0\1\0\0\7' + bytes((stamp,)))
+    with BagReader(tmp_path / 'bag') as bag:
+        found = read_topic(bag, '/a')
+    assert (found.fields['x'].tolist(), found.fields['y'].tolist()) == ([7, 7, 7], [1, 2, 3])
+    assert found.fields['x'].strides[0] == 0
+
+
 def test_without_messages_there_are_no_seconds_and_no_start(tmp_path):
     with BagReader(two_topics(tmp_path / 'bag')) as bag:
         none = columns_of(bag.topics['/a'], None, [])

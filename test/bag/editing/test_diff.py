@@ -158,7 +158,7 @@ def test_messages_of_other_types_and_what_nobody_can_decode(tmp_path):
 @pytest.mark.parametrize(('a', 'b', 'same'), [
     (inf, inf, True), (-inf, inf, False), (inf, 1.0, False), (1.0, inf, False), (nan, nan, True),
     (nan, 1.0, False), (-1.0, -1.5, True), (-1.0, -1.51, False), (1.0, 1.5, True),
-    ('a', 'a', True), ('a', 'b', False), (True, True, True), (np.bool_(True), False, False),
+    ('a', 'a', True), ('a', 'b', False), (True, True, True), (np.bool_(1), np.bool_(0), False),
     (np.int8(100), np.int8(-100), False), (np.float32(0.5), 1.0, True),
 ])  # fmt: skip
 def test_values_that_count_as_equal_within_a_half(a, b, same):

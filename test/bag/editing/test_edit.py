@@ -20,6 +20,7 @@ from agv_motion.bag import BagReader, BagWriter, DamagedBagError
 from agv_motion.bag.editing import edit as engine
 from agv_motion.bag.editing.edit import Edit, edit
 from agv_motion.bag.editing.steps import Step
+from agv_motion.bag.mcap.file import McapFile
 from agv_motion.bag.selection import Selection
 from agv_motion.errors import SourceError
 
@@ -49,6 +50,30 @@ def test_a_copy_has_the_same_chunks_and_all_else(walk, tmp_path):
     assert bags.extras(tmp_path / 'copy') == EXTRAS
     with BagReader(walk) as one, BagReader(tmp_path / 'copy') as other:
         assert one.connections == other.connections
+
+
+def test_progress_is_the_share_of_bytes_that_were_read(walk, tmp_path):
+    shares = []
+    with BagReader(walk) as bag:
+        edit([bag], tmp_path / 'copy', Edit(), shares.append)
+        size = bag.files[0].path.stat().st_size
+        lengths = [chunk.length for chunk in bag.files[0].chunks]
+    assert shares == [sum(lengths[: k + 1]) / size for k in range(len(lengths))]
+    with BagWriter(tmp_path / 'packed', chunk_size=2000) as bag:
+        topic = bag.add_topic('/a', TEXT, 'string data', type_hash='')
+        for stamp in (0, 20, 10, 30):  # two chunks that overlap: their messages are read unpacked
+            bag.write(topic, stamp, text('x' * 5000))
+    with BagReader(tmp_path / 'packed') as bag:
+        edit([bag], tmp_path / 'ordered', Edit(ordered=True), shares.append)
+    assert shares[-1] == 1.0
+
+
+@pytest.mark.parametrize(('what', 'times'), [({}, 1), ({'spans': ((0, 2**64),)}, 0)])
+def test_the_crc_of_the_whole_counts_where_all_is_wanted(walk, tmp_path, monkeypatch, what, times):
+    asked = []
+    monkeypatch.setattr(McapFile, 'require_whole', lambda file: asked.append(file))
+    edited(tmp_path / 'copy', [walk], **what)
+    assert len(asked) == times
 
 
 def test_some_topics_are_gathered_into_few_chunks_and_the_others_are_not_described(walk, tmp_path):
