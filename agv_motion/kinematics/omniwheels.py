@@ -138,7 +138,7 @@ class OmniWheels:
         vx, vy, wz = twist
         speeds = [a * vx + b * vy + c * wz for a, b, c in self._driven]
         fastest = max(*speeds, -min(speeds))
-        if not isfinite(vx + vy + wz + fastest):
+        if not (isfinite(vx) and isfinite(vy) and isfinite(wz) and isfinite(fastest)):
             require_finite('twist', twist)
             require_finite('wheel speeds', tuple(speeds))
         if not fastest <= max_wheel_speed:  # also true when it is NaN
@@ -234,7 +234,7 @@ class OmniWheels:
             vx += to_x * speed
             vy += to_y * speed
             wz += to_z * speed
-        if not isfinite(vx + vy + wz):
+        if not (isfinite(vx) and isfinite(vy) and isfinite(wz)):
             require_finite('wheel speeds', tuple(speeds))
             require_finite(f'the twist of wheel speeds {tuple(speeds)}', (vx, vy, wz))
         if not solution.checks:

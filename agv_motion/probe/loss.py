@@ -77,21 +77,22 @@ class DayCourse:
         """Know of no day."""
         self._days = days
         self._hours: dict[int, deque[float]] = {}
-        self._open: tuple[int, list[float]] | None = None
-        """number of the hour since 1970, and its values so far"""
+        self._open: tuple[int, float, int] | None = None
+        """number of the hour since 1970, sum and count of its values"""
 
     def add(self, time: float, value: float) -> None:
         """Take in what was measured at ``time`` [s]."""
         hour = int(time // HOUR)
         if self._open is None:
-            self._open = hour, []
-        number, values = self._open
-        if number != hour:
-            past = self._hours.setdefault(number % 24, deque(maxlen=self._days))
-            past.append(sum(values) / len(values))
-            self._open = hour, [value]
+            self._open = hour, value, 1
+            return
+        number, total, count = self._open
+        if number == hour:
+            self._open = hour, total + value, count + 1
         else:
-            values.append(value)
+            past = self._hours.setdefault(number % 24, deque(maxlen=self._days))
+            past.append(total / count)
+            self._open = hour, value, 1
 
     def at(self, time: float) -> float | None:
         """Return what is usual at ``time`` [s]; None where that hour was never measured."""

@@ -46,7 +46,8 @@ class RecentMeans:
         self._window, self._bin_length = window, bin_length
         self._bins: deque[tuple[float, float]] = deque()
         self._sorted: list[float] = []
-        self._open: tuple[int, float, int] = (0, 0.0, 0)
+        self._open: tuple[int, float, int] | None = None
+        """number of the bin, sum and count of its values"""
 
     def __len__(self) -> int:
         """Return the number of finished bins."""
@@ -55,18 +56,20 @@ class RecentMeans:
     def add(self, time: float, value: float) -> None:
         """Take in ``value`` at ``time`` [s]; its own bin counts once it is finished."""
         index = int(time // self._bin_length)
-        open_index, total, count = self._open
-        if index != open_index and count:
-            self._close(open_index * self._bin_length, total / count)
-            total, count = 0.0, 0
-        self._open = index, total + value, count + 1
+        begun, self._open = self._open, (index, value, 1)
+        if begun is not None:
+            number, total, count = begun
+            if number == index:
+                self._open = index, total + value, count + 1
+            else:
+                self._close(number * self._bin_length, total / count)
         while self._bins and abs(time - self._bins[0][0]) > self._window:
             _, old = self._bins.popleft()
             del self._sorted[bisect_left(self._sorted, old)]
 
     def distrust(self, since: float) -> None:
         """Forget the bins in which anything lies that came from ``since`` [s] on."""
-        self._open = 0, 0.0, 0
+        self._open = None
         while self._bins and self._bins[-1][0] + self._bin_length > since:
             _, mean = self._bins.pop()
             del self._sorted[bisect_left(self._sorted, mean)]

@@ -112,6 +112,7 @@ def test_slip_of_one_mecanum_wheel_by_hand():
 def test_scaling_keeps_the_direction_and_the_limit(base, twist, limit):
     free, command = base.command(twist), base.command(twist, limit)
     assert max(map(abs, command.speed)) <= limit * (1 + 1e-15)
+    assert free.scale == 1.0
     assert command.speed == pytest.approx([command.scale * s for s in free.speed], abs=1e-15)
     assert command.scale == 1.0 or max(map(abs, command.speed)) == pytest.approx(limit, rel=1e-14)
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
-from agv_motion.probe.normalise import RunningQuantiles, RunningRange
+from agv_motion.probe.normalise import RecentMeans, RunningQuantiles, RunningRange
 
 QUARTER = 900.0
 
@@ -53,6 +53,67 @@ def test_a_spike_is_forgotten_after_the_window():
     assert normaliser.update(300 * QUARTER, 1.0) == pytest.approx(1.0)
 
 
+def test_bins_have_their_means_and_those_of_the_last_day_count():
+    """Bins of 10 s and a window of 30 s: by their begins, a bin once the next has begun."""
+    means = RecentMeans(30.0, 10.0)
+    for time, value in ((0.0, 1.0), (9.0, 3.0), (10.0, 7.0), (25.0, 5.0)):
+        means.add(time, value)
+    assert means.finished() == [[0.0, 2.0], [10.0, 7.0]]
+    assert [means.quantile(share) for share in (0.0, 0.49, 0.5, 1.0)] == [2.0, 2.0, 7.0, 7.0]
+    means.add(30.0, 9.0)
+    assert means.finished() == [[0.0, 2.0], [10.0, 7.0], [20.0, 5.0]]
+    means.add(31.0, 9.0)
+    assert means.finished() == [[10.0, 7.0], [20.0, 5.0]]
+    assert len(means) == 2
+    assert [means.quantile(share) for share in (0.0, 1.0)] == [5.0, 7.0]
+
+
+@pytest.mark.parametrize(
+    ('since', 'bins'),
+    [(20.1, [0.0, 10.0]), (20.0, [0.0, 10.0]), (19.9, [0.0]), (10.0, [0.0]), (0.0, [])],
+)
+def test_what_is_distrusted_is_forgotten_with_its_bin(since, bins):
+    """The open one too: what comes later begins it anew."""
+    means = RecentMeans(1000.0, 10.0)
+    for time in range(25):
+        means.add(float(time), 100.0 - time)
+    means.distrust(since)
+    assert [time for time, _ in means.finished()] == bins
+    assert len(means) == len(bins)
+    means.add(26.0, 7.0)
+    means.add(30.0, 1.0)
+    assert means.finished()[-1] == [20.0, 7.0]
+    assert means.quantile(0.0) == 7.0
+
+
+def test_a_day_of_history_is_needed_unless_it_is_told():
+    normaliser = RunningQuantiles((0.0, 1.0), 7.0, 1.0)
+    told = [normaliser.update(k * QUARTER, float(k % 2)) for k in range(98)]
+    assert told[:96] == [None] * 96
+    assert told[96] is not None
+    assert RecentMeans(1.0, 1.0).finished() == []
+
+
+def test_the_window_is_of_whole_days():
+    """A spike counts for a day, and no longer."""
+    normaliser = quantiles(window_days=1.0)
+    normaliser.update(0.0, 100.0)
+    shares = [normaliser.update(k * QUARTER, float(k % 2)) for k in range(1, 100)]
+    assert shares[94] == pytest.approx(0.01)
+    assert [shares[96], shares[98]] == [1.0, 1.0]
+
+
+def test_a_range_far_from_zero_is_as_good_and_one_of_nothing_is_no_range():
+    normaliser = quantiles(smallest_range=4.0)
+    for i in range(20):
+        normaliser.update(i * QUARTER, 5.0 + 2.0 * (i % 2))
+    assert normaliser.update(20 * QUARTER, 6.0) == pytest.approx(0.5 * 0.25)
+    normaliser = quantiles(smallest_range=0.0)
+    for i in range(20):
+        normaliser.update(i * QUARTER, 5.0 + 2.0 * (i % 2))
+    assert normaliser.update(20 * QUARTER, 6.0) == pytest.approx(0.5)
+
+
 def test_a_range_below_noise_is_not_blown_up():
     normaliser = quantiles(smallest_range=1.0)
     for i in range(20):
@@ -95,3 +156,15 @@ def test_a_restart_goes_on_where_it_was(make):
     )
     with pytest.raises(ConfigurationError, match='delete the state file'):
         second.restore({})
+
+
+@pytest.mark.parametrize(
+    ('ends', 'share'), [([0.2, 0.7], 0.5), ([0.7, 0.2], 0.5), ([None] * 2, 1.0)]
+)
+def test_the_original_takes_up_its_range_or_none(ends, share):
+    normaliser = RunningRange(0.1)
+    normaliser.restore({'range': ends})
+    assert normaliser.update(0.0, 0.45) == pytest.approx(share)
+    for bad in ([0.2, None], [None, 0.7], [0.2, float('nan')]):
+        with pytest.raises(ConfigurationError, match='saved range is unreadable'):
+            normaliser.restore({'range': bad})

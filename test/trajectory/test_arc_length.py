@@ -100,6 +100,50 @@ def test_a_chain_goes_over_from_curve_to_curve():
     assert len(chain.middle_curvature) == len(chain.way) - 1
 
 
+@pytest.mark.parametrize(('curves', 'cells'), [(1, 64), (8, 64), (16, 32), (100, 8)])
+def test_of_many_curves_each_is_cut_into_fewer_cells(curves, cells):
+    """Straight ones, which need no more than they begin with; each has one node more."""
+    line = [connect(Pose(k, 0, 0), Pose(k + 1, 0, 0), 1 / 3) for k in range(curves)]
+    chain = ArcLength(line)
+    assert len(chain.way) == len(chain.curvature) == curves * (cells + 1)
+    assert chain.length == pytest.approx(curves)
+
+
+def test_curvature_stands_over_the_way_at_each_node_and_in_the_middle_between():
+    """By the length of the curve up to there, of each of two curves; at the joint they meet."""
+    curves = [
+        connect(Pose(0, 0, 0), Pose(2, 1, 1.5), 0.4),
+        connect(Pose(2, 1, 1.5), Pose(4, 0, 0), 0.5),
+    ]
+    chain, begin, at = ArcLength(curves), 0.0, 0
+    for number, curve in enumerate(curves):
+        cells = chain._inverse._cells[chain._inverse._which == number]  # noqa: SLF001 - the table
+        u = np.append(cells[:, 1], 1.0)
+        middle = 0.5 * (u[:-1] + u[1:])
+
+        def way(to, curve=curve):
+            inside = np.asarray(to)[:, None, None] * (np.arange(40)[:, None] + GAUSS_NODES) / 40.0
+            return np.asarray(to) / 40.0 * (np.abs(curve.velocity(inside)) @ GAUSS_WEIGHTS).sum(1)
+
+        end = at + len(u)
+        assert chain.way[at:end] == pytest.approx(begin + way(u), abs=1e-9)
+        assert chain.curvature[at:end] == pytest.approx(curve.curvature(u), abs=1e-9)
+        assert chain.middle_way[at : end - 1] == pytest.approx(begin + way(middle), abs=1e-9)
+        assert chain.middle_curvature[at : end - 1] == pytest.approx(curve.curvature(middle))
+        begin, at = begin + float(way([1.0])[0]), end
+    joint = len(chain._inverse._which[chain._inverse._which == 0])  # noqa: SLF001 - the table
+    assert chain.middle_way[joint] == chain.way[joint] == chain.way[joint + 1]
+    assert chain.middle_curvature[joint] == chain.curvature[joint]
+
+
+def test_what_winds_too_much_is_refused_as_a_whole():
+    """Half a circle turns by 5 % some sixty times: 150 of them can be planned, 400 cannot."""
+    half = [connect(Pose(2 * k, 0, pi / 2), Pose(2 * k + 2, 0, -pi / 2), 0.66) for k in range(400)]
+    assert ArcLength(half[:150]).length > 150.0
+    with pytest.raises(GeometryError, match=r'^the 400 curves wind too much to be planned at once'):
+        ArcLength(half)
+
+
 def test_a_cusp_is_refused_by_name():
     """P' = 3 (1 - 2u)^2 - 3j (1 - 2u) ... vanishes at u = 1/2."""
     with pytest.raises(GeometryError, match='curve 2 has a cusp near 50 %'):
