@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from contextlib import contextmanager
+from functools import partial
 
 import pytest
 
@@ -23,6 +24,34 @@ PATIENT = {
 }
 """Limits of inputs that are wide here [s]: the machine may be busy with something else"""
 WIDE = 20.0
+
+
+SWIFT = {
+    'differential_kinematics': {
+        'max_wheel_speed': 3.0, 'max_wheel_acceleration': 9.0, 'max_wheel_deceleration': 18.0,
+    },
+    'ghost_trajectory': {
+        'rate': 20.0, 'cruising_speed': 1.0, 'speed_ramps': 2.0, 'follow__ghost__wheel_speed': 2.5,
+        'follow__ghost__linear_speed': 2.5, 'follow__ghost__lateral_acceleration': 2.0,
+        'follow__ghost__turn_rate': 5.0, 'follow__ghost__turn_acceleration': 9.0,
+    },
+    'differential_simulator': {'rate': 20.0, 'fixes__rate': 20.0},
+}  # fmt: skip
+"""Of a differential drive that is soon there, told as often as drives it there, not as is usual"""
+NO_PICTURES = 'robot_model', 'scene', 'why'
+"""Nodes that no client hears"""
+
+
+@pytest.fixture(scope='session')
+def slim(spun):
+    """Return what lets a robot live for a while without what clients do not hear."""
+    return partial(spun, without=NO_PICTURES)
+
+
+@pytest.fixture(scope='session')
+def swift(slim):
+    """Return what lets a swift differential robot live for a while: it is soon there."""
+    return lambda: slim('differential', 4.0, **SWIFT)
 
 
 @pytest.fixture(scope='session')

@@ -21,9 +21,9 @@ LIMIT = 100.0
 
 
 @pytest.fixture(scope='module')
-def heard(spun):
+def heard(slim):
     """Return what drives the robot, and where it really is, newest last."""
-    with spun('omni', 4.0):
+    with slim('omni', 4.0):
         link, found = ScriptLink(''), {'page': [], 'truth': []}
         for topic, kind, qos, inbox in (
             ('cmd_vel/page', TwistStamped, COMMAND, 'page'),
