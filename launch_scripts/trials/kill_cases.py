@@ -158,11 +158,11 @@ def prepare(sources: Path, chosen: list[Case]) -> None:
 def _drive(path: Path) -> None:
     """Record a differential drive with places, for the calibration."""
     rng = np.random.default_rng(2)
-    way = np.zeros((3, 600))
-    way[0], way[2] = 0.03, np.repeat(rng.uniform(-0.08, 0.08, 30), 20)
+    way = np.zeros((3, 200))
+    way[0], way[2] = 0.03, np.repeat(rng.uniform(-0.08, 0.08, 10), 20)
     turned = np.array([(way[0] - way[2] * 0.155) / 0.049, (way[0] + way[2] * 0.155) / 0.0505])
     angles = np.concatenate([np.zeros((2, 1)), np.cumsum(turned, axis=1)], axis=1)
-    poses = pose_columns(way) + rng.normal(0.0, 0.01, (3, 601))
+    poses = pose_columns(way) + rng.normal(0.0, 0.01, (3, 201))
     with BagWriter(path) as bag:
         states = bag.add_topic('/wheels/state', 'sensor_msgs/msg/JointState')
         fixes = bag.add_topic('/fix', 'geometry_msgs/msg/PoseWithCovarianceStamped')
