@@ -18,13 +18,22 @@ def wait_for_text(page, selector, wanted):
     expect(page.locator(selector)).to_contain_text(wanted)
 
 
-def test_bar_tells_the_worst_robot_in_its_own_words(park, serve, open_page):
+def test_bar_tells_the_worst_robot_in_its_own_words_and_missing_numbers_are_unknown(
+    park, serve, open_page
+):
     park.tell('ash', 1, colour='yellow', word='waiting', sentence='waits for oak until 14:05')
+    park.say('oak', 'twist', {'vx': None, 'vy': None, 'wz': None, 'icr': None})
+    park.say('oak', 'pose', {'x': None, 'y': None, 'heading': None, 'covariance': [None] * 4})
+    park.say('oak', 'turrets', {'angles': [None] * 3, 'speeds': [None] * 3})
     page = open_page(serve(park).url)
     wait_for_text(page, '#bar-sentence', 'waits for oak until 14:05')
     assert text(page, '#bar-name') == 'ash'
     assert text(page, '#bar-word') == 'waiting'
     assert page.get_attribute('body', 'data-colour') == 'yellow'
+    wait_for_text(page, '#chosen .facts', 'unknown')
+    assert '12.3\u202fL (3.8 to 39.4)' in text(page, '#chosen .facts')
+    assert 'NaN' not in page.inner_text('body')
+    assert 'oak unknown' in page.get_attribute('#map-canvas', 'aria-label')
 
 
 def test_page_loads_quickly_and_asks_nothing_of_other_machines(park, serve, open_page):
@@ -39,17 +48,6 @@ def test_page_loads_quickly_and_asks_nothing_of_other_machines(park, serve, open
     assert seconds < 20.0, f'{seconds:.1f} s'  # two on a quiet machine; see measure_page.py
 
 
-def test_page_says_itself_that_frames_stop_and_from_when(park, serve, open_page):
-    server = serve(park)
-    page = open_page(server.url)
-    wait_for_text(page, '#bar-sentence', 'walking to the sun')
-    server.close()
-    wait_for_text(page, '#bar-word', 'No data')
-    assert re.search(r'since \d\d:\d\d:\d\d', text(page, '#bar-sentence'))
-    assert page.get_attribute('body', 'data-colour') == 'red'
-    assert page.locator('body[data-stale]').count() == 1
-
-
 def test_a_robot_whose_data_are_old_turns_red_though_frames_come(park, serve, open_page):
     page = open_page(serve(park).url)
     wait_for_text(page, '#bar-sentence', 'walking to the sun')
@@ -58,19 +56,6 @@ def test_a_robot_whose_data_are_old_turns_red_though_frames_come(park, serve, op
     assert text(page, '#bar-name') == 'elm'
     assert page.get_attribute('[data-robot=elm]', 'data-colour') == 'red'
     assert page.get_attribute('[data-robot=oak]', 'data-colour') == 'green'
-
-
-def test_page_connects_again_after_a_restart_of_the_server(park, serve, open_page):
-    server = serve(park)
-    port = server.listener.getsockname()[1]
-    page = open_page(server.url)
-    wait_for_text(page, '#bar-sentence', 'walking to the sun')
-    server.close()
-    wait_for_text(page, '#bar-word', 'No data')
-    park.tell_all(sentence='walking on after all')
-    serve(park, port=port)
-    wait_for_text(page, '#bar-sentence', 'walking on after all')
-    assert page.get_attribute('body', 'data-colour') == 'green'
 
 
 def test_markup_in_names_and_sentences_is_text(make_park, serve, open_page):
@@ -87,27 +72,19 @@ def test_markup_in_names_and_sentences_is_text(make_park, serve, open_page):
     assert page.title() != '1'
 
 
-def test_numbers_that_are_missing_are_told_as_unknown(park, serve, open_page):
-    park.say('oak', 'twist', {'vx': None, 'vy': None, 'wz': None, 'icr': None})
-    park.say('oak', 'pose', {'x': None, 'y': None, 'heading': None, 'covariance': [None] * 4})
-    park.say('oak', 'turrets', {'angles': [None] * 3, 'speeds': [None] * 3})
-    page = open_page(serve(park).url)
-    wait_for_text(page, '#chosen .facts', 'unknown')
-    assert '12.3\u202fL (3.8 to 39.4)' in text(page, '#chosen .facts')
-    assert 'NaN' not in page.inner_text('body')
-    assert 'oak unknown' in page.get_attribute('#map-canvas', 'aria-label')
-
-
 STOPPED = {('oak', 'stop'), ('ash', 'stop'), ('elm', 'stop')}
 
 
-def test_stop_is_shown_as_done_only_when_the_wheels_are_reported_to_stand(
+def test_each_press_of_stop_is_sent_and_it_is_done_only_when_the_wheels_are_reported_to_stand(
     park, serve, open_page, wait_until
 ):
     page = open_page(serve(park).url)
-    page.click('#stop-button')
-    wait_for_text(page, '.stop-label', 'STOPPING')
-    wait_until(lambda: {asked[:2] for asked in park.asked} == STOPPED, 20.0)
+    for presses in (1, 2, 3):  # however soon one follows the other
+        with page.expect_response('**/stop'):
+            page.click('#stop-button')
+        wait_for_text(page, '.stop-label', 'STOPPING')
+        wait_until(lambda count=3 * presses: len(park.asked) == count, 20.0)
+    assert {asked[:2] for asked in park.asked} == STOPPED
     park.tell_all(stopped=True, standstill=False)
     wait_for_text(page, '.stop-note', 'oak, ash, elm')
     assert 'STOPPING' in text(page, '.stop-label')
@@ -117,15 +94,7 @@ def test_stop_is_shown_as_done_only_when_the_wheels_are_reported_to_stand(
     wait_for_text(page, '.stop-label', 'STOPPED')
 
 
-def test_each_press_of_stop_is_sent_however_soon_it_follows(park, serve, open_page, wait_until):
-    page = open_page(serve(park).url)
-    for presses in (1, 2, 3):
-        with page.expect_response('**/stop'):
-            page.click('#stop-button')
-        wait_until(lambda count=3 * presses: len(park.asked) == count, 20.0)
-
-
-def test_stop_that_finds_no_server_is_tried_until_the_next_one_takes_it(
+def test_without_a_server_the_page_says_so_and_the_next_one_takes_what_it_is_asked(
     park, serve, open_page, wait_until
 ):
     server = serve(park)
@@ -133,11 +102,17 @@ def test_stop_that_finds_no_server_is_tried_until_the_next_one_takes_it(
     page = open_page(server.url)
     wait_for_text(page, '#bar-sentence', 'walking to the sun')
     server.close()
+    wait_for_text(page, '#bar-word', 'No data')
+    assert re.search(r'since \d\d:\d\d:\d\d', text(page, '#bar-sentence'))
+    assert page.get_attribute('body', 'data-colour') == 'red'
+    assert page.locator('body[data-stale]').count() == 1
     page.keyboard.press('Escape')
     wait_for_text(page, '.stop-note', 'The server does not answer')
     assert park.asked == []
+    park.tell_all(sentence='walking on after all')
     serve(park, port=port)
-    page.locator('#bar-sentence', has_text='walking to the sun').wait_for()
+    wait_for_text(page, '#bar-sentence', 'walking on after all')
+    assert page.get_attribute('body', 'data-colour') == 'green'
     page.locator('#stop[data-state=ready]').wait_for()
     wait_until(lambda: {asked[:2] for asked in park.asked} == STOPPED, 20.0)
 

@@ -53,13 +53,12 @@ def driving(rig, look):
     rig.wheels.stood_after(time.time())
 
 
-@pytest.mark.parametrize('way', ['click', 'Escape'])
-def test_stop_makes_the_wheels_stand_and_release_lets_them_go(rig, look, way):
+def test_stop_makes_the_wheels_stand_and_release_lets_them_go(rig, look):
     import page_rig
 
     rig.wheels.walking = True
     page = look()
-    for _ in range(2):
+    for way in ('click', 'Escape'):
         rig.wheels.wait(rig.wheels.rolls)
         if way == 'click':
             page.click('#stop-button')
@@ -126,12 +125,11 @@ def test_cut_network_stops_and_the_page_says_so(rig, driving):
     driving.locator('body:not([data-stale])').wait_for()
 
 
-def test_killed_server_stops_and_the_page_comes_back_with_the_next_one(rig, driving):
+def test_killed_server_stops_and_the_page_says_so(rig, driving):
+    """Last of all: that a page comes back with the next server is seen in test_page.py."""
     rig.press(driving)
     moment = time.time()
     rig.server.end(signal.SIGKILL)
     assert rig.wheels.stood_after(moment) < 0.5 + BUSY
     driving.mouse.up()
     driving.locator('body[data-stale]').wait_for()
-    rig.serve()
-    driving.locator('body:not([data-stale])').wait_for()

@@ -23,8 +23,16 @@ def page_of(park, serve, open_page, log_in):
     return make
 
 
-def test_viewer_has_nothing_that_acts(page_of, park):
-    page = page_of('viewer')
+def test_a_wrong_password_is_refused_in_words_and_a_viewer_has_nothing_that_acts(
+    park, serve, open_page, log_in
+):
+    page = open_page(serve(park, ROLES).url)
+    page.fill('#user', 'operators')
+    page.fill('#password', 'wrong, but long enough')
+    page.press('#password', 'Enter')
+    page.wait_for_selector('#refusal:not(:empty)')
+    assert page.url.endswith('/login')
+    log_in(page, 'viewer')
     assert page.locator(ACTING).count() == 0
     page.click('[data-drawer=parameters]')
     page.wait_for_selector('.parameter')
@@ -56,12 +64,3 @@ def test_expert_changes_parameters(page_of):
     page.wait_for_selector('.parameter input')
     page.click('[data-drawer=zone]')
     page.wait_for_selector('#zone-edit')
-
-
-def test_wrong_password_is_refused_in_words(park, serve, open_page):
-    page = open_page(serve(park, ROLES).url)
-    page.fill('#user', 'operators')
-    page.fill('#password', 'wrong, but long enough')
-    page.press('#password', 'Enter')
-    page.wait_for_selector('#refusal:not(:empty)')
-    assert page.url.endswith('/login')
