@@ -33,16 +33,18 @@ class Executor:
     def __init__(self, graph, node):
         self.executor = EventsExecutor(context=graph.context)
         self.executor.add_node(node)
-        self.client = rclpy.create_node('client', context=graph.context)
+        self.client = graph.node('client')
         self.executor.add_node(self.client)
         self.node = node
+        self.clients = {}
 
     def ask(self, kind, service, request):
-        client = self.client.create_client(kind, f'{self.node.get_name()}/{service}')
-        self.until(client.service_is_ready)
-        future = client.call_async(request)
+        if service not in self.clients:
+            name = f'{self.node.get_name()}/{service}'
+            self.clients[service] = self.client.create_client(kind, name)
+            self.until(self.clients[service].service_is_ready)
+        future = self.clients[service].call_async(request)
         self.until(future.done)
-        self.client.destroy_client(client)
         return future.result()
 
     def until(self, condition):
@@ -81,7 +83,6 @@ def served(graph):
 
     yield make
     for executor in made:
-        executor.client.destroy_node()
         executor.node.destroy_node()
 
 
