@@ -29,8 +29,7 @@ SCENES = {
     'tree': (['/'], 3.0, ['wheel_0', 'wheel_1', 'wheel_2', 'probe_3']),
     'omni': (['/'], 12.0, ['wheel_0', 'wheel_1', 'wheel_2', 'imu_link']),
     'differential': (['/hare'], 3.0, ['hare/left_wheel', 'hare/right_wheel', 'hare/caster']),
-    'trees': (['/oak', '/ash', '/elm'], 2.0, [f'{n}/wheel_{i}' for n in ('oak', 'ash', 'elm')
-                                              for i in range(3)]),
+    'trees': (['/oak', '/ash'], 2.0, [f'{n}/wheel_{i}' for n in ('oak', 'ash') for i in range(3)]),
 }  # fmt: skip
 
 
