@@ -21,7 +21,7 @@ from agv_motion.ros.qos import COMMAND, LATCHED
 from agv_motion.trajectory.arc import Arc
 
 SWIFT = {
-    'rate': 50.0, 'cruising_speed': 1.0, 'speed_ramps': 2.0, 'follow__ghost__wheel_speed': 5.0,
+    'rate': 25.0, 'cruising_speed': 1.0, 'speed_ramps': 2.0, 'follow__ghost__wheel_speed': 5.0,
     'follow__ghost__lateral_acceleration': 5.0, 'follow__ghost__turn_rate': 9.0,
     'follow__delay': 0.0,
 }  # fmt: skip
@@ -43,7 +43,7 @@ class Course:
         self.tester = tester
         self.states = tester.listen(String, 'ghost/state', LATCHED)
         self.paths = tester.listen(Path, 'ghost/path', LATCHED)
-        self.robot = tester.driven_robot(step=0.02)
+        self.robot = tester.driven_robot(step=0.04)
         self.node = tester.start(GhostTrajectory, **(SWIFT | parameters))
         self.goal = tester.publisher(PoseStamped, 'goal_pose')
 
