@@ -18,7 +18,9 @@ ORIGIN = Pose(0.0, 0.0, 0.0)
 AHEAD = Twist(0.3, 0.0, 0.0)
 
 
-def blocked_at(told, *, moves=None, measured=lambda pose, _: pose, seconds=60.0, **parameters):
+def blocked_at(
+    told, *, moves=None, measured=lambda pose, _: pose, seconds=60.0, period=DT, **parameters
+):
     """Return when a robot is found blocked [s]; None if never.
 
     Args:
@@ -26,15 +28,16 @@ def blocked_at(told, *, moves=None, measured=lambda pose, _: pose, seconds=60.0,
         moves: Twist that it makes of it; none: it is held.
         measured: Makes of the true pose and the time what is measured.
         seconds: How long to look.
+        period: From one pose to the next [s].
         parameters: When it is blocked.
 
     """
     watch, pose = BlockedWatch(BlockedParameters(**parameters), 0.15), ORIGIN
-    for k in range(round(seconds / DT)):
-        twist = told(k * DT)
-        if watch.update(measured(pose, k * DT), twist, DT):
-            return (k + 1) * DT
-        pose = integrate(pose, moves(twist) if moves else REST, DT)
+    for k in range(round(seconds / period)):
+        twist = told(k * period)
+        if watch.update(measured(pose, k * period), twist, period):
+            return (k + 1) * period
+        pose = integrate(pose, moves(twist) if moves else REST, period)
     return None
 
 
@@ -84,11 +87,13 @@ def coarse(pose, _):
     ],
 )  # fmt: skip
 def test_what_moves_is_not_blocked_however_slowly_and_however_it_is_measured(twist, measured):
-    assert blocked_at(lambda _: twist, moves=same, measured=measured, seconds=300.0) is None
+    always = lambda _: twist  # noqa: E731
+    assert blocked_at(always, moves=same, measured=measured, seconds=300.0, period=0.1) is None
 
 
 def test_a_robot_that_can_do_no_more_than_a_millimetre_a_second_is_not_blocked():
-    assert blocked_at(lambda _: AHEAD, moves=one_millimetre_a_second, seconds=300.0) is None
+    slow = one_millimetre_a_second
+    assert blocked_at(lambda _: AHEAD, moves=slow, seconds=300.0, period=0.1) is None
 
 
 def test_a_delayed_pose_is_no_block():

@@ -31,9 +31,11 @@ def test_errors_are_shortened(kind):
     assert str(error).endswith('say less')
 
 
-@given(st.text(min_size=QUOTED, max_size=5 * LONGEST))
-def test_no_message_is_longer(message):
-    assert len(shortened(message)) <= LONGEST
+@given(st.lists(st.text(max_size=20), min_size=1, max_size=5), st.integers(1, LONGEST))
+def test_no_message_is_longer(parts, times):
+    """Of parts that are said once, and again and again: to draw each letter takes much longer."""
+    for message in (''.join(part * times for part in parts), ''.join(parts) * times):
+        assert len(shortened(message)) <= LONGEST
 
 
 @given(st.text(max_size=QUOTED))
