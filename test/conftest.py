@@ -414,7 +414,7 @@ class RealTimeRobot(DrivenRobot):
 
     def find(self):
         super().find()
-        self.node.create_timer(0.02, self._on_timer)
+        self.node.create_timer(0.04, self._on_timer)
 
     def _on_command(self, message):
         self._pass()

@@ -43,8 +43,8 @@ class Driver:
             parameters['file'] = str(file)
         self.name = name
         self.states = tester.listen(String, topic, LATCHED)
-        self.robot = tester.driven_robot(step=0.02)
-        self.node = tester.start(kind, **({'rate': 50.0} | SOON | parameters))
+        self.robot = tester.driven_robot(step=0.04)
+        self.node = tester.start(kind, **({'rate': 25.0} | SOON | parameters))
         self.robot.find()
         if kind is GhostTrajectory:
             self.goal = tester.publisher(PoseStamped, 'goal_pose')

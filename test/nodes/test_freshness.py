@@ -39,7 +39,7 @@ EVERY = QoSProfile(depth=1000)
 
 
 class Driver:
-    """Sends `cmd_vel` ten times as often as the node needs it, with whatever stamp is set."""
+    """Sends `cmd_vel` five times as often as the node needs it, with whatever stamp is set."""
 
     def __init__(self, tester, kind, topic, **parameters):
         self.tester = tester
@@ -47,7 +47,7 @@ class Driver:
         self.node = tester.start(kind, **(LIMITS | parameters))
         self.cmd_vel = tester.publisher(TwistStamped, 'cmd_vel')
         self.offset, self.frame, self.frozen = 0.0, '', None
-        tester.node.create_timer(0.02, self.send)
+        tester.node.create_timer(0.04, self.send)
 
     def send(self):
         message = TwistStamped()

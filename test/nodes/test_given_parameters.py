@@ -18,6 +18,7 @@ from agv_motion.errors import ConfigurationError
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.nodes.ghost_trajectory import GhostTrajectory
 from agv_motion.nodes.granier_probe import GranierProbe
+from agv_motion.ros.parameters import filled
 
 CONFIG = Path(__file__).parents[2] / 'config' / 'differential.yaml'
 IMPOSSIBLE = [
@@ -78,12 +79,21 @@ def test_what_cannot_be_is_one_line_and_status_1(starts, number):
         (DifferentialKinematics, {'stamped': 1}, 'stamped = 1: expected true or false'),
         (DifferentialKinematics, {'base_frame': 12}, 'base_frame = 12: expected a text'),
         (DifferentialKinematics, {'joint_names': [1, 2]}, 'each of it a text'),
-        (GranierProbe, {'csv__speed': 1}, 'csv.speed = 1: .* write 1.0'),
+        (GranierProbe, {'csv.speed': 1}, 'csv.speed = 1: .* write 1.0'),
     ],
 )
-def test_a_value_of_another_type_is_refused_with_what_to_write(tester, kind, given, words):
+def test_a_value_of_another_type_is_refused_with_what_to_write(kind, given, words):
     with pytest.raises(ConfigurationError, match=words):
-        tester.start(kind, activate=False, **given)
+        filled(kind.takes, given, kind.name)
+
+
+def test_a_live_node_refuses_it_as_well(tester):
+    with pytest.raises(ConfigurationError, match=r'track = 1: .* write 1\.0'):
+        tester.start(DifferentialKinematics, activate=False, track=1)
+    with pytest.raises(ConfigurationError, match=r'joint_names = .*each of it a text'):
+        tester.start(DifferentialKinematics, activate=False, joint_names=[1, 2])
+    with pytest.raises(ConfigurationError, match=r'csv\.speed = 1: .* write 1\.0'):
+        tester.start(GranierProbe, activate=False, csv__speed=1)
 
 
 @pytest.mark.parametrize(
