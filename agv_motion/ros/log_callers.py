@@ -11,11 +11,15 @@ import sys
 
 PACKAGES = ('agv_motion', 'rclpy')
 """whose functions stand between a node and its log"""
+SEEN: set[str] = set()
+"""Modules that were looked at: each node of a process looks at those that are new"""
 
 
 def note_log_callers() -> None:
     """Tell `inspect` which modules our files are, as it would find out by looking at all files."""
-    for name, module in list(sys.modules.items()):
-        file = getattr(module, '__file__', None)
+    new = sys.modules.keys() - SEEN
+    for name in new:
+        file = getattr(sys.modules.get(name), '__file__', None)
         if file and name.partition('.')[0] in PACKAGES:
             inspect.modulesbyfile.setdefault(file, name)
+    SEEN.update(new)
