@@ -83,7 +83,7 @@ class DeclaredParameters(Generic[T]):
             wrong = self.wrong(name, parameter.value) if name in self._types else ''
             if wrong:
                 raise ConfigurationError(wrong)
-        self.values: T = _declare(node, kind, '')
+        self.values: T = _declare(node, kind)
         self.unknown = tuple(
             self._no_parameter(name)
             for name in given
@@ -197,20 +197,18 @@ def _units(kind: type[Any], prefix: str) -> Iterator[tuple[str, str]]:
         yield from _units(group, f'{prefix}{name}.')
 
 
-def _declare(node: Node, kind: type[Any], prefix: str) -> Any:
+def _declare(node: Node, kind: type[Any]) -> Any:
+    declared = node.declare_parameters('', list(_described(kind, '')))
+    return _filled(kind, {parameter.name: parameter.value for parameter in declared}, '')
+
+
+def _described(kind: type[Any], prefix: str) -> Iterator[tuple[str, Any, ParameterDescriptor]]:
+    """Yield name, default and descriptor of every parameter."""
     defaults = kind()
-    values = {
-        name: _plain(
-            node.declare_parameter(
-                prefix + name,
-                getattr(defaults, name),
-                _descriptor(spec, origin),
-            ).value
-        )
-        for name, origin, spec in rows(kind)
-    }
-    groups = {name: _declare(node, group, f'{prefix}{name}.') for name, group in nested(kind)}
-    return kind(**values, **groups)
+    for name, origin, spec in rows(kind):
+        yield prefix + name, getattr(defaults, name), _descriptor(spec, origin)
+    for name, group in nested(kind):
+        yield from _described(group, f'{prefix}{name}.')
 
 
 def _descriptor(spec: Spec, origin: Any) -> ParameterDescriptor:
