@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from agv_motion.simulation.sap import SapSense
 
 DAY = 86400.0
@@ -27,4 +29,6 @@ def test_shade_makes_it_slow():
 
 
 def test_a_seed_is_a_tree():
+    assert flow(1.0, 11) == pytest.approx((0.767223138341, 0.489073807525, 0.515215577871))
+    assert flow(0.5, 8, seed=3) == pytest.approx((0.090091873644, 0.064985070894, 0.036910669980))
     assert flow(1.0, 11) == flow(1.0, 11) != flow(1.0, 11, seed=2)

@@ -29,7 +29,13 @@ def test_light_in_shade_and_sun():
     assert light_factor(12.0, 0.0, EVENING, HOUSE) == 1.0
     assert light_factor(5.0, 0.0, EVENING, HOUSE) == DIFFUSE
     assert irradiance(12.0, 0.0, EVENING, HOUSE) == pytest.approx(1000.0 * 0.5**0.5)
-    assert irradiance(12.0, 0.0, Sun(-0.1, 0.0), HOUSE) == 0.0
+    assert irradiance(5.0, 0.0, EVENING, HOUSE) == pytest.approx(300.0 * 0.5**0.5)
+    for elevation in (-0.1, 0.0):
+        night = Sun(elevation, pi)
+        assert irradiance(12.0, 0.0, night, HOUSE) == sunlit(12.0, 0.0, night, HOUSE) == 0.0
+        assert light_factor(5.0, 0.0, night, HOUSE) == 1.0
+    two = [*HOUSE, Obstacle(9.0, 1.2, 1.0, 10.0)]
+    assert sunlit(9.0, 0.9, EVENING, two) == sunlit(9.0, 0.9, EVENING, two[::-1]) == 0.0
 
 
 @given(st.floats(-30, 30), st.floats(-30, 30), st.floats(0.01, 1.5), st.floats(-pi, pi))

@@ -30,7 +30,21 @@ def test_without_lag_it_drives_a_quarter_circle():
 def test_a_wheel_follows_its_command_with_its_lag():
     platform = TurretPlatform(PAIR, MotorParameters(traction_lag=0.5), START)
     platform.step([0.0, 0.0], [1.0, 1.0], 0.5)
-    assert platform.speeds == pytest.approx([1.0 - exp(-1.0)] * 2)
+    speed = 1.0 - exp(-1.0)
+    assert platform.speeds == pytest.approx([speed] * 2)
+    assert platform.twist == pytest.approx((speed / 2.0, 0.0, 0.0))  # the mean of before and after
+    assert platform.pose == pytest.approx((1.0 + 0.5 * speed / 2.0, 2.0, 0.0))
+    platform.step([0.0, 0.0], [0.0, 0.0], 0.5)
+    assert platform.speeds == pytest.approx([speed * exp(-1.0)] * 2)
+    assert platform.twist.vx == pytest.approx(speed * (1.0 + exp(-1.0)) / 2.0)
+
+
+def test_a_turret_follows_its_command_with_its_lag():
+    platform = TurretPlatform(PAIR, MotorParameters(steering_rate=50.0, steering_lag=0.5), START)
+    platform.step([3.0, -3.0], [0.0, 0.0], 0.5)
+    assert platform.angles == pytest.approx([3.0 - 3.0 * exp(-1.0), 3.0 * exp(-1.0) - 3.0])
+    platform.carry_to(Pose(9.0, 9.0, 1.0))
+    assert platform.pose == Pose(9.0, 9.0, 1.0)
 
 
 def test_a_turret_turns_no_faster_than_its_rate():

@@ -69,6 +69,32 @@ def test_drop_outs_last_as_long_as_told():
     assert set(gaps) == {1.0, 61.0}
 
 
+def test_its_covariance_tells_position_and_heading():
+    covariance = UwbParameters(position_noise=0.2, heading_noise=0.1).covariance()
+    assert covariance == pytest.approx((0.04, 0.0, 0.0, 0.04, 0.0, 0.01))
+
+
+def test_nothing_befalls_it_before_its_beginning():
+    """The first drop-out comes some 5 s after it, which is not so for who begins at 0."""
+    uwb = Uwb(UwbParameters(dropout_interval=5.0, dropout_duration=1.0), 1, begin=1000.0)
+    for i in range(100):
+        uwb.measure(1000.0 + i, PLACE)
+    found = [fix.stamp for fix in uwb.arrivals(1e9)]
+    assert found[0] == 1000.0
+    assert 70 < len(found) < 90
+
+
+def test_with_everything_that_befalls_it_a_seed_gives_what_it_gave():
+    found = fixes(
+        60, position_noise=0.1, heading_noise=0.1, latency=2.0, outlier_share=0.1,
+        outlier_reach=9.0, multipath_interval=9.0, multipath_duration=3.0, dropout_interval=20.0,
+        dropout_duration=4.0,
+    )  # fmt: skip
+    assert len(found) == 56
+    sums = (sum(values) for values in zip(*((f.x, f.y, f.heading) for f in found), strict=True))
+    assert tuple(sums) == pytest.approx((154.138865, 267.069658, 56.072554), abs=1e-6)
+
+
 def test_impossible_parameters_are_refused():
     with pytest.raises(ConfigurationError, match=r'outlier_share = 1\.5'):
         UwbParameters(outlier_share=1.5)
