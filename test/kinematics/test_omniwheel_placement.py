@@ -51,6 +51,11 @@ def test_mecanum_wheels_stand_at_the_corners_and_their_rollers_meet_in_an_x():
 def test_a_wheel_that_slides_along_its_rolling_direction_drives_nothing(slide):
     with pytest.raises(GeometryError, match='wheel 3 slides along its own rolling direction'):
         require_driven(3, OmniWheel(1.0, 0.0, 0.0, slide))
+
+
+@pytest.mark.parametrize('slide', [1.5e-6, -1.5e-6, pi - 1.5e-6])
+def test_a_wheel_that_slides_hardly_beside_it_drives(slide):
+    require_driven(3, OmniWheel(1.0, 0.0, 0.0, slide))
     require_driven(3, OmniWheel(1.0, 0.0, 0.0, 2.0 * DRIVELESS))
 
 

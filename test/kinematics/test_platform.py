@@ -48,6 +48,16 @@ def test_a_turret_outside_the_rim_is_refused():
         PlatformParameters(platform_radius=0.5).turret_positions()
 
 
+def test_a_turret_may_stand_on_the_rim_to_a_thousandth_of_a_millimetre():
+    on = {'turret_x': (1.0, -1.0), 'turret_y': (0.0, 0.0)}
+    assert len(PlatformParameters(platform_radius=1.0 - 9e-7, **on).turret_positions()) == 2
+    with pytest.raises(ConfigurationError, match='outside platform_radius'):
+        PlatformParameters(platform_radius=1.0 - 1.5e-6, **on).turret_positions()
+    assert PlatformOutline(turret_x=(0.01,), turret_y=(0.0,)).rim == 0.01
+    with pytest.raises(ConfigurationError, match=r'give platform_radius, >= 0\.01 m'):
+        PlatformOutline(turret_x=(0.0099,), turret_y=(0.0,))
+
+
 def test_the_turrets_stand_where_the_outline_says():
     given = PlatformParameters(turret_x=(2.0, -1.0), turret_y=(0.0, 1.0))
     assert Turrets.of(given).positions == ((2.0, 0.0), (-1.0, 1.0))

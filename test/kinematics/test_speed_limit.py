@@ -35,6 +35,12 @@ def test_a_limit_of_speed_that_is_none_turns_no_wheel(command, most):
         command(most)
 
 
+@pytest.mark.parametrize('most', [1e-9, 0.5])
+@pytest.mark.parametrize('command', COMMANDS)
+def test_a_limit_below_what_is_wanted_is_reached_by_the_fastest_wheel(command, most):
+    assert np.abs(command(most)).max() == pytest.approx(most)
+
+
 @pytest.mark.parametrize('command', COMMANDS)
 def test_an_infinite_limit_of_speed_limits_nothing(command):
     np.testing.assert_array_equal(command(inf), command(1e9))

@@ -47,6 +47,9 @@ def test_memory_can_be_used_again():
     np.testing.assert_array_equal(again.speed, 1.0)
     with pytest.raises(SignalError, match='out has shape'):
         command_columns(TREE, (ones[:3], ones[:3], ones[:3]), out=first)
+    for mixed in (first._replace(angle=np.empty((3, 4))), first._replace(speed=np.empty((3, 4)))):
+        with pytest.raises(SignalError, match=r'this call needs \(3, 5\): leave it out'):
+            command_columns(TREE, (ones, ones, ones), out=mixed)
 
 
 @given(st.floats(0, 1), st.floats(-pi, pi - 1e-9))

@@ -86,9 +86,8 @@ class CommandLimits:
     @classmethod
     def of(cls, given: LimitParameters) -> CommandLimits:
         """Return the limits that parameters ask for."""
-        limits: list[CommandLimit] = [SlowPlace(), TranslationOnly()]
-        if given.minimum:
-            limits.insert(0, MinimumSpeed(given.minimum))
+        limits: list[CommandLimit] = [MinimumSpeed(given.minimum)] if given.minimum else []
+        limits += [SlowPlace(), TranslationOnly()]
         if given.v_rate:
             limits.append(VRate(given.v_rate, given.v_jerk or inf))
         if given.omega_rate:

@@ -76,7 +76,7 @@ class TableFile:
         """
         self.path, self._given = path, given
         self.bytes_read, self._line, self._encoding = 0, 1, ''
-        self._ended, self._tail = True, b''
+        self._tail = b''
         self.form: FileForm | None = None
         self._rows: TableRows | None = None
         self._clock = LocalClock(zone_of(given.time_zone), DoubledHour(given.doubled_hour))
@@ -92,13 +92,13 @@ class TableFile:
             ConfigurationError: A column is not in the file, or twice.
 
         """
-        lines, left_out = self._lines(growing=growing), LeftOut(self.path)
+        (lines, ended), left_out = self._lines(growing=growing), LeftOut(self.path)
         if growing and not lines:
             return _nothing(len(self._given.columns))
         form = self.form.table if self.form else find_form(lines, self._given, self.path)
         self._rows = self._rows or TableRows(form, self._given.comment)
         rows = self._rows.read(lines, left_out)
-        if not self._ended:
+        if not ended:
             rows = without_cut_end(rows, form.columns, lines[-1], left_out)
         lines.clear()  # of a large file half the memory
         if self.form is None:
@@ -130,8 +130,8 @@ class TableFile:
         except ConfigurationError as error:
             raise text.as_kind(error, SourceError) from error
 
-    def _lines(self, *, growing: bool) -> list[FileLine]:
-        """Return the lines that were not read before."""
+    def _lines(self, *, growing: bool) -> tuple[list[FileLine], bool]:
+        """Return the lines that were not read before, and whether the last has its end."""
         data = self._bytes(self.bytes_read)
         if not self._encoding:
             known = data[: data.rfind(b'\n') + 1] or data  # a letter at the end may be half written
@@ -143,10 +143,10 @@ class TableFile:
         self.bytes_read += len(data)
         self._tail = data[-TAIL:] or self._tail
         content = data.decode(self._encoding, errors='replace')
-        self._ended = not content or content[-1] in '\r\n\0'
+        ended = not content or content[-1] in '\r\n\0'
         ends = content.count('\n') + content.count('\r') - content.count('\r\n')
         first, self._line = self._line, self._line + ends
-        return file_text.lines_of(content, first)
+        return file_text.lines_of(content, first), ended
 
     def _time_format(self, rows: Sequence[Row], form: TableForm) -> TimeFormat:
         if self._given.time_format != 'auto':

@@ -32,6 +32,32 @@ def test_no_limit_changes_nothing_and_none_is_named():
     assert limits().apply(command, FREE, 0.1) == (command, ())
 
 
+def test_a_slow_place_is_slow_though_the_motors_may_stick_there():
+    limited = limits(minimum=0.4).apply(PolarCommand(0.5, 0.3, 0.0), FloorRules(top_speed=0.3), 0.1)
+    assert limited == (PolarCommand(pytest.approx(0.3), 0.3, 0.0), ('slow here',))
+
+
+def test_what_is_too_weak_is_dropped_whole_and_anew_after_a_stop():
+    """Below the minimum from rest, below half of it under way; v and omega by one factor."""
+    chain = limits(minimum=0.4)
+    assert chain.apply(PolarCommand(0.3, 0.2, -0.1), FREE, 0.1).command == (0.0, 0.2, 0.0)
+    assert chain.apply(PolarCommand(0.4, 0.2, -0.1), FREE, 0.1).command == (0.4, 0.2, -0.1)
+    raised = chain.apply(PolarCommand(0.2, 0.2, -0.1), FREE, 0.1)
+    assert raised == (pytest.approx((0.4, 0.2, -0.2)), ('minimum speed',))
+    assert chain.apply(PolarCommand(0.19, 0.2, -0.1), FREE, 0.1).command == (0.0, 0.2, 0.0)
+    chain.apply(PolarCommand(0.1, 0.2, 0.5), FREE, 0.1)
+    chain.stop()
+    assert chain.apply(PolarCommand(0.3, 0.2, 0.0), FREE, 0.1).command == (0.0, 0.2, 0.0)
+
+
+def test_after_a_stop_v_and_omega_rise_from_zero():
+    chain = limits(v_rate=1.0, omega_rate=2.0)
+    assert chain.apply(PolarCommand(0.9, 0.0, -0.8), FREE, 1.0).command == (0.9, 0.0, -0.8)
+    chain.stop()
+    risen = chain.apply(PolarCommand(0.9, 0.0, -0.8), FREE, 0.1).command
+    assert risen == pytest.approx((0.1, 0.0, -0.2))
+
+
 @given(PARAMETERS, STEPS)
 def test_no_rate_is_ever_exceeded(given_, steps):
     chain, last = CommandLimits.of(given_), STILL
