@@ -6,4 +6,4 @@ import fuzz_probes
 
 
 def test_whatever_a_logger_sends_is_read_or_told(capsys):
-    assert fuzz_probes.main(['4000', '7']) == 0, capsys.readouterr().out
+    assert fuzz_probes.main(['2000', '7']) == 0, capsys.readouterr().out

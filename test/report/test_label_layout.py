@@ -33,3 +33,18 @@ def test_a_figure_is_written_as_it_was_laid_out_for_its_labels(tmp_path, monkeyp
         axes['a'].set(xlim=(0.0, 10.0), ylim=(0.0, 1.0))
         style.line_label(axes['a'], 0.5, 'a line of a long name', 'k')
     assert laid_out == [axes['a'].get_position().bounds]
+
+
+@pytest.mark.parametrize('layout', ['constrained', None])
+def test_a_map_is_settled_where_it_will_be_drawn(layout):
+    """Of equal scales on both axes it is narrower than its place."""
+    plt = pytest.importorskip('matplotlib.pyplot')
+    drawn, axes = plt.subplots(figsize=(6, 3), layout=layout)
+    axes.set(xlim=(0.0, 10.0), ylim=(0.0, 10.0), aspect='equal')
+    settle(drawn)
+    settled = axes.bbox.bounds
+    drawn.set_layout_engine(None)
+    drawn.draw_without_rendering()
+    plt.close(drawn)
+    assert settled == pytest.approx(axes.bbox.bounds)
+    assert settled[2] == pytest.approx(settled[3])
