@@ -60,7 +60,11 @@ class FinishedFiles:
         """
         files = list(self.files)
         if not present.closed:
-            files.append(Finished(metadata.FileSummary(present.path.name, 0, 0, 0), ()))
+            files.append(
+                Finished(
+                    metadata.FileSummary(present.path.name, metadata.NEVER, metadata.NEVER, 0), ()
+                )
+            )
         metadata.save(self._folder, self._described(files))
 
     def close(self, present: McapWriter) -> None:

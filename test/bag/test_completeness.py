@@ -17,6 +17,7 @@ from agv_motion.bag.mcap.records import Metadata
 @pytest.mark.parametrize(('one', 'text'), [
     (Completeness(), '100 % complete'), (Completeness(5), '100 % complete'),
     (Completeness(9998, 1, 1), '99.98 % complete (1 lost on the way, 1 dropped)'),
+    (Completeness(10**17, 1), '99.99 % complete (1 lost on the way, 0 dropped)'),
     (Completeness(10**9, 1), '99.99 % complete (1 lost on the way, 0 dropped)'),
     (Completeness(0, 0, 3), '0.00 % complete (0 lost on the way, 3 dropped)'),
 ])  # fmt: skip
@@ -31,6 +32,9 @@ def test_records_of_several_files_are_added():
     assert found == {'/a': Completeness(30, 1, 2), '/b': Completeness(5)}
     assert together(found) == Completeness(35, 1, 2)
     assert together({}) == Completeness()
+    assert of_records([Metadata('other', files[0].entries)]) == {}
+    assert (Completeness().share, Completeness(3, 1, 0).share) == (1.0, 0.75)
+    assert Completeness(0, 2, 3).missing == 5
 
 
 @pytest.mark.parametrize('text', [

@@ -76,6 +76,23 @@ def test_the_oldest_is_deleted_and_counted(bag):
     present.abandon()
 
 
+def test_a_file_that_somebody_else_deleted_is_gone_too(bag, monkeypatch):
+    present, save, failures = bag.begin(2, 12), bag.files.save, [OSError(28, 'full')]
+    (bag.folder / 'x_0.mcap').unlink()
+    assert bag.files.drop_oldest(present)
+    (bag.folder / 'x_1.mcap').unlink()
+
+    def full_at_first(writer):
+        if failures:
+            raise failures.pop()
+        save(writer)
+
+    monkeypatch.setattr(bag.files, 'save', full_at_first)
+    assert bag.files.drop_oldest(present)
+    assert bag.described['relative_file_paths'] == ['x_2.mcap']
+    present.abandon()
+
+
 def test_where_the_disk_is_too_full_to_describe_it_is_deleted_first(bag, monkeypatch):
     present, save = bag.begin(2, 12), bag.files.save
 

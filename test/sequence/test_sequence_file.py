@@ -51,6 +51,22 @@ actions:
     assert second.on_failure == OnFailure(1, skip=True)
 
 
+def test_what_nobody_says(load):
+    sequence = load("""
+actions:
+  - wait: 1
+  - {wait: 2, timeout: 1000000}
+  - follow_route: {waypoints: [[0, 0], [1, 0]]}
+""")
+    assert sequence.name == 'mission'
+    assert [step.timeout for step in sequence.steps] == [60.0, 1e6, 60.0]
+    assert {step.on_failure for step in sequence.steps} == {OnFailure(0, skip=False)}
+    assert [step.name for step in sequence.steps[:2]] == ['wait 1', 'wait 2']
+    assert sequence.steps[2].action.route.laps == 1
+    with pytest.raises(ConfigurationError, match=r'timeout = 1e\+06 s: must lie above 0, at most'):
+        load('actions: [{wait: 1, timeout: 1000000.5}]')
+
+
 def test_a_route_stands_in_the_sequence_or_beside_it(load, tmp_path):
     (tmp_path / 'r.csv').write_text('0,0\n3,0\n')
     sequence = load("""

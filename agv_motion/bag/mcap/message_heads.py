@@ -39,7 +39,7 @@ def heads(unpacked: Buffer, offsets: NDArray[Any], form: np.dtype[Any] = HEAD) -
         raise ValueError(msg)
     raw = np.dtype((np.void, form.itemsize))
     windows = np.ndarray((room,), raw, unpacked, strides=(1,))
-    places = offsets.astype(np.intp, copy=False)
+    places = np.asarray(offsets, np.intp)
     found = windows[places].view(form)
     lengths = found['length']
     shortest = form.itemsize - records.PREFIX.size

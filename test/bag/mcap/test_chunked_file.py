@@ -95,6 +95,31 @@ def test_an_index_of_times_outside_its_chunk_is_damage(path):
     file.close()
 
 
+def test_it_is_told_with_the_place_of_the_index_that_is_wrong(tmp_path):
+    """Of /b at 5 and 8; /a lies between, at 6."""
+    writer = McapWriter(tmp_path / 'x.mcap', '')
+    for topic in TOPICS:
+        writer.add_topic(topic)
+    for channel, stamp in ((1, 6), (2, 5), (2, 8)):
+        writer.write(channel, stamp, b'\0\1\0\0x', stamp, 0)
+    writer.flush()
+    writer.close({})
+    file = opened(writer.path)
+    (chunk,) = file.chunks
+    for narrow in (chunk._replace(start=6), chunk._replace(end=7)):
+        with pytest.raises(DamagedBagError, match=f'its chunk at byte {chunk.offset}') as caught:
+            file.entries(narrow)
+        assert caught.value.offset == chunk.indexes[2]
+    file.close()
+
+
+def test_messages_that_nothing_describes_are_counted_too(path):
+    file = opened(path, scan=True)
+    file.channels = {2: file.channels[2]}
+    assert file.counts() == {2: 2, 1: 2}
+    file.close()
+
+
 def test_a_channel_that_nothing_describes_is_damage(path):
     file = opened(path)
     chunk = file.chunks[0]

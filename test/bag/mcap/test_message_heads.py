@@ -38,6 +38,14 @@ def test_what_was_written_is_read_in_any_order():
     assert len(heads(content, offsets[:0])) == 0
 
 
+def test_a_message_without_data_may_be_the_last_or_the_only_one():
+    content, offsets = written()
+    assert heads(content[:65], offsets[:2])['stamp'].tolist() == [10, 20]
+    assert heads(content[34:65], offsets[:1])['stamp'].tolist() == [20]
+    with pytest.raises(ValueError, match='a message at byte 0 of a content of 30'):
+        heads(content[34:64], offsets[:1])
+
+
 @pytest.mark.parametrize(
     ('cut', 'offsets', 'byte'),
     [

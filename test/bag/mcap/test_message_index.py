@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import random
-from struct import pack_into, unpack_from
+from pathlib import Path
+from struct import pack, pack_into, unpack_from
 
 import pytest
 from mcap.writer import CompressionType, Writer
@@ -12,7 +13,7 @@ from mcap.writer import CompressionType, Writer
 from agv_motion.bag.checks.stamps import stamps
 from agv_motion.bag.columns.columns import read_topic
 from agv_motion.bag.damage import DamagedBagError
-from agv_motion.bag.mcap import records
+from agv_motion.bag.mcap import message_index, records
 from agv_motion.bag.mcap.record_parsing import walk
 from agv_motion.bag.reader import BagReader
 
@@ -114,3 +115,43 @@ def test_a_message_that_reaches_over_the_end_of_its_chunk(tmp_path, longer):
     (channel,) = unpack_from('<H', data, end - 30)
     with opened(tmp_path, data) as bag, pytest.raises(DamagedBagError, match='of the index'):
         read_topic(bag, ('/a', '/b')[channel - 1])
+
+
+PATH = Path('x.mcap')
+INDEX = b'....' + records.message_index(3, pack('<4Q', 5, 0, 9, 40))
+"""Of channel 3, with two messages, from byte 4 on: a record of 38 bytes behind its prefix."""
+
+
+def other(length, size, more=b''):
+    """Return that index with other lengths of the record and of its entries."""
+    return b'....' + pack('<BQHI', records.MESSAGE_INDEX, length, 3, size) + INDEX[19:] + more
+
+
+def test_rows_are_time_and_place_of_each_message():
+    assert message_index.rows(INDEX, 3, 4, PATH).tolist() == [[5, 0], [9, 40]]
+    assert message_index.rows(b'....' + records.message_index(3, b''), 3, 4, PATH).shape == (0, 2)
+    assert message_index.rows(other(53, 32, bytes(15)), 3, 4, PATH).tolist() == [[5, 0], [9, 40]]
+
+
+@pytest.mark.parametrize(('data', 'channel', 'at', 'finding'), [
+    (INDEX, 3, 37, 'a message index at byte 37 of a file of 51'),
+    (INDEX, 3, 36, 'no message index where the summary says'),
+    (INDEX, 3, 3, 'no message index where the summary says'),
+    (INDEX[:-1], 3, 4, 'no message index where the summary says'),
+    (INDEX, 4, 4, 'channel 3 with 32 bytes in a record of 38, expected channel 4'),
+    (other(38, 31), 3, 4, 'channel 3 with 31 bytes in a record of 38, expected channel 3'),
+    (other(38, 48), 3, 4, 'channel 3 with 48 bytes in a record of 38, expected channel 3'),
+    (other(54, 32, bytes(16)), 3, 4, 'channel 3 with 32 bytes in a record of 54, expected'),
+])  # fmt: skip
+def test_what_is_no_such_index_is_told_with_its_place(data, channel, at, finding):
+    with pytest.raises(DamagedBagError) as caught:
+        message_index.rows(data, channel, at, PATH)
+    assert str(caught.value).startswith(f'x.mcap, byte {at}: ')
+    assert finding in str(caught.value)
+
+
+def test_how_many_messages_there_are_at_most():
+    assert message_index.most(INDEX, 4) == 38 // 16
+    assert message_index.most(INDEX[:13], 4) == 13 // 16
+    assert message_index.most(INDEX[:12], 4) == 0
+    assert message_index.most(other(2**60, 32), 4) == len(INDEX) // 16

@@ -86,3 +86,14 @@ def test_the_head_of_a_chunk_says_where_its_content_begins():
 def test_a_message_index_is_its_channel_and_pairs():
     channel, entries = parsing.message_index(body(records.message_index(4, b'x' * 16)))
     assert (channel, bytes(entries)) == (4, b'x' * 16)
+
+
+def test_the_profile_is_what_the_first_record_says():
+    header, other = records.header('ros2', 'us'), records.data_end()
+    for data, expected in (
+        (header, 'ros2'),
+        (header + other, 'ros2'),
+        (other + header, ''),
+        (b'', ''),
+    ):
+        assert parsing.profile(records.MAGIC + data, PATH) == expected
