@@ -68,6 +68,14 @@ def test_stretches_grow_by_four_and_only_what_is_missing_is_read_in_them():
     ]
 
 
+def test_what_was_found_in_one_stretch_is_not_sought_in_the_next():
+    """Of two that are wanted one lies near, and three far away: only the last of these is told."""
+    moment = 100 * FIRST
+    bag = Bag([(moment - 1, '/a'), *((moment - 2 * FIRST - n, '/a') for n in range(3))])
+    found = latest_before(bag, {'/a': 2}, moment)
+    assert [one.stamp for one in found] == [moment - 2 * FIRST, moment - 1]
+
+
 @pytest.mark.parametrize('looks', [0, 1, 3])
 def test_who_has_enough_is_content_with_what_was_found(looks):
     bag = Bag([(0, '/a')])

@@ -16,6 +16,9 @@ def test_notes_come_in_the_order_of_their_time_and_on_one_line_each(tmp_path):
     add_note(tmp_path, Note(5, 'first "line"\nand Grüße'))
     assert notes_of(tmp_path) == [Note(5, 'first "line" and Grüße'), Note(9, 'late')]
     assert (tmp_path / 'notes.jsonl').read_bytes().count(b'\n') == 2
+    assert (tmp_path / 'notes.jsonl').stat().st_mode & 0o111 == 0
+    for spans, kept in (([(0, 5)], 0), ([(0, 1), (5, 6), (7, 9)], 1), ([(9, 10), (5, 6)], 2)):
+        assert carry([tmp_path], tmp_path, spans) == kept
 
 
 def test_a_file_has_its_notes_beside_it_unless_it_is_part_of_a_bag(tmp_path):

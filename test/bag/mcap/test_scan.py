@@ -112,6 +112,14 @@ def test_stretches_end_where_they_are_long_or_where_something_else_lies(tmp_path
     assert found.problems == []
 
 
+def test_an_end_of_data_that_is_too_short_for_a_crc_has_none(file):
+    data = file.read_bytes()
+    first = places(data, records.CHUNK)[0] - records.PREFIX.size
+    message = records.MESSAGE_HEAD.pack(records.MESSAGE, 22 + 5, 1, 0, 7, 7) + b'\0\1\0\0\3'
+    end = records.PREFIX.pack(records.DATA_END, 3) + bytes(3)
+    assert scan(memoryview(data[:first] + message + end), file).problems == []
+
+
 def test_a_wrong_byte_among_messages_outside_chunks_is_told_by_the_crc_of_the_data(file):
     data = file.read_bytes()
     first = places(data, records.CHUNK)[0] - records.PREFIX.size
