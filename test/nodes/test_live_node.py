@@ -140,7 +140,11 @@ def test_its_parameters_are_told_in_one_event_and_the_one_that_cannot_be_is_name
     node = LiveNode(DifferentialKinematics, context=tester.graph.context)
     tester.graph.add(node)
     events = [message for message in said if isinstance(message, ParameterEvent)]
-    own = [one for one in events if any(each.name == 'track' for each in one.new_parameters)]
+    own = [
+        one
+        for one in events
+        if 'track' in {each.name for each in (*one.new_parameters, *one.changed_parameters)}
+    ]
     assert len(own) == 1
     told = {each.name: python(each.value) for each in own[0].new_parameters}
     assert told.keys() == {name for name in node.list_parameters([], 0).names if name in told}
