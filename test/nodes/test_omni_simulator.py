@@ -144,7 +144,7 @@ def test_the_whole_robot_is_kidnapped_and_finds_itself(tester):
         told, real = poses[-1].pose.pose.position, truth[-1].pose.pose.position
         return (told.x - real.x) ** 2 + (told.y - real.y) ** 2 < 0.2**2
 
-    tester.graph.spin_until(lambda: simulator.plain.elapsed > 15.0 and near())
+    tester.graph.spin_until(lambda: simulator.plain.elapsed > 5.0 and near())
     request = SetMap.Request()
     request.initial_pose.pose.pose.position.x = 9.0
     assert tester.ask(SetMap, 'omni_simulator/carry', request).success
