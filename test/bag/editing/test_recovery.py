@@ -267,3 +267,19 @@ def test_what_could_not_be_saved_is_counted(tmp_path):
     file.write_bytes(data)
     recovery = recovered(tmp_path / 'bag', tmp_path / 'saved')
     assert recovery.missing == 12 - recovery.messages > 0
+
+
+def test_progress_is_told_after_each_thousand_messages(tmp_path):
+    """Two files alike of a thousand each: the second is where the first was, and a half more."""
+    with BagWriter(tmp_path / 'bag', chunk_size=9000) as bag:
+        topic = bag.add_topic('/a', 'a/msg/A', 'int8 x', type_hash='')
+        for stamp in range(2000):
+            if stamp == 1000:
+                bag.split()
+            bag.write(topic, stamp, b'\0\1\0\0\1')
+    shares = []
+    with BagWriter(tmp_path / 'saved') as writer:
+        Recovery(writer).save(tmp_path / 'bag', shares.append)
+    first, second = shares
+    assert 0.0 < first <= 0.5
+    assert second - first == pytest.approx(0.5, abs=0.02)

@@ -74,6 +74,7 @@ def test_everything_handed_over_is_in_the_bag_and_reported(tmp_path):
     assert numbers(tmp_path / 'bag') == list(range(500))
     assert (report.name, report.messages, report.lost, report.dropped) == ('/text', 500, 1, 0)
     assert report.rate == pytest.approx(1.0)
+    assert report.longest_silence == pytest.approx(1.0)
     with (tmp_path / 'bag' / 'bag_0.mcap').open('rb') as stream:
         messages = list(SeekingReader(stream, validate_crcs=True).iter_messages())
     assert messages[3][2].publish_time == 4 * SECOND
