@@ -65,6 +65,7 @@ def test_no_wheel_is_asked_for_more_than_twice_the_trunk_speed(command):
     [
         ((nan, 0, 0), 'finite'), ((0, inf, 0), 'finite'), ((1.01, 0, 0), 'v = 1.01'),
         ((-0.1, 0, 0), 'v = -0.1'), ((0, pi, 0), 'theta'), ((0, 0, -1.5), 'omega = -1.5'),
+        ((0, 0, 1.5), 'omega = 1.5'),
     ],
 )  # fmt: skip
 def test_what_lies_outside_is_refused(command, word):

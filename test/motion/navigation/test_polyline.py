@@ -32,11 +32,18 @@ def test_a_path_is_cut_between_its_corners_and_at_one():
     assert cut(CORNER, 5.0) == (((0.0, 0.0), (3.0, 0.0), (3.0, 2.0)), ((3.0, 2.0), (3.0, 4.0)))
     assert cut(CORNER, 3.0) == (CORNER[:2], CORNER[1:])
     assert cut(CORNER, 8.0) == (CORNER, CORNER[-1:])
+    assert cut(CORNER, 0.0) == cut(CORNER, -1.0) == (CORNER[:1], CORNER)
+    short = ((0.0, 0.0), (0.0, 0.0), (0.5, 0.0))
+    assert cut(short, 0.25) == (((0.0, 0.0), (0.25, 0.0)), ((0.25, 0.0), (0.5, 0.0)))
 
 
 def test_the_nearest_place_lies_on_a_piece_or_at_a_corner():
     assert nearest(CORNER, (1.0, 2.0)) == (1.0, 2.0)
     assert nearest(CORNER, (4.0, -1.0)) == (3.0, pytest.approx(2.0**0.5))
+    assert nearest(CORNER, (-1.0, 0.0)) == (0.0, 1.0)
+    assert nearest(CORNER, (5.0, 3.0)) == (6.0, 2.0)
+    assert nearest(((1.0, 1.0), (1.0, 1.0), (1.5, 1.0)), (1.5, 3.0)) == (0.5, 2.0)
+    assert nearest(CORNER[:1], (3.0, 4.0)) == (0.0, 5.0)
 
 
 @given(PATHS, st.floats(0.0, 1.0))
