@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
     from agv_motion.odometry.fix import Fix
 
-ORIGIN = Pose(0.0, 0.0, 0.0)
 AGREEING = 0.6
 """[-] Share of the fixes that must agree on where the robot is."""
 MOST_SIGHTINGS = 24
@@ -199,8 +198,6 @@ class PoseFusion:
         So the way from the robot's centre to the tag enters by moving the origin there, as `belief`
         does for any place: exact, with the turn that the fix thereby tells of.
         """
-        if self._tag == ORIGIN:
-            return waypoint
         return waypoint._replace(pose=compose(waypoint.pose, self._tag))
 
     def _is_lost(self, waypoint: Waypoint) -> bool:

@@ -158,6 +158,8 @@ def test_columns_are_solved_to_the_bit_as_one_by_one():
 def test_no_number_that_is_none_comes_out(bad):
     with pytest.raises(SignalError, match='held_angles must be finite'):
         TREE.command(REST, [0.0, bad, 0.0])
+    with pytest.raises(SignalError, match='held_angles must be finite'):
+        TREE.command(REST, [bad] * 3)
     with pytest.raises(SignalError, match='turret angles must be finite'):
         TREE.twist([0.0, bad, 0.0], [0.0] * 3)
     with pytest.raises(SignalError, match='wheel speeds must be finite'):

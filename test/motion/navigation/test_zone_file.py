@@ -89,6 +89,25 @@ def test_a_file_that_is_no_zone_is_named(tmp_path, text, error, word):
         load_zone(path)
 
 
+FAR, NEAR = '[[20, 20], [21, 20], [21, 21]]', '[[6, 2], [7, 2], [7, 3]]'
+
+
+@pytest.mark.parametrize(
+    ('parts', 'word'),
+    [
+        (f'holes: [{FAR}]', 'column 46: hole 1 lies outside'),
+        (f'holes: [{NEAR}, {FAR}]', 'column 72: hole 2 lies outside'),
+        (f'translation_only: [{FAR}]', 'column 57: translation-only area 1 touches no floor'),
+        (f'translation_only: [{NEAR}, {FAR}]', 'column 83: translation-only area 2 touches no'),
+    ],
+)
+def test_the_part_that_is_wrong_is_found_in_the_file(tmp_path, parts, word):
+    path = tmp_path / 'zone.yaml'
+    path.write_text(f'{{boundary: [[0, 0], [9, 0], [9, 9]], {parts}}}')
+    with pytest.raises(GeometryError, match=word):
+        load_zone(path, 0.1)
+
+
 TRIANGLE = {'type': 'Polygon', 'coordinates': [[[0, 0], [9, 0], [9, 9]]]}
 
 
