@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from textwrap import dedent
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from agv_motion.files import yaml_text
@@ -88,9 +89,9 @@ def describe(
 
 
 def inside_mcap(description: str) -> str:
-    """Return a description as rosbag2 repeats it inside an MCAP file."""
-    entries = yaml_text.plain(description, FILE_NAME, ENTRIES)['rosbag2_bagfile_information']
-    return yaml_text.dump(entries)
+    """Return a description as rosbag2 repeats it inside an MCAP file: without its only key."""
+    _, _, entries = description.partition('\n')
+    return dedent(entries)
 
 
 def save(bag: Path, description: str) -> None:

@@ -46,7 +46,16 @@ def test_topics_have_their_numbers_and_profiles():
 
 def test_inside_a_file_it_stands_without_its_heading():
     text = describe(FILES, [(TOPIC, 7)], 'jazzy')
+    assert inside_mcap(text).startswith('version: 9\nstorage_identifier: mcap\n')
     assert yaml.safe_load(inside_mcap(text)) == described(FILES)
+
+
+@pytest.mark.parametrize('name', ['words ' * 40, ' "a"\n\n  b: c\n', '#\t\u2028é', '- x: |\n  y'])
+def test_inside_a_file_long_and_odd_names_are_the_same(name):
+    text = describe([FileSummary(name, 5, 9, 3)], [(TOPIC._replace(name=name, type=name), 3)])
+    whole = yaml.safe_load(text)['rosbag2_bagfile_information']
+    assert yaml.safe_load(inside_mcap(text)) == whole
+    assert whole['files'][0]['path'] == name
 
 
 def test_it_is_saved_whole_or_not_at_all(tmp_path, monkeypatch):
