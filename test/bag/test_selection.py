@@ -30,6 +30,16 @@ def test_what_is_taken(chosen, expected):
     assert [topic for topic in ALL if selection.takes(topic)] == expected
 
 
+@pytest.mark.parametrize(('topic', 'taken'), [
+    ('/add/_service_event', True), ('/turn/_action/status', True), ('/turn/_action/feedback', True),
+    ('/_mine/_service_event', False), ('/_mine/turn/_action/status', False),
+    ('/add/_other', False), ('/turn/_action/deep/status', False),
+])  # fmt: skip
+def test_hidden_topics_that_tell_of_services_and_actions_are_shown(topic, taken):
+    assert Selection(everything=True).takes(topic) is taken
+    assert Selection(everything=True, hidden=True).takes(topic)
+
+
 @pytest.mark.parametrize('field', ['regex', 'exclude_regex'])
 def test_a_broken_expression_is_refused(field):
     with pytest.raises(ConfigurationError, match=field):

@@ -146,3 +146,15 @@ def test_a_message_that_is_none_is_told_with_its_place(count):
     bad = message(b'\xff\xfe', 1.0, [1])
     with pytest.raises(DamagedBagError, match='field name is not UTF-8'):
         TopicDecoder(TOPIC, None, 1, 100).put(batch([bad] * count))
+
+
+def test_a_batch_is_decoded_in_parts_that_fit_into_the_cache(monkeypatch):
+    """Of 10 bytes each, or of one message: after 8 bytes the next 4 and 20 are too many."""
+    monkeypatch.setattr(topic_decoder, 'CACHED', 10)
+    connection = Connection('/a', 'a/msg/A', 'uint8[] x', 'ros2msg', 'cdr', '', ())
+    decoder, parts = TopicDecoder(connection, None, 5, 99), []
+    monkeypatch.setattr(decoder, '_put', lambda part: parts.append(part.sizes.tolist()))
+    sizes = np.array([4, 4, 4, 20, 1])
+    none = np.zeros(5, np.int64)
+    decoder.put(Batch(0, b'', none, sizes, none, none, Path('x'), [(0, 0)]))
+    assert parts == [[4, 4], [4], [20], [1]]

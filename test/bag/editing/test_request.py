@@ -36,6 +36,15 @@ def test_times_are_those_of_the_bag(walk):
     assert what.spans == ((0, 102 * SECOND),)
 
 
+def test_times_of_several_bags_reach_from_the_first_to_the_last(walk, tmp_path):
+    """100 to 103.9 s, and 200 to 200.9 s."""
+    later = bags.write(tmp_path / 'later', start=200, count=10)
+    for order in ((walk, later), (later, walk)):
+        with BagReader(order[0]) as one, BagReader(order[1]) as other:
+            what, _ = EditRequest(begin='1', end='-0.5').resolve([one, other])
+        assert what.spans == ((101 * SECOND, 200_400_000_000),)
+
+
 def test_windows_around_what_happened_are_told(walk):
     what, notes = resolved(walk, around='/a ~ 12', before=0.1, after=0.2, begin='0.5')
     stamp = 100 * SECOND + 12 * SECOND // 10

@@ -48,5 +48,13 @@ def test_a_stream_makes_chunks_of_about_a_mebibyte(sources):
 
 def test_a_time_that_no_file_can_hold_is_refused(sources):
     ids = ids_of(sources)
-    with pytest.raises(SignalError, match=r'log times from -1 to -1: expected'):
-        together([Message(next(iter(ids)), -1, b'', 0, 0)], ids)
+    one = Message(next(iter(ids)), 5, b'', 5, 0)
+    for wrong, what in (
+        (one._replace(stamp=-1), 'log times from -1 to 5'),
+        (one._replace(stamp=2**64), f'log times from 5 to {2**64}'),
+        (one._replace(publish=2**64), f'publish times from 5 to {2**64}'),
+    ):
+        with pytest.raises(SignalError, match=f'^{what}: expected nanoseconds'):
+            together([one, wrong, one], ids)
+    limits = [one._replace(stamp=0, publish=0), one._replace(stamp=2**64 - 1, publish=2**64 - 1)]
+    assert together(limits, ids).stamps.tolist() == [0, 2**64 - 1]

@@ -280,3 +280,18 @@ def test_an_event_is_a_bag_like_any_other(tmp_path):
     assert not outcome.failure
     with BagReader(tmp_path / 'part') as part:
         assert events_of(part)[0].first.reason == 'slip'
+
+
+def test_an_event_is_over_when_its_time_is_and_messages_may_no_longer_come(tmp_path):
+    """At 20 s: from 10 to 25 s, and a fifth of a second for what is on its way."""
+    for now, goes_on in (
+        (at(10) - 1, False),
+        (at(10), True),
+        (at(25.2), True),
+        (at(25.2) + 1, False),
+    ):
+        run = Run(tmp_path / f'{now}')
+        run.box.add(Moment(at(20), 'slip'))
+        run.box.update(now)
+        assert (run.box.event is not None) is goes_on
+        run.end(26)
