@@ -271,3 +271,31 @@ def test_metadata_never_names_an_oldest_file_that_is_gone(tmp_path, monkeypatch)
         description = yaml.safe_load((tmp_path / 'bag' / 'metadata.yaml').read_text())
     named = description['rosbag2_bagfile_information']['relative_file_paths']
     assert named == ['bag_1.mcap', 'bag_2.mcap']
+
+
+def test_what_found_no_room_at_the_end_is_counted(tmp_path, monkeypatch):
+    """Of three chunks of two messages the last two give way, and one message that waits."""
+    writer = BagWriter(tmp_path / 'bag', chunk_size=60)
+    topic = writer.add_topic('/a', 'a/msg/A', 'int8 x', type_hash='')
+    for stamp in range(7):
+        writer.write(topic, stamp, b'\0\1\0\0\1')
+    full, close = [OSError(28, 'full')] * 2, writer._finished.close  # noqa: SLF001 - the disk
+    flush = writer._file.flush  # noqa: SLF001
+
+    def closing(file):
+        if full:
+            raise full.pop()
+        close(file)
+
+    def flushing():
+        if full:
+            raise full[0]
+        flush()
+
+    monkeypatch.setattr(writer._finished, 'close', closing)  # noqa: SLF001
+    monkeypatch.setattr(writer._file, 'flush', flushing)  # noqa: SLF001
+    with pytest.raises((OSError, SourceError), match='full'):
+        writer.close()
+    assert writer.discarded == 1 + 2 + 2
+    with BagReader(tmp_path / 'bag') as bag:
+        assert [message.stamp for message in bag.messages()] == [0, 1]
