@@ -172,8 +172,8 @@ class Graph:
             assert time.monotonic() < end, 'timed out'
             act()
             again = time.monotonic() + every
-            while time.monotonic() < again and not until():
-                self.executor.spin_once(timeout_sec=0.01)
+            while (left := again - time.monotonic()) > 0.0 and not until():
+                self.executor.spin_once(timeout_sec=min(left, 0.05))
 
     def quiet(self, inbox, seconds=0.3, timeout=60.0):
         """Spin until nothing has come into ``inbox`` for a while."""
@@ -227,8 +227,8 @@ class Graph:
     def spin_for(self, seconds):
         """Spin for a while: the only way to see that nothing comes."""
         end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.executor.spin_once(timeout_sec=0.01)
+        while (left := end - time.monotonic()) > 0.0:
+            self.executor.spin_once(timeout_sec=min(left, 0.05))
 
 
 @pytest.fixture
