@@ -29,6 +29,7 @@ def test_without_lag_and_slip_it_does_what_it_is_told():
         driven.step(DRIVE.command(Twist(pi / 2, 0.0, pi / 2)).speed, 0.1)
     assert driven.pose == pytest.approx((0.0, 3.0, -pi), abs=1e-12)
     assert driven.twist == pytest.approx((pi / 2, 0.0, pi / 2))
+    assert driven.speeds == pytest.approx([0.8 * pi / 2, 1.2 * pi / 2])
     assert driven.angles() == pytest.approx([0.8 * pi / 2 / 0.05, 1.2 * pi / 2 / 0.04])
 
 

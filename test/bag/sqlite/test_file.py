@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sqlite3
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from agv_motion.bag.columns import message_batches
 from agv_motion.bag.editing.recovery import Recovery
 from agv_motion.bag.reader import BagReader
 from agv_motion.bag.writer import BagWriter
@@ -86,3 +88,20 @@ def test_a_database_of_something_else_is_told(tmp_path, table):
         recovery = Recovery(writer)
         recovery.save(path)
     assert [str(found).count('a.db3') for found in recovery.problems] == [1]
+
+
+def test_any_thread_reads_and_times_beyond_the_last_hold_nothing(tmp_path):
+    with BagReader(written(tmp_path / 'a.db3')) as bag, ThreadPoolExecutor(1) as other:
+        assert other.submit(lambda: len(list(bag.messages()))).result() == 20
+        assert list(bag.messages(start=2**63)) == list(bag.messages([])) == []
+
+
+def test_messages_are_handed_over_a_few_at_a_time(tmp_path, monkeypatch):
+    """Of ten on /a at most three; those of 8 bytes each, more than 20 bytes or more are enough."""
+    found = []
+    for limit, value, expected in (('_TOGETHER', 3, [3, 3, 3, 1]), ('_MOST', 20, [3, 3, 3, 1])):
+        with monkeypatch.context() as change, BagReader(written(tmp_path / limit)) as bag:
+            change.setattr(message_batches, limit, value)
+            found.clear()
+            bag.files[0].batches([1], 0, 2**64, lambda batch: found.append(len(batch.stamps)))
+            assert found == expected
