@@ -7,8 +7,10 @@ from math import pi
 
 import pytest
 
+from agv_motion.errors import GeometryError
 from agv_motion.planar import Pose
-from agv_motion.trajectory import GhostParameters
+from agv_motion.trajectory import GhostParameters, departure
+from agv_motion.trajectory.braking import Braking
 from agv_motion.trajectory.departure import AT_ONCE, leave
 from agv_motion.trajectory.planner import Planner
 from agv_motion.trajectory.request import Request
@@ -34,6 +36,28 @@ def test_straight_on_it_goes_over_at_full_speed():
     assert new.start == pytest.approx(old.pose(2.0))
     assert new.end == Pose(6.0, 0.0, 0.0)
     assert new.duration == pytest.approx(4.5 + 0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('kwargs', 'tried'),
+    [({}, [0.0, 0.5, 1.0, 1.5, 1.8, 2.0]), ({'departures': AT_ONCE}, [0.0, 2.0])],
+)
+def test_it_is_tried_by_quarters_of_the_braking(kwargs, tried, monkeypatch):
+    """1 m/s is braked in 1 s of the trajectory, which at half the rate are 2 s."""
+    asked = []
+
+    def braking(stopped, time, rate, lasts):
+        asked.append(lasts)
+        return Braking(stopped, time, rate, lasts)
+
+    def plan(pose, speeds):
+        if speeds.linear:
+            raise GeometryError
+        return PLANNER.drive(pose, [Pose(0.0, 0.0, pi / 2)], PACE, speeds)
+
+    monkeypatch.setattr(departure, 'Braking', braking)
+    leave(PLANNER.drive(START, [Pose(10.0, 0.0, 0.0)], PACE), 2.0, 0.5, plan, **kwargs)
+    assert asked == pytest.approx(tried, abs=1e-9)
 
 
 @pytest.mark.parametrize('kwargs', [{}, {'departures': AT_ONCE}])

@@ -43,8 +43,9 @@ class PathFollower:
         """Have no goal yet."""
         self._planner = planner
         self._waypoints = Waypoints(planner.zone, CORNER_REACH, CORNER_SLACK)
-        self._planned_at, self._planned_for = -inf, (0.0, 0.0)
-        self._path: Path = ((0.0, 0.0),)
+        self._planned: tuple[float, Point] | None = None
+        """when the path was planned [s], and to which goal"""
+        self._path: Path = ()
 
     def navigate(
         self, goal: Point | None, here: Point, now: float, *, straight: bool = False
@@ -75,19 +76,24 @@ class PathFollower:
             GeometryError: There is none.
 
         """
-        age = now - self._planned_at
-        along, away = nearest(self._path, here)
-        if (
-            goal != self._planned_for
-            or not 0.0 <= age < PLAN_LIFETIME
-            or (age >= PLAN_PERIOD and away > CORNER_REACH)
-        ):
-            self._planned_at = -inf
+        along = self._along(goal, here, now)
+        if along is None:
+            self._planned = None  # should there be none
             self._path = self._plan(here, goal)
-            self._planned_at, self._planned_for = now, goal
-            along = 0.0
+            self._planned, along = (now, goal), 0.0
         self._path = cut(self._path, along)[1]
         return self._path
+
+    def _along(self, goal: Point, here: Point, now: float) -> float | None:
+        """Return how far along its path the tree is [m]; None where it needs another one."""
+        if self._planned is None:
+            return None
+        planned_at, planned_for = self._planned
+        age = now - planned_at
+        if goal != planned_for or not 0.0 <= age < PLAN_LIFETIME:
+            return None
+        along, away = nearest(self._path, here)
+        return None if age >= PLAN_PERIOD and away > CORNER_REACH else along
 
     def _plan(self, here: Point, goal: Point) -> Path:
         """Return the path; a small step back into the margins is made on the path, not before."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import dist
+
 import pytest
 
 from agv_motion.motion.navigation.navigator import Guidance
@@ -38,6 +40,9 @@ def test_the_next_corner_is_the_target_and_the_path_ends_at_the_goal(planner):
     assert guidance.target == guidance.path[1]
     assert guidance.target[1] == pytest.approx(8.0, abs=0.6)
     assert guidance.path[-1] == GOAL
+    follower, here = PathFollower(planner), (2.0, 1.0)
+    assert follower._path_to(GOAL, here, 0.0)[0] == here  # noqa: SLF001 - all of it
+    assert dist(follower._path_to(GOAL, (2.0, 2.0), 1.0)[0], (2.0, 2.0)) < 0.3  # noqa: SLF001
 
 
 @pytest.mark.parametrize(
@@ -55,9 +60,21 @@ def test_it_is_planned_again_for_another_goal_off_the_path_and_now_and_then(
     planner, here, goal, now, plans
 ):
     follower = PathFollower(planner)
-    follower.navigate(GOAL, (2.0, 1.0), 0.0)
-    follower.navigate(goal, here, now)
+    follower.navigate(GOAL, (2.0, 1.0), 1000.0)
+    follower.navigate(goal, here, 1000.0 + now)
     assert planner.plans == plans
+
+
+def test_a_small_step_back_into_the_margins_is_made_on_the_way(planner):
+    """Margins are 0.5 m wide: from 0.1 m it goes out of them first, from 0.4 m ahead as well."""
+
+    def target(y):
+        return PathFollower(planner).navigate(GOAL, (2.0, y), 0.0).target
+
+    assert target(0.1) == pytest.approx((2.0, 0.5), abs=1e-6)
+    assert dist(target(0.4), (2.0, 0.5)) == pytest.approx(0.3, abs=1e-6)
+    assert target(0.4)[1] > 0.7
+    assert target(0.9)[1] > 7.0
 
 
 def test_no_path_is_told_and_looked_for_again_at_once(planner):
