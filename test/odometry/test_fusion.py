@@ -314,3 +314,15 @@ def test_the_frame_of_odometry_does_not_matter():
     assert moved.estimate().covariance == pytest.approx(
         tuple(plain.estimate().covariance), abs=1e-6
     )
+
+
+def test_the_search_looks_at_no_fix_older_than_it_may_take():
+    """Of 10 s: that of 2 s counts until 12 s, and no longer."""
+    fusion = PoseFusion(FusionParameters(search_time=10.0, alignment_fixes=9))
+    for k in range(26):
+        fusion.add_odometry(0.5 * k, Pose(0.05 * k, 0.0, 0.0), CERTAIN)
+        if k in {2, 4, 6, 24, 25}:
+            verdict = fusion.add_fix(position_fix(0.5 * k, 0.05 * k, 0.0, 0.15))
+            assert verdict is FixVerdict.SEARCHING
+    stamps = [known.fix.stamp for known in fusion._sightings]  # noqa: SLF001 - what is kept
+    assert stamps == [3.0, 12.0, 12.5]
