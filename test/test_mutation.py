@@ -140,5 +140,5 @@ print(judge(judged, 1, 1))
         capture_output=True, text=True, check=False, timeout=200, env=environment,
     )  # fmt: skip
     assert result.stdout.splitlines() == [
-        '0', '1', '1', '2 of 137 changes in 1 files, seed 0', '0'
+        '0', '1', '1', '2 of 132 changes in 1 files, seed 0', '0'
     ], result.stdout + result.stderr  # fmt: skip
