@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, sqrt
 
 import pytest
 
 from agv_motion.kinematics.omniwheel_placement import wheels_on_circle
 from agv_motion.kinematics.omniwheels import OmniWheels
 from agv_motion.odometry.parameters import OdometryParameters
-from agv_motion.odometry.wheel_monitor import ENOUGH, SOUND, SPAN, WheelMonitor
+from agv_motion.odometry.wheel_monitor import ENOUGH, SOUND, SPAN, TOLERANCE, WheelMonitor
 from agv_motion.planar import Twist
 
 WHEELS = OmniWheels(wheels_on_circle([2 * pi * i / 4 for i in range(4)], [0.2] * 4))
@@ -85,3 +85,14 @@ def test_three_wheels_can_blame_nobody():
     for k in range(30):
         monitor.add(SPAN * k, [5.0 * k, 0.0, 0.0])
     assert monitor.diagnosis() == SOUND
+
+
+def test_travels_are_told_in_deviations_by_hand():
+    """1 m each: slip of 0.03 m, a hundredth for the radius, and two roundings of 0.01 rad."""
+    given = OdometryParameters(wheel_noise=0.03, encoder_resolution=0.01, max_wheel_speed=10.0)
+    monitor = WheelMonitor(WHEELS, RADII, given)
+    monitor.add(0.0, [0.0] * 4)
+    monitor.add(SPAN, [1.0 / 0.05] * 4)
+    noise = sqrt(0.03**2 + TOLERANCE**2 + 0.0005**2 / 6.0)
+    (column,) = monitor._columns  # noqa: SLF001 - what is told of
+    assert column == pytest.approx([1.0 / noise] * 4, rel=1e-9)

@@ -196,3 +196,10 @@ def test_steering_belongs_to_bases_that_steer():
 def test_a_wrong_number_of_radii_is_refused():
     with pytest.raises(ConfigurationError, match='2 wheel_radii for 3 wheels'):
         WheelOdometry(OmniBase(THREE), [0.05, 0.05])
+
+
+def test_a_rounding_at_either_end_has_a_twelfth_of_its_square_for_variance():
+    """Of 0.01 rad on the larger wheel, of 0.05 m."""
+    given = OdometryParameters(encoder_resolution=0.01)
+    odometry = WheelOdometry(DifferentialBase(0.4), [0.05, 0.04], given)
+    assert odometry._quantum == pytest.approx(2.0 * 0.0005**2 / 12.0)  # noqa: SLF001 - by hand
