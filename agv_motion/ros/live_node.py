@@ -117,23 +117,6 @@ class LiveNode(LifecycleNode, Generic[N]):
             return SetParametersResult(successful=not fixed, reason=shortened(fixed))
         return super().set_parameters_atomically(changes)
 
-    def _declare_parameter_common(
-        self, parameter_list: list[Parameter], descriptors: Any = None
-    ) -> list[SetParametersResult]:
-        """Declare parameters at once, in one event: rclpy does it one by one, in twice the time.
-
-        Where one cannot be, it does so here, too, and names it.
-        """
-        result: SetParametersResult = self._set_parameters_atomically_common(
-            parameter_list, descriptors, allow_not_set_type=True
-        )
-        if result.successful:
-            return [result] * len(parameter_list)
-        found: list[SetParametersResult] = super()._declare_parameter_common(
-            parameter_list, descriptors
-        )
-        return found
-
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Any, *args: Any, **kwargs: Any
     ) -> Any:

@@ -8,17 +8,13 @@ rclpy = pytest.importorskip('rclpy')
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TwistStamped
-from rcl_interfaces.msg import Log, ParameterEvent
-from rclpy.exceptions import InvalidParameterValueException
-from rclpy.publisher import Publisher
+from rcl_interfaces.msg import Log
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from agv_motion.nodes.command_guard import CommandGuard
 from agv_motion.nodes.differential_kinematics import DifferentialKinematics
 from agv_motion.ros.diagnosis import ERROR
-from agv_motion.ros.live_node import LiveNode
-from agv_motion.ros.parameter_texts import python
 from agv_motion.ros.qos import SENSOR
 from agv_motion.ros.run import start
 
@@ -130,26 +126,3 @@ def test_a_flood_of_foreign_joints_fills_no_log(robot):
     assert 1 <= len(lines) <= 40
     assert max(map(len, lines)) < 700
     assert len(robot.node.complaint) < 700
-
-
-def test_its_parameters_are_told_in_one_event_and_the_one_that_cannot_be_is_named(
-    tester, monkeypatch
-):
-    said = []
-    monkeypatch.setattr(Publisher, 'publish', lambda _, message: said.append(message))
-    node = LiveNode(DifferentialKinematics, context=tester.graph.context)
-    tester.graph.add(node)
-    events = [message for message in said if isinstance(message, ParameterEvent)]
-    own = [
-        one
-        for one in events
-        if 'track' in {each.name for each in (*one.new_parameters, *one.changed_parameters)}
-    ]
-    assert len(own) == 1
-    told = {each.name: python(each.value) for each in own[0].new_parameters}
-    assert told.keys() == {name for name in node.list_parameters([], 0).names if name in told}
-    assert len(told) > 20
-    assert told['track'] == node.parameters.track
-    assert node.describe_parameter('track').floating_point_range
-    with pytest.raises(InvalidParameterValueException, match=r'max_wheel_speed.*-1\.0'):
-        tester.start(DifferentialKinematics, track=0.5, max_wheel_speed=-1.0)
