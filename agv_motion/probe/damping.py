@@ -91,16 +91,22 @@ def fit_damping(days: ArrayLike, index: ArrayLike) -> tuple[float, float, float,
         index: (n,) the highest K of each, seasons removed.
 
     Raises:
-        SignalError: There are fewer than eight days, or columns of two lengths.
+        SignalError: There are fewer than eight different days, columns of two lengths, or a value
+            that is not finite.
 
     """
     t, k = np.asarray(days, float), np.asarray(index, float)
-    if t.ndim != 1 or t.shape != k.shape or len(t) < 8:
+    if t.ndim != 1 or t.shape != k.shape or len(np.unique(t)) < 8:
         msg = f'days of shape {t.shape}, K of shape {k.shape}: give columns of eight days or more'
         raise SignalError(msg)
+    if not np.isfinite([t, k]).all():
+        msg = 'days and K must be finite: leave out the days without a K'
+        raise SignalError(msg)
+    scale = float(np.max(np.abs(t)))  # columns of one size: rounding stays rounding
+    u = t / scale
     below: NDArray[np.float64] = np.ones(len(t))
     for _ in range(50):
-        rows = np.column_stack([np.ones(len(t)), t, -t * k, -t * t * k]) / below[:, None]
+        rows = np.column_stack([np.ones(len(u)), u, -u * k, -u * u * k]) / below[:, None]
         a, b, c, d = map(float, np.linalg.lstsq(rows, k / below, rcond=None)[0])
-        below = np.maximum(1.0 + c * t + d * t * t, LEFT)
-    return a, b, c, d
+        below = np.maximum(1.0 + c * u + d * u * u, LEFT)
+    return a, b / scale, c / scale, d / scale**2

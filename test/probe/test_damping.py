@@ -50,11 +50,21 @@ def test_the_curve_is_found_in_its_values():
         (np.arange(9.0), np.arange(8.0)),
         (np.arange(7.0),) * 2,
         (np.zeros((8, 2)),) * 2,
+        ([0.0] * 4 + [1.0, 2.0, 3.0, 4.0], np.ones(8)),
     ],
 )
 def test_too_little_to_fit_is_refused(days, values):
     with pytest.raises(SignalError, match='eight days'):
         fit_damping(days, values)
+
+
+@pytest.mark.parametrize('wrong', [np.nan, np.inf])
+def test_what_is_not_finite_is_refused(wrong):
+    values = np.arange(9.0)
+    with pytest.raises(SignalError, match='must be finite'):
+        fit_damping(values, np.where(values == 3.0, wrong, values))
+    with pytest.raises(SignalError, match='must be finite'):
+        fit_damping(np.where(values == 3.0, wrong, values), values)
 
 
 @pytest.mark.parametrize('day', ['12.4.2013', '2013-13-01', 'yesterday'])
