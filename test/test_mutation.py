@@ -95,6 +95,17 @@ def test_code_written_elsewhere_draws_no_other_changes(tmp_path, monkeypatch):
     assert len(once) == 5
 
 
+def test_the_nearest_tests_are_asked_first_with_those_of_the_numbers_of_the_room():
+    (mutant, *_) = mutation.draw([ROOT / 'agv_motion/bag/mcap/batches.py'], 1, 0)
+    first, *others = mutant.tests()
+    room = ROOT / 'test' / 'bag'
+    assert first == [str(room / 'mcap' / 'test_batches.py'), str(room / 'test_numbers.py')]
+    rest = [test for stage in others for test in stage]
+    assert len({*first, *rest}) == len(first) + len(rest)
+    assert {str(path) for path in room.rglob('test_*.py')} <= {*first, *rest}
+    assert rest[-1] == str(ROOT / 'test' / 'test_readme.py')
+
+
 ENDLESS = """
 from threading import Event
 from hypothesis import given, strategies

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from agv_motion.bag.connection import Connection, Message
     from agv_motion.bag.reader import BagReader
 
-_ROS_NAMES = {'float32': 'float', 'float64': 'double', 'bool': 'boolean', 'byte': 'octet'}
+_ROS_NAMES = {'float32': 'float', 'float64': 'double', 'bool': 'boolean'}
+"""A byte is a uint8 here, since its values are numbers; rclpy's octet is a bytes of one."""
 _BASE, _NAME, _ARRAY = 1, 2, 3
 
 

@@ -57,12 +57,13 @@ class Mutant(NamedTuple):
     def tests(self) -> list[list[str]]:
         """Return the tests to ask, the nearest first, each once.
 
-        The file that mirrors the module, those of the core that name it, those beside it, its room,
-        and last the one that holds the defaults of parameters to their tables.
+        The file that mirrors the module, with that of its room for numbers; those of the core that
+        name it, those beside it, its room, and last the one that holds the defaults of parameters
+        to their tables.
         """
         inside = self.path.relative_to(ROOT / 'agv_motion')
         folder, room = ROOT / 'test' / inside.parent, ROOT / 'test' / inside.parts[0]
-        near = [folder / f'test_{inside.name}', folder / 'test_golden.py']
+        near = [folder / f'test_{inside.name}', folder / 'test_golden.py', room / 'test_numbers.py']
         beside = sorted(folder.glob('test_*.py'))
         name = re.compile(rf'{re.escape(self.module)}\b')
         named = [path for path, text in texts().items() if name.search(text)]

@@ -6,79 +6,152 @@ changes one changes it here, too.
 
 from __future__ import annotations
 
-import importlib
-import inspect
-from dataclasses import is_dataclass
-from enum import Enum
-from pathlib import Path
-from pkgutil import resolve_name
+from room_numbers import constants, defaults
 
-BAG = Path(__file__).parents[2] / 'agv_motion' / 'bag'
+from agv_motion.bag.mcap.chunk_content import RATIOS
 
-TUNED = {
+CONSTANTS = {
+    'bag_files._MOST_NAMED': 5,
+    'bag_files._PIECE': 1 << 20,
+    'bag_files._SPARE': 1 << 28,
     'catalog.entry.LOOKED_AT': 64,
     'catalog.find.APART': 10_000_000_000,
+    'catalog.find.SECOND': 1_000_000_000,
+    'catalog.index.MOST_MESSAGES': 1 << 50,
     'catalog.index.TOGETHER': 50,
     'catalog.index.VERSION': 2,
     'catalog.index._PATIENCE': 30.0,
+    'catalog.statistics.SECOND': 1_000_000_000,
+    'cdr.idl_text.LONGEST_IDL': 1 << 20,
     'cdr.idl_text._NESTED': 32,
     'cdr.layout._PADDING': 3,
     'cdr.message_decoder.LONGEST_REASON': 300,
     'cdr.message_type.DEEPEST': 32,
+    'cdr.message_type.LONGEST_TEXT': 1 << 20,
     'cdr.message_type.MOST_FIELDS': 20_000,
+    'cdr.primitives.ENCAPSULATION': 4,
     'checks.check._FEWEST': 200,
     'checks.check._PARTS': 10,
+    'checks.check._SLICE': 1 << 28,
     'checks.silences.FEWEST': 10,
     'checks.silences._SHARE': 0.9,
     'checks.silences._SPREAD': 1.5,
     'columns.column_builder._ALIGNED': 64,
+    'columns.column_builder._BLOCK': 1 << 25,
     'columns.column_builder._GROWTH': 1.2,
+    'columns.column_builder._LARGE': 1 << 22,
+    'columns.column_builder._SMALL': 1 << 16,
     'columns.condition._MOST_NAMED': 12,
     'columns.fixed_layout._GAPS': (32, 8, 0),
     'columns.message_batches._ALL': 2**64 - 1,
+    'columns.message_batches._MOST': 1 << 24,
     'columns.message_batches._TOGETHER': 2048,
+    'columns.repetition._PIECE': 1 << 17,
     'columns.table_files.LONGEST_NAME': 150,
     'columns.table_files.MOST_COLUMNS': 64,
     'columns.table_files._BLOCK': 10_000,
+    'columns.text_codes._MOST': 1 << 16,
+    'columns.topic_decoder.CACHED': 1 << 22,
     'columns.topic_decoder.FEW': 4,
     'columns.topic_decoder._MOST_LAYOUTS': 16,
+    'completeness.NOTHING': (0, 0, 0),
     'completeness._MOST': 10**15,
+    'compression._AT_ONCE': 1 << 26,
+    'compression._FAST': 1,
+    'compression._PIECE': 1 << 17,
+    'compression._WIDEST_WINDOW': 1 << 27,
+    'editing.blocks.MOST': 1 << 16,
+    'editing.edit._AHEAD': 1 << 25,
     'editing.latched.MOST': 100,
+    'editing.moments.SECOND': 1_000_000_000,
     'editing.moments._DAY': 86_400_000_000_000,
+    'editing.new_channels._MOST': 1 << 16,
+    'editing.picking._CHANNEL_AT': 9,
     'editing.request.MOST_PARTS': 10_000,
     'editing.request.MOST_TOLD': 5,
+    'editing.request.SECOND': 1_000_000_000,
+    'editing.steps.CHUNK': 1 << 20,
+    'editing.steps._ALL': (0, 2**64),
+    'editing.to_sqlite._BLOCK': 1 << 21,
+    'events.black_box.SECOND': 1_000_000_000,
     'events.black_box._AGAIN': 500_000_000,
     'events.black_box._LATE': 200_000_000,
     'events.event.MOST_MOMENTS': 100,
+    'events.event.SECOND': 1_000_000_000,
     'events.event._LONGEST_NAME': 60,
     'events.event_parameters.LONGEST_BEFORE': 86400.0,
     'events.event_parameters.MOST_TRIGGERS': 100,
+    'events.event_saver.SECOND': 1_000_000_000,
+    'events.journal._MOST': 1 << 26,
+    'file_kind._TAR_AT': 257,
     'last_messages.FIRST': 5_000_000_000,
+    'mcap.batches._FREED': 1 << 24,
+    'mcap.chunk.INDEX_ENTRY': 16,
+    'mcap.chunk.INDEX_HEAD': 6,
+    'mcap.chunk_batches.GROUP': 1 << 23,
+    'mcap.chunk_batches._FAR': 1 << 62,
     'mcap.chunk_batches._LATEST': 2**64 - 1,
-    'mcap.chunk_content.RATIOS': {'': 1, 'lz4': 256, 'zstd': 65536},
+    'mcap.chunk_cache.CACHE': 1 << 27,
+    'mcap.chunk_content.LARGEST': 1 << 32,
+    'mcap.message_index._ENTRY': 16,
+    'mcap.output._JOINED': 1 << 20,
+    'mcap.records.ATTACHMENT': 9,
+    'mcap.records.ATTACHMENT_INDEX': 10,
+    'mcap.records.CHANNEL': 4,
+    'mcap.records.CHUNK': 6,
+    'mcap.records.CHUNK_INDEX': 8,
+    'mcap.records.DATA_END': 15,
+    'mcap.records.FOOTER': 2,
+    'mcap.records.FOOTER_LENGTH': 29,
+    'mcap.records.HEADER': 1,
+    'mcap.records.MESSAGE': 5,
+    'mcap.records.MESSAGE_INDEX': 7,
+    'mcap.records.METADATA': 12,
+    'mcap.records.METADATA_INDEX': 13,
+    'mcap.records.SCHEMA': 3,
+    'mcap.records.STATISTICS': 11,
+    'mcap.records.SUMMARY_OFFSET': 14,
+    'mcap.runs._LARGEST': 1 << 20,
+    'mcap.scan.STRETCH': 1 << 22,
+    'mcap.scan._PIECE': 1 << 24,
+    'mcap.scan._SHORTEST_MESSAGE': 22,
+    'mcap.scan._U16_SIZE': 2,
     'mcap.summary._LOOKED_AT': 512,
     'mcap.time_order.LONGEST': 4096,
     'mcap.time_order._LATEST': 2**64 - 1,
     'mcap.together.FEW': 256,
+    'mcap.writer._MESSAGE_BODY': 22,
+    'memory_limit._LEAST': 1 << 28,
+    'memory_limit._MOST': 1 << 32,
     'memory_limit._SHARE': 4,
+    'message_objects._ARRAY': 3,
+    'message_objects._BASE': 1,
+    'message_objects._NAME': 2,
     'metadata.ENTRIES': 1_000_000,
-    'metadata.SIZE': 67_108_864,
     'metadata.NEVER': 2**63 - 1,
+    'metadata.SIZE': 67_108_864,
     'notes.LONGEST': 1000,
+    'notes._MOST': 1 << 26,
     'playback.delay_histogram.BINS': 10_000,
     'playback.delay_histogram.RESOLUTION': 1e-5,
+    'quality_of_service.FOREVER': 2**63 - 1,
+    'quality_of_service.USUAL': 2000,
     'recording.recording.MOST_LATCHED': 100,
     'recording.recording.PERIOD': 0.02,
     'recording.sequence_gaps.MOST_PUBLISHERS': 64,
     'recording.storage_parameters.MEGABYTE': 1e6,
+    'request.FOREVER': 2**64,
     'sqlite.file.LATEST': 2**63 - 1,
+    'sqlite.recovery.FARTHEST': 1 << 40,
+    'threads._MOST': 4,
 }
 
-NOT_NOTHING = {
+DEFAULTS = {
     'bag_files._problem': {'harmless': True},
     'cdr.layout._Numbers': {'count': 1},
     'checks.check.Limits': {'tolerance': 0.1, 'gap': 5.0},
     'columns.fixed_layout.LayoutRows.values': {'count': 1, 'step': 1},
+    'editing.steps._messages': {'limits': (0, 2**64)},
     'mcap.chunked_file.ChunkedFile': {'validate': True},
     'mcap.file.McapFile': {'validate': True},
     'mcap.output.McapOutput.close': {'sync': True},
@@ -90,6 +163,7 @@ NOT_NOTHING = {
     'quality_of_service.OfferedQos': {
         'depth': 10, 'deadline': 2**63 - 1, 'lifespan': 2**63 - 1, 'lease_duration': 2**63 - 1,
     },
+    'recording.recording._Topic': {'told': (0, 0, 0)},
     'reader.BagReader': {'validate': True},
     'writer.BagWriter': {'chunk_size': 1 << 20, 'chunk_duration': 1.0},
     'writer.BagWriter.flush': {'sync': True},
@@ -97,38 +171,10 @@ NOT_NOTHING = {
 """Numbers that are taken where nobody tells them, but 0 and no; parameters have their own table"""
 
 
-def functions():
-    """Yield the name of each function and class of the room, and itself."""
-    for path in sorted(BAG.rglob('*.py')):
-        inside = '.'.join(path.relative_to(BAG).with_suffix('').parts)
-        module = importlib.import_module(f'agv_motion.bag.{inside}'.removesuffix('.__init__'))
-        for name, one in vars(module).items():
-            if getattr(one, '__module__', '') != module.__name__:
-                continue
-            if inspect.isfunction(one):
-                yield f'{inside}.{name}', one
-            elif inspect.isclass(one) and not issubclass(one, Enum):
-                if not (is_dataclass(one) and name.endswith('Parameters')):
-                    yield f'{inside}.{name}', one
-                for inner, method in vars(one).items():
-                    if inspect.isfunction(method) and inner != '__init__':
-                        yield f'{inside}.{name}.{inner}', method
+def test_numbers_change_on_purpose_only():
+    assert constants('bag') == CONSTANTS
+    assert RATIOS == {'': 1, 'lz4': 256, 'zstd': 65536}
 
 
 def test_what_nobody_told_is_nothing():
-    found = {}
-    for name, one in functions():
-        told = {
-            parameter.name: parameter.default
-            for parameter in inspect.signature(one).parameters.values()
-            if isinstance(parameter.default, (bool, int, float)) and parameter.default
-        }
-        if told:
-            found[name] = told
-    assert found == NOT_NOTHING
-
-
-def test_tuned_numbers_change_on_purpose_only():
-    for name, value in TUNED.items():
-        module, _, number = name.rpartition('.')
-        assert resolve_name(f'agv_motion.bag.{module}:{number}') == value, name
+    assert defaults('bag', parameters=False) == DEFAULTS

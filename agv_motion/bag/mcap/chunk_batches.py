@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from agv_motion.bag.columns.batch import Batch, place_in_file
+from agv_motion.bag.columns.batch import Batch
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.message_heads import HEAD, heads
@@ -25,6 +25,8 @@ GROUP = 1 << 23
 """[bytes] Chunks are decoded together up to this size."""
 _HEAD = np.dtype([*((n, HEAD[n]) for n in HEAD.names or ()), ('form', '>u2'), ('options', '>u2')])
 _LATEST = 2**64 - 1
+_FAR = 2**62
+"""[bytes] Farther off than any file is long, and still a number with a sign."""
 
 
 class BatchesTogether(NamedTuple):
@@ -80,7 +82,7 @@ def batches(
     tables = [file.index_of(c, n, data[a:b]) for n in channels for c, a, b in parts]
     counts = [len(table) for table in tables]
     table = np.concatenate(tables)
-    stamps, offsets = table[:, 0], np.minimum(table[:, 1], len(data)).astype(np.int64)
+    stamps, offsets = table[:, 0], np.minimum(table[:, 1], _FAR).astype(np.int64)
     places = offsets + np.repeat(begins * len(channels), counts)
     limits = np.repeat(np.tile(ends, len(channels)), counts)
     numbers = np.repeat(
@@ -94,19 +96,21 @@ def batches(
         return []
     try:
         found = heads(data, places, _HEAD)
-    except ValueError as error:
-        place = place_in_file(origins, int(places.min()))
-        raise DamagedBagError(file.path, place, f'near this chunk, {error}') from None
+    except ValueError:
+        _look_at_each(file, together, places, limits)
+        raise
     sizes = found['length'].astype(np.int64) - (_HEAD.itemsize - records.PREFIX.size)
     starts = places + _HEAD.itemsize
     wrong = (found['channel'] != numbers) | (found['stamp'] != stamps) | (starts + sizes > limits)
-    if wrong.any() or int(sizes.sum()) + len(sizes) * _HEAD.itemsize > len(data):
-        row = int(wrong.argmax())
-        place = place_in_file(origins, int(places[row]))
+    spans = sizes + _HEAD.itemsize
+    if wrong.any() or int(spans.sum()) > len(data):
+        part = np.searchsorted(ends, limits)
+        crowded = np.bincount(part, spans, len(ends)) > np.diff(ends, prepend=0)
+        row = int((wrong if wrong.any() else crowded[part]).argmax())
         finding = (
             f'in this chunk, messages that are not those of the index of channel {numbers[row]}'
         )
-        raise DamagedBagError(file.path, place, finding)
+        raise DamagedBagError(file.path, together.chunks[part[row]].offset, finding)
     times, forms = stamps.astype(np.int64), found['form'].astype(np.uint16)
     bounds = np.searchsorted(numbers, channels, 'left'), np.searchsorted(numbers, channels, 'right')
     return [
@@ -114,3 +118,19 @@ def batches(
         for n, a, b in zip(channels, *bounds, strict=True)
         if b > a
     ]
+
+
+def _look_at_each(
+    file: ChunkedFile,
+    together: BatchesTogether,
+    places: NDArray[np.int64],
+    limits: NDArray[np.int64],
+) -> None:
+    """Raise the damage of the chunk whose index leads to what is no message."""
+    begin = 0
+    for chunk, end in zip(together.chunks, together.ends.tolist(), strict=True):
+        try:
+            heads(together.data[begin:end], places[limits == end] - begin, _HEAD)
+        except ValueError as error:
+            raise DamagedBagError(file.path, chunk.offset, f'in this chunk, {error}') from None
+        begin = end

@@ -83,9 +83,31 @@ def test_messages_that_are_not_where_the_index_says_are_damage_of_their_chunk(fi
         (3 * SIZE + 9, 1, f'byte {second}: {others}'),  # its channel
         (3 * SIZE + 15, 9, f'byte {second}: {others}'),  # its time
         (SIZE + 9, 1, f'byte {first}: {others}'),
-        (3 * SIZE, 9, f'byte {first}: near this chunk, no whole message at byte 108'),
+        (3 * SIZE, 9, f'byte {second}: in this chunk, no whole message at byte 0 of the content'),
+        (SIZE, 9, f'byte {first}: in this chunk, no whole message at byte 36 of the content'),
     ):
         data = bytearray(found.data)
         data[place] = change
         with pytest.raises(DamagedBagError, match=words):
             batches(file, found._replace(data=data), [2], 0, 2**64)
+
+
+@pytest.mark.parametrize(('index', 'damaged', 'words'), [
+    ({(2, 0): [(6, 3 * SIZE)]}, 0, 'messages that are not those of the index of channel 2'),
+    ({(2, 1): [(10, 0), (10, 9 * SIZE)]}, 1, 'a message at byte 324 of a content of 36'),
+    ({(2, 1): [(10, 1)]}, 1, 'no whole message at byte 1 of the content'),
+    ({(2, 1): [(10, 0)] * 4}, 1, 'messages that are not those of the index of channel 2'),
+    ({(2, 0): [(6, SIZE)] * 4}, 0, 'messages that are not those of the index of channel 1'),
+])  # fmt: skip
+def test_the_chunk_is_named_whose_index_leads_astray(file, monkeypatch, index, damaged, words):
+    """Also where it leads into the next chunk, and where it names a message many times."""
+    truth = file.index_of
+
+    def told(chunk, channel, content):
+        changed = index.get((channel, file.chunks.index(chunk)))
+        return truth(chunk, channel, content) if changed is None else np.array(changed, np.uint64)
+
+    monkeypatch.setattr(file, 'index_of', told)
+    where = f'byte {file.chunks[damaged].offset}: in this chunk, {words}'
+    with pytest.raises(DamagedBagError, match=where):
+        batches(file, together(file), [1, 2], 0, 2**64)
