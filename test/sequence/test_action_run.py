@@ -163,3 +163,31 @@ def test_a_wait_counts_no_time_while_it_is_held():
     run.step(ORIGIN, 0.75)
     assert (run.progress, run.done, run.at_rest) == (1.0, True, True)
     assert WaitRun(0.0).progress == 1.0
+    longer = WaitRun(4.0)
+    longer.step(ORIGIN, 1.0)
+    assert (longer.progress, longer.done) == (0.25, False)
+
+
+def test_a_route_that_has_not_begun_has_nothing_behind_and_sets_out_at_the_first_step():
+    run = route_run((0, 0), (3, 0))
+    assert (run.progress, run.done, run.at_rest) == (0.0, False, False)
+    assert run.step(ORIGIN, DT).vx > 0.0
+    assert 0.0 <= run.progress < 0.01
+
+
+def test_the_pace_goes_from_one_to_zero_and_back_in_half_a_second():
+    """A tenth of it in a cycle of a twentieth of a second, also where it is ended for good."""
+    run = route_run((0, 0), (3, 0))
+    robot = Robot(run)
+    for act, left in (
+        (run.ease_to_halt, 0.9), (run.go_on, 1.0), (run.brake_and_end, 0.9), (run.freeze, 0.0)
+    ):  # fmt: skip
+        act()
+        robot.cycles(1)
+        assert run._pace == pytest.approx(left)  # noqa: SLF001 - the twist has ramps of its own
+    run.begin(robot.pose)
+    assert run._pace == 1.0  # noqa: SLF001 - as above
+    run.freeze()
+    run.go_on()
+    robot.cycles(3)
+    assert run._pace == pytest.approx(0.3)  # noqa: SLF001 - as above

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan, pi, radians
+from math import cos, hypot, nan, pi, radians
 
 import pytest
 
@@ -47,6 +47,18 @@ def test_an_arc_by_hand():
 def test_after_a_failure_it_ends_at_the_same_pose(action):
     end = Pose(3.0, 4.0, -0.7)
     assert action.plan_again(Ghost(Pose(2.0, 2.5, 0.1)), end).end == close(end)
+
+
+@pytest.mark.parametrize(('backward', 'turns'), [(False, 0.6), (True, -0.6)])
+def test_after_a_failure_an_arc_goes_straight_to_its_end(backward, turns):
+    """3 m ahead and 4 m to the side, 5 m in all, on its way with its front or its back ahead."""
+    trajectory = DriveArc(90.0, 1.0, backward=backward).plan_again(
+        Ghost(Pose(1.0, 1.0, 0.0)), Pose(4.0, 5.0, 0.0)
+    )
+    poses = trajectory.polyline(0.05)
+    assert [4.0 * (p.x - 1.0) for p in poses] == pytest.approx([3.0 * (p.y - 1.0) for p in poses])
+    half = min(poses, key=lambda p: abs(hypot(p.x - 1.0, p.y - 1.0) - 2.5))
+    assert cos(half.theta) == pytest.approx(turns)
 
 
 def test_after_a_failure_a_turn_goes_to_the_same_heading_where_the_robot_is():

@@ -34,6 +34,7 @@ def test_each_action_starts_where_the_last_one_ended():
     assert ends[0] == Pose(2.0, 1.0, pi / 2)
     assert ends[1] == ends[2] == Pose(2.0, 1.0, -pi)
     assert ends[3] == pytest.approx((2.0, -0.5, 0.0), abs=1e-12)
+    assert found[0].begin == 0.0
     assert [each.begin for each in found[1:]] == pytest.approx(
         [each.begin + each.duration for each in found[:-1]]
     )

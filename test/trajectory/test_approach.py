@@ -63,3 +63,11 @@ def test_another_approach_begins_anew():
 )  # fmt: skip
 def test_calm_is_slow_in_both_ways(twist, calm):
     assert is_calm(twist, 0.05000001, 0.1) is calm
+
+
+def test_little_patience_averages_little():
+    """A third of 0.3 s: after 0.1 s, 1 - 1/e of the way is gone."""
+    approach = Approach()
+    approach.update(FAR, 1.0, AHEAD, 0.1, patience=0.3)
+    approach.update(NEAR, 0.5, REST, 0.1, patience=0.3)
+    assert approach.twist.vx == pytest.approx(0.4 * exp(-1.0))

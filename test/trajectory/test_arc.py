@@ -196,3 +196,9 @@ def test_it_tells_duration_and_turn_rate(angle, speed, rate):
 def test_without_ramp_it_takes_length_over_speed():
     assert Arc(pi, 0.4, 0.3, 0.5, NO_RAMP).duration == pytest.approx(pi)
     assert Arc(0.0, 0.4, 0.3, 0.5, 1.0).duration == 0.0
+
+
+@pytest.mark.parametrize(('angle', 'rate'), [(0.5, 0.8), (-0.5, -0.8), (2.0, 0.8), (-2.0, -0.8)])
+def test_how_fast_the_heading_turns_by_hand(angle, rate):
+    """0.4 m/s on a radius of half of 0.4 m and a track of 0.3 m, however short the arc."""
+    assert Arc(angle, 0.4, 0.3, 0.4, 0.3).turn_rate == pytest.approx(rate)

@@ -151,3 +151,19 @@ def test_a_cusp_is_refused_by_name():
             connect(Pose(-1, 0, 0), Pose(0, 0, 0), 0.4),
             CubicBezier(0j, 1 + 0j, 1 + 1j, 1 - 1j),
         ])  # fmt: skip
+
+
+def test_a_line_of_ten_nanometres_is_none_the_worse():
+    length = ArcLength([CubicBezier(0j, 1e-8 + 0j, 1e-8 / 3 + 0j, 1e-8 / 3 + 0j)]).length
+    assert length == pytest.approx(1e-8)
+
+
+@pytest.mark.parametrize(('handle', 'refused'), [(3.31e-16, True), (3.35e-16, False)])
+def test_a_cusp_is_where_it_hardly_moves_in_comparison_with_the_whole(handle, refused):
+    """P' at the start is three handles; of a way of 1 m, a billionth of a micrometre."""
+    curve = CubicBezier(0j, 1 + 0j, handle + 0j, 0.34 + 0j)
+    if refused:
+        with pytest.raises(GeometryError, match='curve 1 has a cusp near 0 %'):
+            ArcLength([curve])
+    else:
+        assert ArcLength([curve]).length == pytest.approx(1.0)

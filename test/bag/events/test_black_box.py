@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -295,3 +296,59 @@ def test_an_event_is_over_when_its_time_is_and_messages_may_no_longer_come(tmp_p
         run.box.update(now)
         assert (run.box.event is not None) is goes_on
         run.end(26)
+
+
+def idle(folder, **given):
+    """Return a black box over a recording of nothing, and what its journal is told to note."""
+    recording = SimpleNamespace(path=folder / 'bag', split=int, finished_files=list)
+    box = BlackBox(recording, EventParameters(**{'before': 10.0, 'after': 5.0, **given}))
+    noted = []
+    box._journal.note = lambda number, event: noted.append((number, event.first.stamp, event.end))  # noqa: SLF001
+    return box, noted
+
+
+def test_an_event_that_goes_on_is_noted_twice_a_second(tmp_path):
+    """Also one at the zero of a simulation; the next event has the next number."""
+    box, noted = idle(tmp_path)
+    half = SECOND // 2
+    for stamp in (0, half - 1, half, 2 * half - 1, 2 * half, 2 * half + 9 * SECOND):
+        box.add(Moment(stamp, 'slip'))
+    box.close()
+    ends = [5 * SECOND, 5 * SECOND + half, 6 * SECOND]
+    assert noted == [*((1, 0, end) for end in ends), (2, 10 * SECOND, 15 * SECOND)]
+
+
+@pytest.mark.parametrize(('given', 'idle_needs'), [
+    ({}, float('inf')), ({'trigger': ('/a > 1',)}, 30 * SECOND),
+    ({'only_events': True}, 30 * SECOND),
+])  # fmt: skip
+def test_a_recording_is_told_since_when_it_is_needed(tmp_path, given, idle_needs):
+    box, _ = idle(tmp_path, **given)
+    box.update(40 * SECOND)
+    assert box._recording.needed_from == idle_needs  # noqa: SLF001 - of our own making
+    box.add(Moment(38 * SECOND, 'slip'))
+    assert box._recording.needed_from == 28 * SECOND  # noqa: SLF001 - as above
+    box.close()
+
+
+@pytest.mark.parametrize(('now', 'cut'), [(25, ''), (24, 'the recording ended')])
+def test_an_event_is_cut_short_when_the_recording_ends_before_it(tmp_path, now, cut):
+    box, _ = idle(tmp_path)
+    box.add(Moment(20 * SECOND, 'slip'))
+    handed = []
+    box._saver.save = lambda number, event: handed.append((number, event.cut_short))  # noqa: SLF001
+    box.finish(now * SECOND)
+    box.finish(now * SECOND)
+    assert handed == [(1, cut)]
+    box.close()
+
+
+def test_what_became_of_each_event_is_told(tmp_path):
+    run = Run(tmp_path / 'bag')
+    run.live(0, 44, [(3, 'tilt'), (20, 'slip'), (22, 'slip'), (24, 'slip'), (42, 'stop')])
+    one, two, three = run.end(44)
+    assert run.told == [
+        f"event 'tilt' saved as {one}", f"event 'slip' and 2 more saved as {two}",
+        f"event 'stop' saved as {three}, cut short: the recording ended",
+    ]  # fmt: skip
+    assert run.complaints == []

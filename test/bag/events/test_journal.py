@@ -56,6 +56,12 @@ def test_a_journal_of_nonsense_owes_nothing(tmp_path):
     assert (left.recording, left.only_events, left.before, left.events) == ('', False, 0.0, {})
 
 
+@pytest.mark.parametrize('before', [0, 0.5, 86400])
+def test_the_time_before_an_event_is_kept_as_it_was(tmp_path, before):
+    (tmp_path / '.x.events.jsonl').write_text(f'{{"recording": "/bags/walk", "before": {before}}}')
+    assert owed(tmp_path)[0][:3] == ('/bags/walk', False, before)
+
+
 @pytest.mark.parametrize('before', ['Infinity', 'NaN', '1e999', '1' + '0' * 400, '86401', '-1'])
 def test_a_time_that_no_recorder_keeps_is_none(tmp_path, before):
     head = f'{{"recording": "/bags/walk", "only_events": true, "before": {before}}}'

@@ -65,3 +65,22 @@ def test_a_damaged_message_is_told_and_the_next_is_watched():
     assert trigger.problem
     assert len(trigger.moments(numbers('/residual', 5.0))) == 1
     assert trigger.problem == ''
+
+
+def test_a_topic_that_comes_again_goes_on_and_another_begins_anew():
+    trigger = bound('/a/b > 1', '/a/b')
+    assert len(trigger.moments(numbers('/a/b', 5.0))) == 1
+    trigger.bind(connection('/a/b'))
+    assert trigger.moments(numbers('/a/b', 5.0, start=1)) == []
+    inner = Trigger(condition('/a/b/data > 1'))
+    inner.bind(connection('/a', 'B b\n===\nMSG: a/B\nfloat64 data'))
+    assert inner.connection.topic == '/a'
+    assert len(inner.moments(numbers('/a', 5.0))) == 1
+    inner.bind(connection('/a/b'))
+    assert len(inner.moments(numbers('/a/b', 5.0, start=1))) == 1
+
+
+def test_a_misfit_beside_a_topic_that_fits_is_no_problem():
+    trigger = bound('/a/b/data > 1', '/a/b')
+    trigger.bind(connection('/a/b/data', 'string other'))
+    assert (trigger.connection.topic, trigger.problem) == ('/a/b', '')

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agv_motion.bag.recording.sequence_gaps import SequenceGaps
+from agv_motion.bag.recording.sequence_gaps import MOST_PUBLISHERS, SequenceGaps
 
 SECOND = 1_000_000_000
 
@@ -54,3 +54,31 @@ def test_rate_and_silence_by_the_times_of_sending():
     assert (gaps.messages, gaps.lost) == (4, 0)
     assert gaps.rate == 1.0
     assert gaps.longest_silence == 2 * SECOND
+
+
+def test_a_number_that_comes_late_or_follows_far_behind():
+    """Of two publishers, 20 follows 8, not 3; 8 in its turn is new, since two are known."""
+    gaps = follow([2, 7, 20], publishers=2)
+    assert (gaps.lost, gaps._expected) == (12, [3, 21])  # noqa: SLF001 - the state itself
+    gaps.see(5, 9 * SECOND)
+    assert (gaps.lost, gaps._expected) == (14, [21, 6])  # noqa: SLF001 - as above
+    gaps.see(1, 9 * SECOND)  # below all: somebody began anew
+    assert (gaps.lost, gaps._expected) == (14, [21, 6, 2])  # noqa: SLF001 - as above
+
+
+def test_numbers_are_followed_of_so_many_publishers_and_no_more():
+    gaps = follow(range(200, 200 - 2 * MOST_PUBLISHERS, -2), publishers=99)
+    assert len(gaps._expected) == MOST_PUBLISHERS  # noqa: SLF001 - as above
+    gaps.see(1, 0)
+    assert len(gaps._expected) == MOST_PUBLISHERS  # noqa: SLF001 - as above
+    gaps.see(201, 0)
+    assert (gaps.lost, gaps._expected[-1]) == (0, 202)  # noqa: SLF001 - as above
+    assert follow([0, 0]).lost == 0
+
+
+def test_times_that_go_back_are_no_silence_and_none_are_no_rate():
+    gaps = follow([])
+    assert (gaps.rate, gaps.longest_silence) == (0.0, 0)
+    for time, silence, rate in ((7, 0, 0.0), (9, 2, 0.5), (8, 2, 1.0), (12, 3, 0.6)):
+        gaps.see(0, time * SECOND)
+        assert (gaps.longest_silence, gaps.rate) == (silence * SECOND, rate)
