@@ -139,7 +139,7 @@ def _action(kind: str, marked: Marked, defaults: dict[str, Any]) -> Action:
 def _culprit(marked: Marked, reason: str) -> Marked:
     """Return the value that ``reason`` begins with, if it stands here."""
     found = marked.mapping('an action') if isinstance(marked.value, dict) else {}
-    name = reason.split(' ', maxsplit=1)[0]
+    name = reason.partition(' ')[0]
     return found[name][1] if name in found else marked
 
 

@@ -325,3 +325,16 @@ def test_an_action_that_is_refused_on_the_way_has_failed(on_failure, state, end)
     assert drive.pose.x == pytest.approx(end, abs=0.03)
     assert 'm.yaml:1:1: GoTo: a way of' in drive.runner.status.reason
     assert drive.time < 30.0  # at once, not by its time-out
+
+
+def test_a_wait_forgets_neither_where_the_robot_was_to_be_nor_how_often_it_may_fail():
+    drive = Drive(GoTo(0.5, 0.0, 0.0), Wait(0.1), DriveArc(180.0, 2.0), on_failure=OnFailure(1))
+    attempts = set()
+    while drive.runner.status.number < 2:
+        drive.tick()
+        attempts.add(drive.runner.status.attempt)
+    drive.pose = drive.pose._replace(y=0.03)
+    drive.tick()
+    leader = drive.runner._follower.leader.pose  # noqa: SLF001 - before anything has moved
+    assert (leader.x, leader.y) == pytest.approx((0.5, 0.0), abs=1e-3)
+    assert attempts == {1}

@@ -127,3 +127,21 @@ def test_a_file_that_is_empty_or_not_there(load, tmp_path):
         load('# nothing\n')
     with pytest.raises(ConfigurationError, match='cannot read'):
         load_sequence(tmp_path / 'none.yaml')
+
+
+def test_an_action_is_called_as_people_would_say_it(load):
+    sequence = load("""
+actions:
+  - go_to: {x: 1.5, y: -2}
+  - follow_route: {waypoints: [[0, 0], [1, 0]], laps: 2}
+  - {wait: 2, timeout: 0.5}
+""")
+    names = [step.name for step in sequence.steps]
+    assert names == ['go_to x 1.5, y -2', 'follow_route laps 2', 'wait 2']
+    assert sequence.steps[-1].timeout == 0.5
+
+
+@pytest.mark.parametrize(('points', 'number'), [('[[x, 0], [1, 0]]', 1), ('[[0, 0], [1]]', 2)])
+def test_a_waypoint_that_is_none_is_told_by_its_number(load, points, number):
+    with pytest.raises(ConfigurationError, match=f'waypoint {number}'):
+        load(f'actions:\n  - follow_route: {{waypoints: {points}}}\n')

@@ -58,3 +58,35 @@ def test_a_time_that_no_file_can_hold_is_refused(sources):
             together([one, wrong, one], ids)
     limits = [one._replace(stamp=0, publish=0), one._replace(stamp=2**64 - 1, publish=2**64 - 1)]
     assert together(limits, ids).stamps.tolist() == [0, 2**64 - 1]
+
+
+def test_each_step_tells_what_it_needs(sources):
+    """A chunk as it is stored and unpacked; messages with 31 bytes before each, and once more."""
+    first = next(iter(plan(sources)))
+    chunk = sources[0].file.chunks[0]
+    assert (first.start, first.size, first.read) == (0, chunk.size + chunk.length, chunk.length)
+    ids = ids_of(sources)
+    messages = [Message(next(iter(ids)), i, bytes(9), i, i) for i in (7, 8, 9)]
+    (step,) = stream(messages, ids)
+    assert (step.start, step.size, step.read) == (7, 240, 120)
+    assert step.work().offsets.tolist() == [0, 40, 80]
+
+
+def test_chunks_that_overlap_are_merged_to_the_last_message_of_theirs(tmp_path):
+    """From 0 to 20, 15 to 30 and 30 to 40 they touch; from 41 on one stands alone."""
+    spans = ((0, 20), (15, 30), (30, 40), (41, 50))
+    with BagWriter(tmp_path / 'one', chunk_size=1 << 20, chunk_duration=1e9) as bag:
+        topic = bag.add_topic('/a', 'a/msg/A', 'int8 x', type_hash='')
+        for span in spans:
+            for stamp in span:
+                bag.write(topic, stamp, b'\0\1\0\0\1')
+            bag.flush()
+    with BagReader(tmp_path / 'one') as bag:
+        assert [(c.start, c.end) for c in bag.files[0].chunks] == list(spans)
+        source = EditSource(bag.files[0], Wanted({1: 1}), packed=False)
+        merged, alone = (step.work() for step in plan([source], ordered=True))
+        assert merged.stamps.tolist() == [0, 15, 20, 30, 30, 40]
+        assert (alone.fresh, alone.times) == (False, (41, 50))
+        some = source._replace(wanted=Wanted({1: 1}, ((0, 16), (30, 42))))
+        merged, alone = (step.work() for step in plan([some], ordered=True))
+        assert (merged.stamps.tolist(), alone.stamps.tolist()) == ([0, 15, 30, 30, 40], [41])
