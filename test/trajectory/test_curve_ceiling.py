@@ -72,3 +72,24 @@ def test_the_line_between_two_nodes_never_goes_over_the_middle(curvature, middle
     for node, bend in zip(square, curvature, strict=True):
         most = min(limit.ceiling(np.array([bend]))[0] for limit in LIMITS)
         assert 0.0 < node <= min(most, 2.0) ** 2 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(('squares', 'share', 'between', 'lowered'), [
+    ((4.0, 2.0), 0.5, 2.7, (3.6, 1.8)), ((2.0, 4.0), 0.5, 2.7, (1.8, 3.6)),
+    ((4.0, 2.0), 0.25, 3.2, (11 / 3, 1.8)), ((2.0, 4.0), 0.75, 3.2, (1.8, 11 / 3)),
+    ((4.0, 2.0), 0.25, 3.5, (4.0, 2.0)), ((4.0, 2.0), 0.25, 3.4, (3.9, 1.9)),
+])  # fmt: skip
+def test_ends_give_a_tenth_at_most_and_then_the_higher_one_more(squares, share, between, lowered):
+    """Squares by 1 m/s2 of lateral acceleration; the line meets what is allowed between them."""
+    bend = course([0, 1], [1.0 / square for square in squares], [share], [1.0 / between])
+    found = curve_ceiling(bend, [LateralAcceleration(1.0)], 9.0) ** 2
+    assert found == pytest.approx(lowered)
+
+
+@pytest.mark.parametrize(('short', 'joint'), [(5e-10, True), (5e-9, False)])
+def test_a_joint_is_where_there_is_no_way_in_comparison_with_the_whole(short, joint):
+    """A kilometre, by a million millionth."""
+    way, curvature = [0, 500, 500 + short, 1000], [0.0, 0.0, 1.0, 1.0]
+    steps = course(way, curvature, [250, 500 + short / 2, 750], [0.0, 0.5, 1.0])
+    ceiling = curve_ceiling(steps, [TurnStep(0.3)], 3.0)
+    assert ceiling[1:3] == pytest.approx([0.3, 0.3] if joint else [3.0, 3.0])

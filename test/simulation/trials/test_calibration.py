@@ -7,16 +7,22 @@ from math import atan2, cos, hypot, sin
 import numpy as np
 import pytest
 
+from agv_motion.odometry.columns import pose_columns
+from agv_motion.planar import Pose
+from agv_motion.simulation.trials import calibration
 from agv_motion.simulation.trials.calibration import (
     ANGLES,
+    BASES,
     DIFFERENTIAL,
     OMNI,
     PERIOD,
     STEPS,
     TREE,
+    Conditions,
     _as_drawn,
     _carried,
     _wandering,
+    simulate,
 )
 
 WAY = np.array([[0.1], [0.05], [0.2]])
@@ -63,3 +69,40 @@ def test_who_is_carried_away_keeps_the_way_from_there():
         c, s = np.cos(turn), np.sin(turn)
         steps = np.array([[c, -s], [s, c]]) @ np.diff(reference[:2], axis=1)
         assert np.diff(moved[:2], axis=1) == pytest.approx(steps)
+
+
+@pytest.mark.parametrize('base', BASES)
+def test_without_noise_the_references_are_where_the_true_robot_came(base, monkeypatch):
+    """Every ten steps from the start on; carried away before the sixth, it goes on from there."""
+    monkeypatch.setattr(calibration, 'POSITION_NOISE', 1e-12)
+    monkeypatch.setattr(calibration, 'HEADING_NOISE', 1e-12)
+    way = 0.1 * np.random.default_rng(3).uniform(-1.0, 1.0, (3, 100)) * [[1.0], [0.0], [1.0]]
+    given = Conditions(way=way, slip=0.0)
+    model, truth, told = simulate(base, 7, given)
+    assert told.reference_step.tolist() == list(range(0, 101, 10))
+    steering = np.zeros_like(told.turned) if told.steering is None else told.steering
+    moved = model.displacement(truth, told.turned, steering)
+    start = Pose(*told.reference[:, 0])
+    assert np.abs(start).max() <= 5.0
+    assert told.reference == pytest.approx(pose_columns(moved, start)[:, ::10])
+    nominal, doubt = np.array([unknown[2:] for unknown in model.unknowns]).T
+    drawn = np.random.default_rng(7).standard_normal(len(nominal))
+    assert truth == pytest.approx(nominal + 0.2 * doubt * drawn)
+    away = simulate(base, 7, given._replace(carried=(5,))).recording.reference
+    assert away[:, :5] == pytest.approx(told.reference[:, :5])
+    assert 2.0 <= hypot(*(away[:2, 5] - told.reference[:2, 5])) <= 5.0
+    blind = simulate(base, 7, given._replace(heading=False)).recording.reference
+    assert np.isnan(blind[2]).all()
+    assert blind[:2] == pytest.approx(told.reference[:2])
+
+
+def test_the_noise_of_a_heading_has_the_size_that_is_told():
+    """10 mrad, and so half as much again, nearly, between two."""
+    quiet = simulate(DIFFERENTIAL, 1, Conditions(slip=0.0)).recording
+    assert quiet.turned.shape == (2, STEPS)
+    assert (quiet.position_noise, quiet.heading_noise) == (0.02, 0.01)
+    model, truth, _ = simulate(DIFFERENTIAL, 1)
+    moved = model.displacement(truth, quiet.turned, np.zeros_like(quiet.turned))
+    true = pose_columns(moved, Pose(0.0, 0.0, 0.0))[2, ::10]
+    errors = np.diff(quiet.reference[2] - true)
+    assert errors.std() == pytest.approx(0.01 * 2**0.5, rel=0.2)
