@@ -150,12 +150,18 @@ class Terminal:
         fcntl.ioctl(self._slave, termios.TIOCSWINSZ, struct.pack('4H', rows, columns, 0, 0))
 
     def read(self, seconds=0.1):
-        """Show what is written now; return whether anything was. A picture is what is whole."""
+        """Show what is written now; return whether anything was.
+
+        A picture is what is whole, and what the terminal's own ^C does not stand in: that comes
+        wherever the writer is, and moves the rest of its line.
+        """
         if not select.select([self._master], [], [], seconds)[0]:
             return False
         self._stream.feed(os.read(self._master, 65536))
-        if whole(self.screen.display) and frame_ends(self.screen.display) != self._old_frame:
-            self.pictures.append(((self.screen.columns, self.screen.lines), self.screen.display[:]))
+        shown = self.screen.display[:]
+        echoed = any('^C' in line for line in shown)
+        if whole(shown) and not echoed and frame_ends(shown) != self._old_frame:
+            self.pictures.append(((self.screen.columns, self.screen.lines), shown))
         return True
 
     def wait(self, seen, limit=120.0):
