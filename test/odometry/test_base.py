@@ -41,7 +41,8 @@ def test_every_base_finds_the_displacement_of_its_wheels(x, y, turn):
     ]
     for base, travels, angles in cases:
         *found, residual = base.displacement(travels, angles)
-        assert found == pytest.approx(displacement, abs=1e-12)
+        # a turret that travels less than rounding has no direction of its own
+        assert found == pytest.approx(displacement, abs=1e-11)
         assert residual < 1e-8
 
 
