@@ -29,7 +29,12 @@ class SteeringLimits:
     ] = QUARTER_TURN_IN_SIX_SECONDS
     steering_acceleration: Annotated[
         float,
-        Spec('most that the rate of a turret changes', 'rad/s2', (1e-3, 1e4), dynamic=True),
+        Spec(
+            'most that the rate of a turret changes; a lower one counts once no turret turns',
+            'rad/s2',
+            (1e-3, 1e4),
+            dynamic=True,
+        ),
     ] = 1.0
     turn_limit: Annotated[
         float, Spec('how far the cables let a turret turn, either way', 'turns', (0.3, 1e6))

@@ -24,6 +24,7 @@ further than the reversal angle, the platform stops, turns them all, and goes on
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,8 @@ from agv_motion.kinematics.steering.state import AtRest, Limiter, Rolling
 from agv_motion.planar import STANDSTILL, Twist, require_twist
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from agv_motion.kinematics.steering.limits import SteeringLimits
     from agv_motion.kinematics.steering.state import Phase
     from agv_motion.kinematics.turrets import Turrets
@@ -53,14 +56,28 @@ class SteeringPlanner:
         """
         self.turrets = turrets
         self._chassis = measure(turrets, limits)
+        self._coming: SteeringLimits | None = None
 
     @property
     def limits(self) -> SteeringLimits:
-        """What the turrets can do; may be replaced between steps."""
-        return self._chassis.limits
+        """What the turrets can do; may be replaced between steps.
+
+        A lower steering acceleration counts once no turret turns: those that do could not stop
+        before their cables end.
+        """
+        return self._coming or self._chassis.limits
 
     @limits.setter
     def limits(self, limits: SteeringLimits) -> None:
+        self._coming = limits
+
+    def _take_limits(self, limits: SteeringLimits, rates: Sequence[float]) -> None:
+        """Plan within ``limits``, as far as turrets that turn at ``rates`` [rad/s] can."""
+        before = self._chassis.limits.steering_acceleration
+        if limits.steering_acceleration < before and any(rates):
+            limits = replace(limits, steering_acceleration=before)
+        else:
+            self._coming = None
         self._chassis = self._chassis._replace(limits=limits)
 
     def step(self, phase: Phase, twist: Twist, period: float) -> Phase:
@@ -80,6 +97,8 @@ class SteeringPlanner:
 
         """
         vx, vy, wz = twist
+        if self._coming is not None:
+            self._take_limits(self._coming, phase.setpoints.rates)
         chassis, setpoints = self._chassis, phase.setpoints
         arms, limits, x, y, length = chassis
         if not 0.0 < period < inf:
@@ -128,6 +147,8 @@ class SteeringPlanner:
         if isinstance(phase, Rolling):
             msg = f'the platform rolls at {phase.speed:.4f} m/s: stop it before unwinding'
             raise SignalError(msg)
-        there = unwind(phase, self.limits, period)
+        if self._coming is not None:
+            self._take_limits(self._coming, phase.setpoints.rates)
+        there = unwind(phase, self._chassis.limits, period)
         phase.setpoints.period = period
         return there

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 from math import cos, inf, isfinite, nan, pi, tau
 
 import pytest
@@ -65,6 +66,28 @@ def test_after_a_gap_or_a_leap_back_one_period_counts():
         before = one.setpoints.speeds[0]
         assert one.step(now + leap, 0.05)
         assert one.setpoints.speeds[0] - before <= LIMITS.wheel_acceleration * 0.1 + 1e-12
+
+
+@pytest.mark.parametrize('rolls', [False, True])
+def test_turrets_that_turn_stop_as_hard_as_they_could_when_they_began(rolls):
+    """At 0.01 rad/s2, 2 rad/s would lead 200 rad on, far beyond the cables: 9.42 rad."""
+    one = drive()
+    one.set_target(AHEAD)
+    now = steps(one, 10 if rolls else 0)
+    one.set_target(Twist(0.0, 0.3, 0.0))
+    now = steps(one, 4, now)
+    assert max(one.setpoints.rates) > 1.0
+    gentle = replace(LIMITS, steering_acceleration=0.01, max_wheel_speed=0.2)
+    one.planner.limits = gentle
+    for _ in range(60):
+        now = steps(one, 1, now)
+        assert max(one.setpoints.angles) <= pi / 2 + 1e-9
+        assert max(one.setpoints.rates) <= LIMITS.steering_rate + 1e-9
+    assert one.setpoints.angles == pytest.approx([pi / 2] * 2)
+    assert one.setpoints.speeds == pytest.approx([0.2] * 2)
+    one.set_target(AHEAD)
+    now = steps(one, 1, now)
+    assert max(map(abs, one.setpoints.rates)) <= 0.01 * 0.1 + 1e-12
 
 
 def test_a_turret_turned_by_hand_at_rest_is_taken_from_where_it_stands():
