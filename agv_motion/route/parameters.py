@@ -137,7 +137,7 @@ class FollowParameters:
             ProfileTable('v_alpha', self.v_alpha, HALF_TURN).require_positive(),
             ProfileTable('v_d', self.v_d)
             .require_zero_at_zero('the robot would never arrive')
-            .require_never_zero_again(),
+            .require_above_for_good(self.arrival_speed),
         )
 
     def orbit(self) -> str:

@@ -88,19 +88,30 @@ class ProfileTable:
                 _refuse(self.name, f'{y:g} at x = {x:g}: must not be negative')
         return self
 
-    def require_never_zero_again(self) -> ProfileTable:
-        """Return the table if it stays positive once it is.
+    def require_above_for_good(self, least: float) -> ProfileTable:
+        """Return the table if it stays above ``least`` once it is.
+
+        Args:
+            least: Speed at which the robot counts as arrived [m/s].
 
         Raises:
-            ConfigurationError: It is 0 everywhere, or 0 again; the message names the row.
+            ConfigurationError: It is never above, or not any more; the message names the row.
 
         """
-        moving = [(x, y) for x, y in zip(self.x, self.y, strict=True) if y > 0.0]
+        moving = [x for x, y in zip(self.x, self.y, strict=True) if y > least]
         if not moving:
-            _refuse(self.name, '0 everywhere: the robot would never move; give a row above 0')
+            _refuse(
+                self.name,
+                f'nowhere above {least:g} m/s, at which it counts as arrived: give a row above, or '
+                'lower arrival_speed',
+            )
         for x, y in zip(self.x, self.y, strict=True):
-            if y == 0.0 and x > moving[0][0]:
-                _refuse(self.name, f'0 again at x = {x:g}: the robot would stay there for ever')
+            if y <= least and x > moving[0]:
+                _refuse(
+                    self.name,
+                    f'{y:g} m/s again at x = {x:g}: there it would count as arrived, at '
+                    f'{least:g} m/s; raise it, or lower arrival_speed',
+                )
         return self
 
 

@@ -46,7 +46,10 @@ def test_the_top_speed_is_what_all_tables_together_allow():
         ({'v_dn': (0.0, 0.0, 1.0, 0.5)}, 'v_dn'),
         ({'v_alpha': (0.0, -0.1, 3.0, 0.5)}, 'v_alpha'),
         ({'v_d': (0.0, 0.1, 1.0, 0.5)}, 'never arrive'),
-        ({'v_d': (0.0, 0.0, 1.0, 0.5, 2.0, 0.0)}, 'v_d'),
+        ({'v_d': (0.0, 0.0, 1.0, 0.5, 2.0, 0.0)}, 'v_d: 0 m/s again at x = 2: there it would'),
+        ({'v_d': (0.0, 0.0, 1.0, 0.5, 2.0, 0.05), 'arrival_speed': 0.05}, 'v_d: 0.05 m/s again'),
+        ({'arrival_speed': 0.5}, 'v_d: nowhere above 0.5 m/s'),
+        ({'v_d': (0.0, 0.0, 1.0, 0.0), 'arrival_speed': 0.0}, 'v_d: nowhere above 0 m/s'),
         ({'omega_dphi': (0.0, 0.0, 4.0, 0.5)}, 'omega_dphi'),
         ({'coupling_form': 'other'}, 'coupling_form'),
         ({'virtual_point_distance': 0.0}, 'virtual_point_distance'),
@@ -55,6 +58,12 @@ def test_the_top_speed_is_what_all_tables_together_allow():
 def test_what_would_stall_or_swing_is_refused_by_name(given, words):
     with pytest.raises(ConfigurationError, match=words):
         FollowParameters(**given)
+
+
+def test_slow_enough_to_have_arrived_it_is_at_the_end_alone():
+    """A row may lie below that speed as long as none above comes before it."""
+    given = FollowParameters(v_d=(0.0, 0.0, 0.1, 0.02, 0.2, 0.3), arrival_speed=0.05)
+    assert given.profiles().v_d(0.1) < given.arrival_speed < given.profiles().v_d(0.2)
 
 
 def test_a_robot_that_could_circle_for_ever_is_warned_of():

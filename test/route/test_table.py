@@ -60,9 +60,9 @@ def test_only_v_d_may_reach_zero(name, lowest):
     [
         ((0.0, 0.1, 1.0, 0.5), 'would never arrive'),
         ((0.2, 0.1, 1.0, 0.5), 'would never arrive'),
-        ((0.0, 0.0, 1.0, 0.5, 2.0, 0.0), '0 again at x = 2'),
+        ((0.0, 0.0, 1.0, 0.5, 2.0, 0.0), '0 m/s again at x = 2'),
         ((0.0, 0.0, 1.0, -0.5), 'must not be negative'),
-        ((0.0, 0.0, 1.0, 0.0), '0 everywhere'),
+        ((0.0, 0.0, 1.0, 0.0), 'nowhere above 0.01 m/s'),
     ],
 )
 def test_v_d_is_zero_at_the_goal_and_only_there(rows, reason):
