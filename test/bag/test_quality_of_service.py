@@ -29,6 +29,10 @@ def test_what_is_written_is_read(profiles):
     assert OfferedQos.from_yaml(as_yaml(profiles)) == tuple(profiles)
 
 
+def test_what_is_not_told_is_as_ros_has_it():
+    assert OfferedQos.from_entries({}) == OfferedQos(depth=10)
+
+
 def test_older_bags_wrote_numbers():
     found = OfferedQos.from_entries(
         {'history': 3, 'depth': 5, 'reliability': 2, 'durability': 1, 'liveliness': 1,

@@ -193,8 +193,14 @@ def test_slip_that_adds_up_hides_no_outlier():
 @pytest.mark.parametrize(('slip', 'assumed'), [(0.005, 0.015), (0.015, 0.005)])
 def test_the_slip_is_found_from_the_drive(slip, assumed):
     model, _, recording = simulate(OMNI, 1, Conditions(slip=slip))
-    found = calibrate(model, recording, assumed).slip
-    assert 0.6 * slip < found < 1.5 * slip
+    found = calibrate(model, recording, assumed)
+    assert 0.6 * slip < found.slip < 1.5 * slip
+    assert not found.slip_is_open
+
+
+def test_slip_that_is_beyond_all_that_is_looked_at_is_told():
+    model, _, recording = simulate(OMNI, 1, Conditions(slip=0.05))
+    assert calibrate(model, recording, 1e-4).slip_is_open
 
 
 def test_at_rest_the_slip_is_as_assumed():

@@ -25,6 +25,7 @@ def steps(readings, **options):
 @given(st.lists(st.tuples(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9)), max_size=40))
 def test_between_leaps_time_never_runs_back(readings):
     found, last = order(), -inf
+    assert found.stamp == last
     for stamp, value in readings:
         step = found.judge(stamp, value)
         if step in {Succession.MOVED, Succession.GAP}:

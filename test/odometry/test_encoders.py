@@ -36,6 +36,7 @@ def test_the_first_reading_tells_nothing():
     assert encoders.stamp is None
     assert encoders.read(10.0, [1.0, 2.0]) is Succession.FIRST
     assert (encoders.stamp, list(encoders.travel), encoders.rolled) == (10.0, [], 0.0)
+    assert (encoders.duration, encoders.doubt) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize(('stamp', 'step'), [(10.0, Succession.DUPLICATE), (9.9, Succession.LATE)])

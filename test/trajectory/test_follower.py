@@ -296,6 +296,18 @@ def test_aborted_it_brakes_and_stays(held):
     assert robot.pose.x < 1.9
 
 
+@pytest.mark.parametrize('aborting', [False, True])
+def test_frozen_while_it_brakes_it_has_ended_else_it_goes_on(aborting):
+    robot = Ideal()
+    robot.go()
+    robot.run(seconds=3.0)
+    if aborting:
+        robot.follower.brake_and_end()
+    robot.follower.freeze()
+    assert (robot.follower.state is FollowerState.ABORTED) == aborting
+    assert robot.run() is (FollowerState.ABORTED if aborting else FollowerState.ARRIVED)
+
+
 def test_stopped_it_stands_at_once():
     robot = Ideal()
     robot.go()
@@ -303,6 +315,7 @@ def test_stopped_it_stands_at_once():
     robot.follower.end_now()
     assert robot.follower.step(robot.pose, DT) == REST
     assert robot.follower.state is FollowerState.ABORTED
+    assert robot.follower.leader.locked
 
 
 def test_a_new_goal_in_motion_is_taken_up_without_a_jump():

@@ -113,6 +113,14 @@ def test_parts_of_a_bag(play, given, expected):
     assert numbers(play(rate=100.0, **given).to_the_end()) == list(expected)
 
 
+def test_its_place_is_within_what_is_played(play):
+    player = play(start_offset=0.25, playback_duration=0.5, start_paused=True)
+    assert player.playback.position() == START + SECOND // 4
+    player.playback.resume()
+    player.to_the_end()
+    assert player.playback.position() == START + 3 * SECOND // 4
+
+
 def test_what_was_latched_before_the_start_comes_first(play):
     assert play(rate=100.0, start_offset=0.9).to_the_end() == ['m10', '18', '19']
     assert play(rate=100.0, start_offset=0.25).to_the_end()[:2] == ['m00', '05']

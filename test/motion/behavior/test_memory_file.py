@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import struct
 import tracemalloc
 import zipfile
@@ -33,6 +34,11 @@ def test_it_comes_back(tmp_path):
     assert restore(path, again) == ''
     assert again.flow[4, 4] == 0.75
     assert [file.name for file in path.parent.iterdir()] == ['memory.npz']
+
+
+def test_a_zone_goes_by_sixteen_digits_in_every_file():
+    """Files that are on the disks of robots have them: with others a tree would begin anew."""
+    assert re.fullmatch('[0-9a-f]{16}', full().grid().zone)
 
 
 def test_nothing_kept_is_nothing_wrong(tmp_path):

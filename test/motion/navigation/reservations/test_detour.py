@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
 import shapely
 
-from agv_motion.motion.navigation.reservations.detour import free_floor, taken
+from agv_motion.motion.navigation.reservations.detour import detour, free_floor, refuge, taken
 from agv_motion.motion.navigation.reservations.separation import Floor
 from agv_motion.motion.navigation.zone import Zone
 
@@ -42,3 +43,22 @@ def test_no_step_to_free_floor_leads_through_floor_that_another_holds():
     held = [(Floor(ash, ash), 2.0)]
     assert free_floor(corridor, (10.0, 1.25), blocked) is not None
     assert free_floor(corridor, (10.0, 1.25), blocked, held) is None
+
+
+def test_a_goal_that_is_not_free_is_neared_as_far_as_is_good_enough():
+    """Hand calculation: floor ends at x = 4 m, the goal lies at 6 m."""
+    zone = Zone([[0, 0], [10, 0], [10, 10], [0, 10]])
+    floor = shapely.box(0.0, 0.0, 4.0, 10.0)
+    path = detour(zone, (1.0, 5.0), (6.0, 5.0), floor, 2.001)
+    assert path is not None
+    assert path[-1] == pytest.approx((4.0, 5.0))
+    assert detour(zone, (1.0, 5.0), (6.0, 5.0), floor, 1.999) is None
+
+
+def test_a_refuge_is_the_nearest_floor_that_nobody_wishes_and_can_be_reached():
+    zone = Zone([[0, 0], [10, 0], [10, 10], [0, 10]])
+    wished = shapely.box(0.0, 3.0, 10.0, 7.0)
+    path = refuge(zone, (5.0, 6.0), shapely.box(0.0, 0.0, 10.0, 10.0), wished)
+    assert path is not None
+    assert path[-1] == pytest.approx((5.0, 7.0))
+    assert refuge(zone, (5.0, 5.0), shapely.box(0.0, 3.0, 10.0, 7.0), wished) is None
