@@ -21,7 +21,9 @@ APART = 1e-6
 
 def are_places(poses: Sequence[Pose]) -> bool:
     """Return whether ``poses`` bear no headings: two or more are identities, all but the goal's."""
-    *inner, goal = poses or [Pose(0.0, 0.0, 1.0)]
+    if len(poses) < 2:
+        return False
+    *inner, goal = poses
     bare = all(pose.theta == 0.0 for pose in inner)
     return bare and len(inner) + (goal.theta == 0.0) >= 2
 

@@ -73,6 +73,16 @@ def test_what_a_bag_says_of_its_topics(tmp_path):
         assert bag.problems == []
 
 
+def test_messages_come_in_the_order_of_time_though_a_long_file_spans_two_short_ones(tmp_path):
+    parts = {'a': [1, 100], 'b': [10, 20], 'c': [50, 60]}
+    (tmp_path / 'bag').mkdir()
+    for name, stamps in parts.items():
+        ours(tmp_path / name, stamps)
+        (tmp_path / name / f'{name}_0.mcap').rename(tmp_path / 'bag' / f'{name}.mcap')
+    found = [stamp // SECOND for _, stamp, _ in read(tmp_path / 'bag')]
+    assert found == [1, 10, 20, 50, 60, 100]
+
+
 def test_messages_come_in_the_order_of_time_though_chunks_overlap(tmp_path):
     stamps = [5, 4, 3, 2, 1, 9, 8, 1, 7, 6] * 30 + list(range(300))
     written = ours(tmp_path / 'bag', stamps)

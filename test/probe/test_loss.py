@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from agv_motion.errors import ConfigurationError
 from agv_motion.probe.loss import DayCourse, LossLadder, LossParameters, LossStep, SapFlowEstimate
+from agv_motion.probe.noise import DOUBTFUL
 
 HOUR, DAY = 3600.0, 86400.0
 LADDER = LossParameters(hold=900.0, trend=1800.0, climatology=3600.0)
@@ -41,6 +42,15 @@ def test_each_step_by_hand(after, value, step):
     told = ladder.update(noon + after, None)
     assert told.step is step
     assert told.value is None if value is None else told.value == pytest.approx(value, abs=1e-12)
+
+
+@pytest.mark.parametrize(('readings', 'known'), [(DOUBTFUL + 2, False), (DOUBTFUL + 3, True)])
+def test_what_may_yet_prove_noise_is_not_in_the_course(readings, known):
+    """All are old: into the course go hours that are over, before those in doubt."""
+    ladder = LossLadder(LADDER)
+    for k in range(readings):
+        ladder.update(7 * HOUR * k, 0.25)
+    assert (ladder.course.at(0.0) is not None) == known
 
 
 def test_all_zero_rests_at_once_and_what_comes_back_counts_at_once():

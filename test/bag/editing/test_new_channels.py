@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from agv_motion.bag.connection import Connection
 from agv_motion.bag.editing.new_channels import NewChannels
 from agv_motion.bag.mcap.records import Channel, Schema
 from agv_motion.errors import ConfigurationError
@@ -26,6 +27,19 @@ def test_the_channels_of_a_file_keep_their_ids():
     assert (ids, foreign) == ({7: 7, 9: 9}, frozenset())
     assert set(new.channels) == {7, 9}
     assert new.channels[9].schema_id == 0
+
+
+@pytest.mark.parametrize(
+    ('name', 'definition', 'schema'), [('a/msg/A', '', 4), ('', 'int8 x', 4), ('', '', 0)]
+)
+def test_a_channel_of_sqlite3_has_a_type_where_a_name_or_a_definition_is_told(
+    name, definition, schema
+):
+    told = Connection('/a', name, definition, '', 'cdr', '', ())
+    new = NewChannels()
+    new.add(SimpleNamespace(as_chunks=lambda: None, channels={4: told}), [4])
+    assert new.channels[4].schema_id == schema
+    assert [s.name for s in new.schemas.values()] == ([name] if schema else [])
 
 
 def test_channels_alike_become_one_and_others_take_the_next_free_id():

@@ -193,8 +193,12 @@ def test_a_drawing_in_degrees_is_told_with_the_remedy(tmp_path, properties):
         load_zone(path)
 
 
-def test_a_drawing_in_the_metres_of_a_country_is_none_in_degrees(tmp_path):
+@pytest.mark.parametrize('origin', [(652_000, 6_862_000), (180.5, 0.0), (-180.5, 0.0), (0.0, 90.5)])
+def test_a_drawing_in_the_metres_of_a_country_is_none_in_degrees(tmp_path, origin):
+    """A degree wide or not: no place on Earth lies beyond 180 or 90 degrees."""
     path = tmp_path / 'zone.geojson'
-    square = [[652_000 + x, 6_862_000 + y] for x, y in SQUARE]
-    path.write_text(json.dumps({'type': 'Polygon', 'coordinates': [square]}))
-    assert load_zone(path).area == pytest.approx(100.0)
+    square = [[origin[0] + 0.09 * x, origin[1] + 0.09 * y] for x, y in SQUARE]
+    drawing = {'type': 'Polygon', 'coordinates': [square]}
+    bare = {'margin': 0.0, 'clearance_from': 'centre'}
+    path.write_text(json.dumps({'type': 'Feature', 'properties': bare, 'geometry': drawing}))
+    assert load_zone(path).area == pytest.approx(0.81)
