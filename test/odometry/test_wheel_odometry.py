@@ -37,6 +37,14 @@ def drive(odometry, wheels, twists, radius=0.05, period=0.1):
     return period * len(twists), angles
 
 
+def test_before_the_first_reading_it_stands_at_the_origin():
+    odometry = WheelOdometry(OmniBase(THREE), [0.05] * 3)
+    assert (odometry.stamp, odometry.pose) == (None, Pose(0.0, 0.0, 0.0))
+    assert odometry.twist == Twist(0.0, 0.0, 0.0)
+    assert odometry.residual == 0.0
+    assert set(odometry.covariance() + odometry.twist_covariance()) == {0.0}
+
+
 @given(TWISTS)
 def test_the_pose_is_the_integral_of_the_twists(twists):
     odometry = WheelOdometry(OmniBase(THREE), [0.05] * 3)

@@ -67,6 +67,13 @@ def test_the_direction_to_where_it_stands_is_its_own(within, heading):
     assert found == (here if within > 0.02 else pose)
 
 
+@pytest.mark.parametrize(('x', 'left'), [(0.49, 1), (-0.49, 1), (0.51, 2), (-0.51, 2)])
+def test_the_first_of_two_places_is_left_out_where_the_robot_stands_on_it(x, left):
+    """Hand calculation: they lie 1 m apart, and half of that is on the first."""
+    path = [Pose(3.0, 4.0, 0.0), Pose(4.0, 4.0, 0.0)]
+    assert len(with_headings(Pose(3.0 + x, 4.0, 0.0), path, backward=False)) == left
+
+
 PLACES = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=8)
 
 

@@ -7,6 +7,8 @@ import pytest
 from agv_motion.bag.cdr.idl_text import LONGEST_IDL, fields_from_idl
 from agv_motion.errors import ConfigurationError
 
+SIZED = 'int8', 'int16', 'int32', 'int64', 'uint8', 'uint16', 'uint32', 'uint64'
+
 
 def module(inside):
     return 'module a { module msg { ' + inside + ' }; };'
@@ -23,7 +25,7 @@ def fields(inside, name='a/msg/A'):
         ('unsigned long long x;', ('x', 'uint64', False, None)),
         ('long x;', ('x', 'int32', False, None)),
         ('octet x;', ('x', 'byte', False, None)),
-        ('uint8 x;', ('x', 'uint8', False, None)),
+        *[(f'{name} x;', ('x', name, False, None)) for name in SIZED],
         ('string x;', ('x', 'string', False, None)),
         ('string<20> x;', ('x', 'string', False, None)),
         ('sequence<float> x;', ('x', 'float32', True, None)),

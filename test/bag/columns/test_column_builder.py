@@ -37,6 +37,10 @@ def test_a_row_that_all_repeat_is_kept_once():
     assert values.tolist() == [[1.0, 2.0]] * 3
 
 
+def test_where_memory_is_refused_there_is_none_and_no_error():
+    assert len(ColumnMemory().take(np.dtype('u1'), 1 << 60)) == 0
+
+
 def test_another_row_ends_the_repetition_with_nothing_lost():
     column = builder()
     column.put(2, [table([1.0], [1.0])])

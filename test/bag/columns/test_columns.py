@@ -50,6 +50,26 @@ def columns(path, fields=None, *span):
         return read_topic(bag, '/topic', fields, *span)
 
 
+def test_sequences_inside_arrays_of_one_and_of_two(tmp_path):
+    """By hand: a count, its bytes, and up to the next multiple of four nothing."""
+    beside = f'{"=" * 80}\nMSG: b/B\nuint8[] values'
+    found = columns(
+        write(
+            tmp_path / 'bag',
+            [
+                bytes.fromhex('00010000 01000000 01000000 02000000 02030000 00000000'),
+                bytes.fromhex('00010000 02000000 04050000 00000000 01000000 06'),
+            ],
+            kind='a/msg/A',
+            text=f'b/B[1] one\nb/B[2] two\n{beside}',
+        )
+    ).fields
+    told = {name: [[list(x) for x in row] for row in column] for name, column in found.items()}
+    assert told == {'one.values': [[[1]], [[4, 5]]], 'two.values': [[[2, 3], []], [[], [6]]]}
+    assert found['one.values'].offsets.tolist() == [0, 1, 2]
+    assert found['two.values'].offsets.tolist() == [0, 2, 4]
+
+
 def joints(names, count, i):
     make = STORE.types
     header = make['std_msgs/msg/Header'](make['builtin_interfaces/msg/Time'](i, 5), 'base_link')

@@ -71,6 +71,8 @@ def test_a_clock_set_back_changes_neither_order_nor_age():
     grid.update(NOON, 1.0, 8.0, 0.5)
     times = grid.felt_at[4, 4], grid.felt_at[32, 32], grid.felt_at[32, 4]
     assert times == pytest.approx((NOON - 60.0, NOON, NOON))
+    grid.update(NOON + 1.0, 1.0, 1.0, 0.5)
+    assert grid.felt_at[32, 32] == pytest.approx(NOON)
 
 
 def test_coverage_counts_the_cells_of_one_part():
