@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from agv_motion.probe.sources.logger_clock import OFF_CLOCK
 from agv_motion.probe.sources.logger_line import EPOCHS
 
 if TYPE_CHECKING:
     from agv_motion.probe.sources.logger_line import LoggerLine
-
-OFF_CLOCK = 86400.0
-"""[s] A logger whose clock differs from the node's by more has the wrong day, or month."""
 
 MOST_TOLD = 3
 """Problems in one complaint; the others are counted."""

@@ -16,6 +16,7 @@ from agv_motion.parameters import Spec
 from agv_motion.probe.sources.attempts import Attempts
 from agv_motion.probe.sources.line_listener import Origin
 from agv_motion.probe.sources.line_reading import LineParameters, LineReader
+from agv_motion.probe.sources.logger_clock import LoggerClock
 from agv_motion.probe.sources.logger_line import LONGEST_LINE, cleaned
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ class SerialSource:
         self._line: serial.Serial | None = None
         self._buffer = b''
         self._attempts = Attempts()
+        self._clock = LoggerClock()
         self._reader = LineReader(
             given,
             Origin(
@@ -78,6 +80,12 @@ class SerialSource:
     def _sample(self, text: str, now: float) -> ProbeSample | None:
         line = self._reader.line(text, now)
         if line is None:
+            return None
+        if self._clock.has_leapt(line.time, now):
+            self._reader.note(
+                f"the time of '{text:.80}' does not go on from the lines before, by days: left "
+                'out, unless the next one goes on from it'
+            )
             return None
         sample = self._reader.sample(text, line)
         if sample is not None:

@@ -108,17 +108,36 @@ def test_a_logger_whose_day_is_another_is_told_until_it_is_set(terminal):
     source = SerialSource(SerialParameters(port=port))
     source.read(0.0)
     now = datetime(2013, 6, 10, 12, 30, tzinfo=timezone.utc).timestamp()
-    for line, word in (
-        (b'06-10-13 12:30:00 1 2 3\n', '118 days ahead of the clock here'),
-        (b'06-10-13 12:30:01 1 2 3\n', ''),
-        (b'10-06-13 12:30:00 1 2 3\n', ''),
-        (b'08-06-13 12:30:00 1 2 3\n', '2 days behind the clock here'),
+    for line, count, word in (
+        (b'06-10-13 12:30:00 1 2 3\n', 1, '118 days ahead of the clock here'),
+        (b'06-10-13 12:30:01 1 2 3\n', 1, ''),
+        (b'10-06-13 12:30:00 1 2 3\n' * 2, 1, 'left out'),
+        (b'10-06-13 12:30:01 1 2 3\n', 1, ''),
+        (b'08-06-13 12:30:00 1 2 3\n' * 2, 1, '2 days behind the clock here'),
     ):
         os.write(logger, line)
-        assert len(until(source, 1, now=now)) == 1
+        assert len(until(source, count, now=now)) == count
         complaint = source.complaint()
         assert word in complaint
         assert bool(complaint) == bool(word)
+
+
+def test_a_line_with_the_time_of_another_month_is_left_out(terminal):
+    """One would make the probes forget their nights, and rest for two days."""
+    logger, port = terminal
+    source = SerialSource(SerialParameters(port=port))
+    source.read(0.0)
+    noon = datetime(2013, 6, 10, 12, 0, tzinfo=timezone.utc).timestamp()
+    os.write(
+        logger,
+        b'10-06-13 12:00:00 1 2 3\n11-05-13 12:00:30 1 2 3\n'
+        b'10-06-13 12:01:00 1 2 3\n10-07-69 12:01:30 1 2 3\n10-06-13 12:02:00 1 2 3\n',
+    )
+    samples = until(source, 3, now=noon)
+    assert [sample.time - noon for sample in samples] == [0.0, 60.0, 120.0]
+    complaint = source.complaint()
+    assert "the time of '11-05-13 12:00:30 1 2 3' does not go on" in complaint
+    assert "the time of '10-07-69 12:01:30 1 2 3' does not go on" in complaint
 
 
 def test_many_broken_lines_are_counted(terminal):
