@@ -29,8 +29,26 @@ def described(graph: RobotGraph) -> Any:
         )
         for one in graph.arguments
     ]
+    found = actions.OpaqueFunction(function=find_given_config)
     nodes = [_node(node) for node in graph.nodes]
-    return import_module('launch').LaunchDescription([*declared, *nodes])
+    return import_module('launch').LaunchDescription([*declared, found, *nodes])
+
+
+def find_given_config(context: Any) -> None:
+    """Let the argument `config` be the path of the file that it names.
+
+    Where there is none, launch would start the nodes all the same, with the geometry of another
+    robot.
+
+    Args:
+        context: Of the launch.
+
+    Raises:
+        ConfigurationError: There is no such file.
+
+    """
+    given = context.launch_configurations
+    given['config'] = str(find_config(given['config']))
 
 
 def _node(node: GraphNode) -> Any:
