@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.ros.config import find_config
+from agv_motion.ros.graph_arguments import checked
 
 if TYPE_CHECKING:
     from agv_motion.ros.robot_graphs import GraphNode, RobotGraph
@@ -29,26 +30,24 @@ def described(graph: RobotGraph) -> Any:
         )
         for one in graph.arguments
     ]
-    found = actions.OpaqueFunction(function=find_given_config)
+    first = actions.OpaqueFunction(function=check_arguments, args=[graph])
     nodes = [_node(node) for node in graph.nodes]
-    return import_module('launch').LaunchDescription([*declared, found, *nodes])
+    return import_module('launch').LaunchDescription([*declared, first, *nodes])
 
 
-def find_given_config(context: Any) -> None:
-    """Let the argument `config` be the path of the file that it names.
-
-    Where there is none, launch would start the nodes all the same, with the geometry of another
-    robot.
+def check_arguments(context: Any, graph: RobotGraph) -> None:
+    """Check the arguments of a launch before any node starts.
 
     Args:
-        context: Of the launch.
+        context: Of the launch; goes on with the path of the `config` that was found.
+        graph: Of the robot.
 
     Raises:
-        ConfigurationError: There is no such file.
+        ConfigurationError: One has an impossible value, or the file cannot be read: launch itself
+            would start the nodes without it, with the geometry of another robot.
 
     """
-    given = context.launch_configurations
-    given['config'] = str(find_config(given['config']))
+    context.launch_configurations.update(checked(graph, context.launch_configurations))
 
 
 def _node(node: GraphNode) -> Any:

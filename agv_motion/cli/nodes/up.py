@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 import yaml
@@ -16,7 +15,8 @@ import yaml
 from agv_motion.cli.graph.completion import one_of
 from agv_motion.cli.lazy_group import HELP
 from agv_motion.errors import ConfigurationError
-from agv_motion.ros.parameter_arguments import VALUES, sections
+from agv_motion.ros.graph_arguments import checked, is_true, started, typed
+from agv_motion.ros.parameter_arguments import VALUES
 from agv_motion.ros.robot_graphs import ROBOTS, SIM_TIME, GraphNode, RobotGraph
 from agv_motion.ros.suggestion import meant
 
@@ -27,8 +27,6 @@ app = typer.Typer()
 
 FORMAT = 'RCUTILS_CONSOLE_OUTPUT_FORMAT'
 """Variable of the environment that tells nodes how to log"""
-
-NAMESPACE = re.compile(r'([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
 
 Words = Annotated[
     list[str] | None,
@@ -69,12 +67,8 @@ def up(
 
     stop = Stop()
     with tempfile.TemporaryDirectory(prefix='agv_up_') as folder:
-        commands = {
-            node.name: command(node, given, Path(folder))
-            for node in graph.nodes
-            if not node.condition or _true(node.condition, given[node.condition])
-        }
-        respawn = _true('respawn', given['respawn'])
+        commands = {node.name: command(node, given, Path(folder)) for node in started(graph, given)}
+        respawn = is_true('respawn', given['respawn'])
         group = ProcessGroup(commands, teller(), respawn=respawn)
         group.run(lambda: stop.requested)
     if group.failed:
@@ -111,21 +105,10 @@ def arguments(graph: RobotGraph, words: Sequence[str]) -> dict[str, str]:
             msg = f"no argument '{name}'{meant(name, list(values))}; there are {', '.join(values)}"
             raise ConfigurationError(msg)
         values[name] = value
-    from agv_motion.ros.config import find_config
-
-    values['namespace'] = values['namespace'].strip('/')
-    if not NAMESPACE.fullmatch(values['namespace']):
-        msg = (
-            f"namespace = '{values['namespace']}': write letters, digits and _, no digit first; "
-            'a / may stand between two names'
-        )
-        raise ConfigurationError(msg)
-    values['config'] = str(find_config(values['config']).resolve())
-    sections(values['config'])
+    values = checked(graph, values)
     changed = {one.name for one in graph.arguments if values[one.name] != one.default}
-    for node in graph.nodes:
-        if not node.condition or _true(node.condition, values[node.condition]):
-            _require_possible(node, values, changed)
+    for node in started(graph, values):
+        _require_possible(node, values, changed)
     return values
 
 
@@ -134,7 +117,7 @@ def _require_possible(node: GraphNode, given: Mapping[str, str], changed: set[st
     from agv_motion.nodes.catalogue import parameters_of
 
     own = {
-        name: _typed(name, text.format(**given), kind)
+        name: typed(name, text.format(**given), kind)
         for name, text, kind in node.values
         if name != SIM_TIME[0] and any(f'{{{one}}}' in text for one in changed)
     }
@@ -157,7 +140,7 @@ def _pairs(words: Sequence[str]) -> Iterator[tuple[str, str]]:
 def command(node: GraphNode, given: Mapping[str, str], folder: Path) -> list[str]:
     """Return the words that start a node; its own parameters come into a file in ``folder``."""
     space = f'/{given["namespace"]}' if given['namespace'] else '/'
-    values = {name: _typed(name, text.format(**given), kind) for name, text, kind in node.values}
+    values = {name: typed(name, text.format(**given), kind) for name, text, kind in node.values}
     own = folder / f'{node.name}.yaml'
     full = f'{space.rstrip("/")}/{node.name}'
     own.write_text(yaml.safe_dump({full: {VALUES: values}}), encoding='utf-8')
@@ -168,21 +151,3 @@ def command(node: GraphNode, given: Mapping[str, str], folder: Path) -> list[str
     files = [w for path in (given['config'], str(own)) for w in ('--params-file', path)]
     program = [sys.executable, '-m', f'agv_motion.nodes.{node.name}']
     return [*program, '--ros-args', *remappings, *files]
-
-
-def _typed(name: str, text: str, kind: type) -> Any:
-    if kind is bool:
-        return _true(name, text)
-    try:
-        return kind(text)
-    except ValueError as error:
-        msg = f"{name} = '{text}': expected a number such as 1.0"
-        raise ConfigurationError(msg) from error
-
-
-def _true(name: str, text: str) -> bool:
-    words = {'true': True, '1': True, 'false': False, '0': False}
-    if text.lower() not in words:
-        msg = f"{name} = '{text}': expected true or false"
-        raise ConfigurationError(msg)
-    return words[text.lower()]
