@@ -222,7 +222,7 @@ def main() -> None:
     parser.add_argument('--seed', type=int, default=0)
     parser.add_argument('--most', type=int, default=0, help='survivors that are accepted')
     parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='processes at a time')
-    parser.add_argument('--near', action='store_true', help='ask only the mirrored test file')
+    parser.add_argument('--near', action='store_true', help='ask only the nearest test files')
     parser.add_argument('--trust', action='store_true', help='do not run the tests unchanged first')
     given = parser.parse_args()
     sys.path.insert(0, str(ROOT))

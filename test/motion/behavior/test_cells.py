@@ -22,6 +22,7 @@ def test_the_grid_lies_over_the_zone_and_knows_where_the_trunk_can_stand():
     assert (CELLS.x[0], CELLS.y[-1]) == (0.125, 9.875)
     expected = [[ZONE.walkable(x, y) for x in CELLS.x] for y in CELLS.y]
     assert (CELLS.walkable == expected).all()
+    assert set(CELLS.part[~CELLS.walkable]) == {-1}
     assert CELLS.cell_of(5.0, 5.0) is None  # in the column
     assert CELLS.cell_of(-1.0, 5.0) is None
     assert CELLS.cell_of(1.0, 2.1) == (8, 4)
