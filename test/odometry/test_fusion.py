@@ -64,6 +64,13 @@ LATE_AND_GONE = UwbParameters(
 )
 
 
+@pytest.mark.parametrize(('ahead', 'waits'), [(0.99, True), (1.01, False)])
+def test_a_fix_that_is_ahead_of_odometry_is_waited_for_as_long_as_a_second(ahead, waits):
+    fusion = resting(1.0, horizon=0.5)
+    verdict = fusion.add_fix(position_fix(1.0 + ahead, 1.0, 2.0, 0.1))
+    assert (verdict is FixVerdict.WAITING) == waits
+
+
 @pytest.mark.parametrize(
     ('uwb', 'seconds', 'fixes'),
     [

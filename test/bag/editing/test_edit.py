@@ -191,6 +191,15 @@ def test_a_split_bag_is_the_bag_and_each_file_has_its_time(walk, tmp_path):
             assert parts[i][0] <= bag.start <= bag.end < parts[i][1]
 
 
+def test_of_each_part_only_what_is_wanted_is_kept(walk, tmp_path):
+    parts = tuple((100 * SECOND + i * SECOND, 101 * SECOND + i * SECOND) for i in range(4))
+    spans = ((100 * SECOND + SECOND // 2, 102 * SECOND), (103 * SECOND, 200 * SECOND))
+    report = edited(tmp_path / 'files', [walk], parts=parts, spans=spans)
+    assert report.files == 3
+    wanted = [m for m in told(walk) if any(a <= m[1] < b for a, b in spans)]
+    assert judged(tmp_path / 'files') == wanted
+
+
 def test_a_file_size_begins_new_files_between_chunks(walk, tmp_path):
     report = edited(tmp_path / 'files', [walk], file_size=1500)
     assert report.files > 1
