@@ -210,6 +210,9 @@ class Localization(PlainNode[LocalizationParameters]):
     def _on_imu(self, message: Imu) -> None:
         given = self.parameters
         require_frame(given.own(message.header.frame_id), given.imu_frame, given.base_frame)
+        if message.angular_velocity_covariance[0] < 0.0:  # as sensor_msgs/Imu has it
+            msg = 'angular_velocity_covariance[0] is negative: it tells no rate; publish none'
+            raise SignalError(msg)
         rate = message.angular_velocity.z
         if not self._imu_watch.is_news(message.header.stamp):
             return

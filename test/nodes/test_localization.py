@@ -294,6 +294,22 @@ def test_a_gyroscope_mends_the_turns_of_the_wheels(tester, monkeypatch):
     tester.graph.spin_until(lambda: 'yaw rate' in robot.node.complaint)
 
 
+def test_an_imu_without_a_gyroscope_tells_no_rate_of_zero(tester):
+    """Its first covariance is -1 then, says sensor_msgs/Imu; the wheels turned by half a radian."""
+    robot = Robot(tester)
+    for i in range(11):
+        imu = Imu()
+        imu.header.stamp, imu.header.frame_id = stamp_of(round((100.0 + 0.1 * i) * 1e9)), 'imu_link'
+        imu.angular_velocity_covariance[0] = -1.0
+        robot.imu.publish(imu)
+        tester.graph.spin_until(lambda: robot.node.port.complaints.count > i)  # noqa: B023 - at once
+        turned = Pose(0.0, 0.0, 0.05 * i)
+        robot.publish(robot.odom, robot.odometry(100.0 + 0.1 * i, turned), robot.filtered)
+    assert pose_of(robot.filtered[-1].pose.pose).theta == pytest.approx(0.5)
+    assert robot.values()['gyroscope'] == 'none'
+    assert 'it tells no rate' in robot.node.complaint
+
+
 def test_transforms_where_tf2_msgs_is_installed(tester):
     """Chained, they are the pose that is told."""
     tf2_msgs = pytest.importorskip('tf2_msgs.msg')
