@@ -20,7 +20,7 @@ from agv_motion.parameters import Spec, check
 from agv_motion.planar import Pose, Twist
 from agv_motion.ros.clock_guard import CLOCK_TOPIC
 from agv_motion.ros.diagnosis import ERROR, OK, WARN, Diagnosis
-from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, stamp_of
+from agv_motion.ros.messages import fill_pose, fill_twist, pose_of, require_frame, stamp_of
 from agv_motion.ros.plain_node import PlainNode
 from agv_motion.ros.qos import COMMAND, SENSOR
 
@@ -223,6 +223,7 @@ class SimulatedNode(PlainNode[P]):
         self.port.info(self._carry(message))
 
     def _carry(self, message: PoseWithCovarianceStamped) -> str:
+        require_frame(message.header.frame_id, self.parameters.map_frame)
         pose = pose_of(message.pose.pose)
         self.carry_to(pose)
         return f'carried to ({pose.x:g} m, {pose.y:g} m, {pose.theta:g} rad), wheels still'

@@ -48,6 +48,9 @@ def test_it_drives_measures_and_can_be_carried_away(tester):
     request.initial_pose.pose.pose.position.x = 9.0
     assert tester.ask(SetMap, 'omni_simulator/carry', request).success
     tester.wait(truth, lambda m: m.pose.pose.position.x == pytest.approx(9.0, abs=0.1))
+    request.initial_pose.header.frame_id = 'odom'
+    refused = tester.ask(SetMap, 'omni_simulator/carry', request)
+    assert not refused.success
     carried = PoseWithCovarianceStamped()
     carried.pose.pose.position.x, carried.pose.pose.orientation.w = 6.0, 1.0
     tester.publisher(PoseWithCovarianceStamped, 'carry').publish(carried)

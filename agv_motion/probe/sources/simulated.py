@@ -12,6 +12,7 @@ from math import ceil, cos, exp, floor, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, Annotated
 
 from agv_motion.parameters import Spec, check
+from agv_motion.planar import require_finite
 from agv_motion.probe.environment import Environment
 from agv_motion.probe.sources.source import ProbeSample
 from agv_motion.sun import half_day, solar_time
@@ -63,7 +64,13 @@ class SimulatedSource:
         self._light = self._followed_light = 1.0
 
     def set_light(self, factor: float) -> None:
-        """Set the light at the tree's place as a share of that in the open, in [0, 1]."""
+        """Set the light at the tree's place as a share of that in the open, in [0, 1].
+
+        Raises:
+            SignalError: It is not finite; the light stays what it was.
+
+        """
+        require_finite('light as a share of that in the open', (factor,))
         self._light = min(max(factor, 0.0), 1.0)
 
     def history(self, now: float) -> Iterator[ProbeSample]:

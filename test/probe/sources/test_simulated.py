@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from math import inf, nan
+
 import numpy as np
 import pytest
 
+from agv_motion.errors import SignalError
 from agv_motion.probe.parameters import ProbeParameters
 from agv_motion.probe.probe import Probe
 from agv_motion.probe.sources.simulated import (
@@ -101,6 +104,17 @@ def test_shade_makes_the_sap_slow_after_some_minutes():
     assert abs(first[0] - first[1]) < 0.1
     later = [source.read(noon + 3600.0)[-1].values[0] for source in (sunny, shady)]
     assert later[1] > later[0] + 0.3
+
+
+def test_light_that_is_no_number_is_refused_and_forgotten():
+    """The flow follows the light by a mean over time: one NaN in it would stay for ever."""
+    source = SimulatedSource(SimulatedSourceParameters(period=900.0), 1.0)
+    for light in (nan, inf):
+        with pytest.raises(SignalError, match='light as a share'):
+            source.set_light(light)
+    noon = JUNE + DAY / 2
+    (found,) = source.read(noon)
+    assert found.values == source.sample(noon, 1.0).values
 
 
 @pytest.mark.parametrize(('light', 'told'), [(-1.0, 0.0), (0.3, 0.3), (2.0, 1.0)])
