@@ -19,6 +19,9 @@ from agv_motion.parameters import TIME_OF_DAY, Spec, check
 DAYS = ('mon', 'tue', 'wed', 'thu', 'fri', 'sat', 'sun')
 DAY = 86400.0
 
+LOOKED_AT = range(-1, 16)
+"""[d] from today on: two weeks, for where the clocks leave out the only hours of one."""
+
 
 @dataclass(frozen=True)
 class ScheduleParameters:
@@ -157,7 +160,7 @@ class Schedule:
         night = now + (start - second if second < start else start + DAY - second)
         night = night if end > start else float('inf')
         today = self.local(now).date()
-        intervals = [self._interval(today + timedelta(days=k)) for k in range(-1, 9)]
+        intervals = [self._interval(today + timedelta(days=k)) for k in LOOKED_AT]
         for opens, closes in intervals:
             if opens <= now < closes:
                 return Hour(Phase.OPEN, min(closes, night))

@@ -70,6 +70,14 @@ def test_the_night_of_the_change_is_an_hour_longer():
     assert hours.hour(begin).until - begin == 9 * 3600.0
 
 
+@pytest.mark.parametrize('day', [22, 24, 27, 28])
+def test_the_only_hours_of_a_week_may_be_left_out_by_the_clocks(day):
+    """On 29 March 2015 there is no 02:30: open it is a week later."""
+    hours = schedule(opens='02:30', closes='03:00', days=('sun',), night_start=0.0, night_end=0.0)
+    hour = hours.hour(paris(f'2015-03-{day}T12:00'))
+    assert (hour.phase, hour.until) == (Phase.CLOSED, paris('2015-04-05T02:30'))
+
+
 def test_before_dawn_wins_over_opening_hours():
     hours = schedule(opens='00:00', closes='23:59', solar_offset=0.16)
     night = datetime(2015, 6, 15, 4, 0, tzinfo=timezone.utc).timestamp()
