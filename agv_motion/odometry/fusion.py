@@ -206,7 +206,8 @@ class PoseFusion:
             return False
         (x, y, _), noise, known = waypoint.pose, waypoint.noise, self._buffer.belief.covariance
         # more than there is anywhere within the way to the origin: the usual case costs little
-        most = noise.xx + noise.yy + known.xx + known.yy + (x * x + y * y) * (noise.tt + known.tt)
+        spread = noise.xx + noise.yy + known.xx + known.yy
+        most = spread + (1.0 + x * x + y * y) * (noise.tt + known.tt)
         if most < 0.1 * MAX_DEVIATION:
             return False
         xx, _, _, yy, _, tt = covariance_at(self._buffer.belief, waypoint, self._drift)

@@ -64,6 +64,25 @@ LATE_AND_GONE = UwbParameters(
 )
 
 
+@pytest.mark.parametrize(
+    ('half', 'lost'),
+    [
+        (Covariance(0.6e8, 0.0, 0.0, 1.0, 0.0, 1.0), True),
+        (Covariance(1.0, 0.0, 0.0, 0.6e8, 0.0, 1.0), True),
+        (Covariance(1.0, 0.0, 0.0, 1.0, 0.0, 0.6e6), True),
+        (Covariance(0.4e8, 0.0, 0.0, 0.4e8, 0.0, 0.4e6), False),
+    ],
+)
+def test_it_is_lost_beyond_ten_kilometres_or_a_thousand_radians(half, lost):
+    """Half of the variance was there at the start, and half came on the way."""
+    fusion = PoseFusion(FusionParameters())
+    fusion.add_odometry(0.0, Pose(0.0, 0.0, 0.0), CERTAIN)
+    fusion.set_pose(Pose(0.0, 0.0, 0.0), half)
+    fusion.add_odometry(0.1, Pose(0.0, 0.0, 0.0), half)
+    verdict = fusion.add_fix(position_fix(0.1, 0.0, 0.0, 0.1))
+    assert verdict is (FixVerdict.SEARCHING if lost else FixVerdict.ACCEPTED)
+
+
 @pytest.mark.parametrize(('ahead', 'waits'), [(0.99, True), (1.01, False)])
 def test_a_fix_that_is_ahead_of_odometry_is_waited_for_as_long_as_a_second(ahead, waits):
     fusion = resting(1.0, horizon=0.5)

@@ -8,7 +8,7 @@ import pytest
 
 from agv_motion.motion.navigation.reservations.needs import Needs
 from agv_motion.motion.navigation.reservations.parameters import TrafficParameters
-from agv_motion.motion.navigation.reservations.reservation import MessageId, Reservation
+from agv_motion.motion.navigation.reservations.reservation import IDLE, MessageId, Reservation
 from agv_motion.motion.navigation.reservations.right_of_way import RightOfWay
 
 GIVEN = TrafficParameters(body=0.7, margin=0.2, tolerance=0.2, listen=0.0)
@@ -67,3 +67,18 @@ def test_plans_of_who_goes_first_are_widened(right):
 def test_plans_of_who_goes_later_are_not_counted(right):
     right.set_out()
     assert hear_ash(right, journey=2).plans(3.0, 0.1) == []
+
+
+def test_of_those_who_set_out_later_the_last_counts(right):
+    """By the clock here: the rowan was first heard of 5 s after the ash."""
+    right.set_out(IDLE - 2)
+    assert Needs(right).last_begun() is None
+    for name, journey, now in (
+        ('ash', IDLE - 1, 10.0),
+        ('rowan', IDLE - 1, 15.0),
+        ('elm', 1, 20.0),
+    ):
+        where = ((6.0, 0.0),)
+        heard = Reservation(name, MessageId(1, 1), 0.9, where, journey=journey, margin=0.2)
+        right.receive(heard, now)
+    assert Needs(right).last_begun() == 15.0
