@@ -45,6 +45,17 @@ def test_a_gap_is_where_none_was_recorded(several):
     assert several.gaps() == [(101 * SECOND + 9 * SECOND // 10, 3700 * SECOND)]
 
 
+def test_a_long_bag_spans_two_short_ones(tmp_path):
+    starts = {'long': (100, 600), 'short': (110, 20), 'last': (130, 20)}
+    for name, (start, count) in starts.items():
+        bags.write(tmp_path / name, start=start, count=count)
+    found = SeveralBags([tmp_path / name for name in starts])
+    stamps = [m.stamp for m in found.messages()]
+    found.close()
+    assert stamps == sorted(stamps)
+    assert found.gaps() == []
+
+
 def test_what_none_has_is_refused(several, tmp_path):
     with pytest.raises(ConfigurationError, match='/gone'):
         several.require(['/gone'])

@@ -304,6 +304,33 @@ def test_a_strategy_that_remembers_needs_a_zone():
         agent(None)
 
 
+def test_in_a_changed_zone_it_goes_on_with_what_is_still_there():
+    before = agent()
+    life = Life(before, 2.0, 2.0).live(60.0)
+    after = before.moved_to(PathPlanner(Zone([[0, 0], [14, 0], [14, 9], [0, 9]], home=[2, 7])))
+    assert after.goal == before.goal
+    assert after.memory.felt.sum() == before.memory.felt.sum() > 0
+    before.go_home()
+    there = Life(before.moved_to(PathPlanner(YARD)), *life.here, life.time)
+    assert there.move().doing.state.startswith('walking to home')
+    elsewhere = Zone([[30, 0], [44, 0], [44, 9], [30, 9]])
+    assert before.moved_to(PathPlanner(elsewhere)).goal is None
+
+
+def test_one_that_knew_of_no_zone_begins_to_remember_in_its_first():
+    before = agent(zone=None, goals=GoalParameters(), goal=(10.0, 2.0))
+    assert before.memory is None
+    after = before.moved_to(PathPlanner(YARD))
+    assert after.goal == before.goal
+    assert not after.memory.felt.any()
+
+
+def test_before_its_first_goal_it_moves_into_another_zone_without_one():
+    before = agent()
+    assert before.goal is None
+    assert before.moved_to(PathPlanner(YARD)).goal is None
+
+
 def test_the_same_life_twice():
     """Deterministic: the same seed and the same senses give the same decisions."""
     lives = [Life(agent(), 2.0, 2.0).live(1800.0) for _ in range(2)]

@@ -31,8 +31,9 @@ def test_both_ends_of_the_range_belong_to_it(flow):
 
 
 @pytest.mark.parametrize(
-    'flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01), (-0.01, 0, 0), (0, nan, 0), (0, 0, 1.01)]
-)
+    'flow', [(nan, 0, 0), (0, 1.01, 0), (0, 0, -0.01), (-0.01, 0, 0), (0, nan, 0), (0, 0, 1.01),
+             (1.01, 0, 0), (0, -0.01, 0), (0, 0, nan)],
+)  # fmt: skip
 def test_a_sap_flow_out_of_range_is_refused(flow):
     with pytest.raises(SignalError, match='sap flow'):
         checked_sap_flow(SapFlow(*flow))
