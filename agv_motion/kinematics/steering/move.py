@@ -74,6 +74,8 @@ class _Demand(NamedTuple):
     """product of both where it grows instead"""
     growing: float
     """square of the rate at which the speed of a wheel changes"""
+    bending: float
+    """square of the rate at which that one rises as the velocity of a wheel turns"""
     landing: float
     """the same of turrets at which the centre of rotation comes to lie in the end, no less"""
     lands_turning: bool
@@ -97,7 +99,7 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
     distance = atan2(sine, cosine)
     limits, angles = chassis.limits, rolling.setpoints.angles
     edge = limits.cables_end - pi
-    turning, nearing, receding, growing = 1e-9, 1.0, 0.0, 0.0
+    turning, nearing, receding, growing, bending = 1e-9, 1.0, 0.0, 0.0, 0.0
     free: tuple[tuple[int, float], ...] = ()
     lands_turning, landing = False, -inf
     for i, (x, y) in enumerate(chassis.arms):
@@ -120,6 +122,10 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
                 landing = max(landing, -along)
             elif _is_too_far(limits, rolling, i, atan2(aside, there), distance):
                 return TOO_FAR
+        bend = across * across
+        bend *= bend * square
+        if bend > bending:
+            bending = bend
         if across < 0.0:
             across = -across
         if across > turning:
@@ -129,8 +135,9 @@ def plan_move(  # noqa: C901 - one loop: calls double its time
         elif along * across > receding:
             receding = along * across
     demand = _Demand(
-        tangent, distance, turning, nearing, receding, growing, landing, lands_turning, free
-    )
+        tangent, distance, turning, nearing, receding, growing, bending, landing, lands_turning,
+        free,
+    )  # fmt: skip
     return _bounded(limits, rolling.speed, demand, period)
 
 
@@ -152,7 +159,10 @@ def _is_too_far(
 
 def _bounded(limits: SteeringLimits, speed: float, demand: _Demand, period: float) -> Move:
     """Return the fastest move that all limits allow at ``speed`` [m/s]."""
-    tangent, distance, turning, nearing, receding, growing, landing, lands_turning, free = demand
+    (
+        tangent, distance, turning, nearing, receding, growing, bending, landing, lands_turning,
+        free,
+    ) = demand  # fmt: skip
     rate, acceleration = limits.steering_rate, limits.steering_acceleration
     limit, limiter = rate / turning, RATE
     risk = turning * nearing
@@ -163,6 +173,9 @@ def _bounded(limits: SteeringLimits, speed: float, demand: _Demand, period: floa
     spare = GROWTH * limits.wheel_acceleration
     if limit * limit * growing * speed * speed > spare * spare:
         limit, limiter = spare / (speed * sqrt(growing)), WHEEL_ACCELERATION
+    gain = 0.5 * sqrt(bending) * speed * period
+    if limit * limit * gain > spare:  # where the speeds do not change yet: from straight ahead
+        limit, limiter = sqrt(spare / gain), WHEEL_ACCELERATION
     braking = braking_rate(distance, BRAKING * acceleration / turning, period)
     if braking < limit:
         limit, limiter = braking, ACCELERATION

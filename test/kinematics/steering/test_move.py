@@ -58,7 +58,7 @@ def test_who_stays_arrives_nowhere():
     assert [move.arrives for move in (HERE, TURNING, TOO_FAR)] == [False] * 3
 
 
-EASY = _Demand(AHEAD, 3.0, 1.0, 1.0, 0.0, 0.0, -inf, lands_turning=False, free=())
+EASY = _Demand(AHEAD, 3.0, 1.0, 1.0, 0.0, 0.0, 0.0, -inf, lands_turning=False, free=())
 
 
 @pytest.mark.parametrize(
@@ -72,6 +72,8 @@ EASY = _Demand(AHEAD, 3.0, 1.0, 1.0, 0.0, 0.0, -inf, lands_turning=False, free=(
         ({'receding': 9.0}, 0.1, {'steering_acceleration': 8.0}, sqrt(2 / 9), 'acceleration'),
         # two fifths of 1 m/s2 at 5 m/s, of wheels that gain 2 for each
         ({'growing': 4.0}, 0.1, {'wheel_acceleration': 1.0}, 0.4 / 5.0 / 2.0, 'wheels'),
+        # the same within 0.1 s, of wheels that gain nothing yet, but 2 for the square of each
+        ({'bending': 4.0}, 0.1, {'wheel_acceleration': 1.0}, sqrt(0.4 / 5.0 / 0.1), 'wheels'),
         # half a radian in a step, and half of the velocity of a wheel, unless it shall vanish
         ({}, 1.0, {}, 0.5, Limiter.STEERING_RATE),
         ({'nearing': 2.0}, 0.3, {}, 0.25 / 0.3, Limiter.STEERING_RATE),

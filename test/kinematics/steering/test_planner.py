@@ -250,3 +250,22 @@ def test_a_twist_beyond_any_robot_is_refused(twist):
     planner = SteeringPlanner(Turrets([(0.5, 0.0), (-0.5, 0.0)]), SteeringLimits())
     with pytest.raises(SignalError, match='at most 1000 m/s and rad/s; look at the units'):
         planner.step(AtRest.at([0.0, 0.0]), Twist(*twist), 0.05)
+
+
+def test_out_of_straight_ahead_no_wheel_is_too_fast_for_a_step():
+    """All wheels are at their limit; about the first, the far one would gain 15 % in one step."""
+    turrets = Turrets([(0.0, 0.0), (5.5, 0.0), (1.0, 0.0)])
+    limits = SteeringLimits(
+        max_wheel_speed=0.4, wheel_acceleration=0.1, steering_rate=6.0, steering_acceleration=600.0
+    )
+    planner, phase = SteeringPlanner(turrets, limits), AtRest.at([0.0] * 3)
+    while max(phase.setpoints.speeds) < 0.4:
+        phase = planner.step(phase, Twist(0.4, 0.0, 0.0), 0.1)
+    for _ in range(200):
+        before = list(phase.setpoints.speeds)
+        phase = planner.step(phase, Twist(0.0, 0.0, 0.07), 0.1)
+        speeds = phase.setpoints.speeds
+        assert max(map(abs, speeds)) <= 0.4 + 1e-9
+        changes = [abs(now - last) for now, last in zip(speeds, before, strict=True)]
+        assert max(changes) <= 0.1 * 0.1 + 1e-9
+    assert phase.setpoints.twist(turrets) == pytest.approx((0.0, 0.0, 0.07), abs=1e-6)
