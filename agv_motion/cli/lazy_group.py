@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, MutableMapping
 from importlib import import_module
 from math import isfinite
@@ -61,7 +62,7 @@ def _command(found: Any, name: str) -> Any:
 
 
 def _prepare(command: Any) -> None:
-    """Let a command and its own ones show square brackets in help, of units, as they are.
+    """Let a command and its own ones show help that fills any width, and square brackets of units.
 
     And let none take a number that is not finite, or hardly so: each comparison with NaN is false,
     so that it passes every range, and a limit of time that is NaN never comes.
@@ -69,11 +70,20 @@ def _prepare(command: Any) -> None:
     commands = getattr(command, 'commands', {})
     own = commands.there if isinstance(commands, _Commands) else commands
     for one in (command, *own.values()):
-        one.help = escape(one.help) if one.help else one.help
+        one.help = escape(flowing(one.help)) if one.help else one.help
         for parameter in one.params:
             if getattr(parameter, 'help', None):
                 parameter.help = escape(parameter.help)
             parameter.callback = _finite(parameter.callback)
+
+
+def flowing(text: str) -> str:
+    """Return the help of a command with the lines of each paragraph joined, for any width.
+
+    Examples keep a line each, one below the other; so does what is indented.
+    """
+    joined = re.sub(r'(?<=\S)\n(?!\s|agv )', ' ', text)
+    return re.sub(r'\n\n(?=agv )', '\n', joined)
 
 
 def _finite(then: Callable[..., Any] | None) -> Callable[..., Any]:

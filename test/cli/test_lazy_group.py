@@ -9,6 +9,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from agv_motion.cli.lazy_group import flowing
 from agv_motion.cli.main import app
 
 
@@ -26,6 +27,16 @@ def test_every_command_tells_what_it_is_for():
         result = CliRunner().invoke(app, [*words, '--help'])
         assert result.exit_code == 0, words
         assert len(result.output) > 200, words
+
+
+def test_help_fills_the_terminal_and_examples_keep_a_line_each():
+    text = 'Does it.\n\nIn\ntwo lines. Examples:\n\nagv a\n\nagv b\n\nExample: agv c\n  -d'
+    expected = 'Does it.\n\nIn two lines. Examples:\nagv a\nagv b\n\nExample: agv c\n  -d'
+    assert flowing(text) == expected
+    for words, command in commands_of(typer.main.get_command(app)):
+        for paragraph in (command.help or '').split('\n\n'):
+            begun = [line for line in paragraph.split('\n')[1:] if not line.startswith('agv ')]
+            assert all(line.startswith(' ') for line in begun), words
 
 
 @pytest.mark.parametrize('number', ['nan', 'inf', '-inf', '1e300'])
