@@ -99,10 +99,18 @@ class BagReader:
     def counts(self) -> dict[str, int]:
         """Number of messages of each topic."""
         counts = dict.fromkeys(self.topics, 0)
+        for connection, count in self.connection_counts.items():
+            counts[connection.topic] += count
+        return counts
+
+    @cached_property
+    def connection_counts(self) -> dict[Connection, int]:
+        """Number of messages of each connection: what counts where a topic changed its type."""
+        counts = dict.fromkeys(self.connections, 0)
         for file in self.files:
             for channel, count in file.counts().items():
                 if channel in file.channels:
-                    counts[file.channels[channel].topic] += count
+                    counts[file.channels[channel]] += count
         return counts
 
     @property

@@ -19,7 +19,7 @@ CONSTANTS = {
     'catalog.find.SECOND': 1_000_000_000,
     'catalog.index.MOST_MESSAGES': 1 << 50,
     'catalog.index.TOGETHER': 50,
-    'catalog.index.VERSION': 2,
+    'catalog.index.VERSION': 3,
     'catalog.index._PATIENCE': 30.0,
     'catalog.statistics.SECOND': 1_000_000_000,
     'cdr.idl_text.LONGEST_IDL': 1 << 20,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.bag.catalog.discovery import size
@@ -20,7 +21,7 @@ LOOKED_AT = 64
 
 
 class TopicEntry(NamedTuple):
-    """A topic of a bag."""
+    """A topic of a bag, and one of its types: one that changed its type has several."""
 
     name: str
     type: str
@@ -51,10 +52,10 @@ def entry_of(path: Path) -> BagEntry:
         stored = size(path)
         with BagReader(path) as bag:
             sizes = _sizes(bag)
-            topics = tuple(
-                TopicEntry(name, connection.type, bag.counts[name], sizes.get(name))
-                for name, connection in bag.topics.items()
-            )
+            counts: Counter[tuple[str, str]] = Counter()
+            for connection, count in bag.connection_counts.items():
+                counts[connection[:2]] += count
+            topics = tuple(TopicEntry(*one, n, sizes.get(one)) for one, n in counts.items())
             wrong = [str(p) for p in bag.problems if not getattr(p, 'harmless', False)]
             more = f' (and {len(wrong) - 1} more)' if len(wrong) > 1 else ''
             fault = wrong[0] + more if wrong else ''
@@ -95,17 +96,17 @@ class EntryReading:
         return ReadBag(str(source), None)
 
 
-def _sizes(bag: BagReader) -> dict[str, float]:
-    """Return the bytes of each topic: the mean over some chunks, times its messages."""
-    found: dict[str, float] = {}
+def _sizes(bag: BagReader) -> dict[tuple[str, str], float]:
+    """Return the bytes of each topic and type: the mean over some chunks, times its messages."""
+    found: dict[tuple[str, str], float] = {}
     for file in bag.files:
         chunks = file.as_chunks()
         if chunks is None or not file.indexed:
             return {}
         for channel, mean in _means(chunks).items():
             if channel in file.channels:
-                topic = file.channels[channel].topic
-                found[topic] = found.get(topic, 0.0) + mean * file.counts().get(channel, 0)
+                one = file.channels[channel][:2]
+                found[one] = found.get(one, 0.0) + mean * file.counts().get(channel, 0)
     return found
 
 

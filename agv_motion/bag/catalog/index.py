@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from agv_motion.bag.catalog.entry import BagEntry
 
 NAME = '.agv_bags.sqlite3'
-VERSION = 2
+VERSION = 3
 MOST_MESSAGES = 2**50
 """of a bag; what a damaged one tells beyond would make sums that SQLite cannot hold"""
 TOGETHER = 50

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from agv_motion.bag.events.event import Event
+    from agv_motion.bag.quality_of_service import OfferedQos
     from agv_motion.bag.reader import BagReader
 
 _UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
@@ -75,17 +77,23 @@ def _told(event: Event) -> str:
 def _topics(bag: BagReader, *, verbose: bool) -> None:
     length = (bag.end - bag.start) * 1e-9
     title = 'Topic information:'
-    for topic, connection in sorted(bag.topics.items()):
-        count = bag.counts[topic]
+    counts: Counter[tuple[str, str, str]] = Counter()
+    profiles: dict[tuple[str, str, str], dict[OfferedQos, None]] = {}
+    for connection, count in bag.connection_counts.items():
+        one = connection.topic, connection.type, connection.encoding
+        counts[one] += count
+        profiles.setdefault(one, {}).update(dict.fromkeys(connection.qos))
+    for one, count in sorted(counts.items()):
+        topic, kind, encoding = one
         row = (
-            f'{title:<19}Topic: {topic} | Type: {connection.type} | Count: {count} | '
-            f'Serialization Format: {connection.encoding}'
+            f'{title:<19}Topic: {topic} | Type: {kind} | Count: {count} | '
+            f'Serialization Format: {encoding}'
         )
         if verbose:
             row += f' | {count / length if length else 0.0:.2f} Hz'
             row += ''.join(
                 f' | QoS: {qos.reliability}, {qos.durability}, depth {qos.depth}'
-                for qos in connection.qos
+                for qos in profiles[one]
             )
         typer.echo(in_line(row))
         title = ''

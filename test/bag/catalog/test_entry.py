@@ -37,6 +37,19 @@ def test_an_entry_is_what_the_bag_tells(season):
     assert {topic.size for topic in torn.topics} == {None}
 
 
+def test_each_type_of_a_topic_that_changed_it_has_its_own_messages(tmp_path):
+    """31 bytes before each message, 4 of CDR, and 1 or 4 of data."""
+    with BagWriter(tmp_path / 'bag') as bag:
+        for kind, data, count in (('a/msg/A', b'\1', 2), ('a/msg/B', b'\1\0\0\0', 5)):
+            field = 'int8 x' if len(data) == 1 else 'int32 x'
+            topic = bag.add_topic('/a', kind, field, type_hash='')
+            for stamp in range(count):
+                bag.write(topic, stamp, b'\0\1\0\0' + data)
+    assert entry_of(tmp_path / 'bag').topics == (
+        ('/a', 'a/msg/A', 2, 2 * 36.0), ('/a', 'a/msg/B', 5, 5 * 39.0),
+    )  # fmt: skip
+
+
 def test_what_is_wrong_is_told_with_how_much_more_is(tmp_path):
     base = SqliteWriter(tmp_path / 'a.db3')
     base.add_topic(Topic('/a', 'a/msg/A', 'int8 x', '', ()))

@@ -73,6 +73,18 @@ def test_info_as_ros2_bag_info_says_it(bag):
     assert run('info', bag, '-t').split() == ['/cmd_vel', '/joints']
 
 
+def test_info_tells_each_type_of_a_topic_that_changed_it(tmp_path):
+    with BagWriter(tmp_path / 'changed') as writer:
+        for kind, field, count in (('a/msg/B', 'int8 x', 2), ('a/msg/A', 'int8 y', 5)):
+            topic = writer.add_topic('/a', kind, field, type_hash='')
+            for stamp in range(count):
+                writer.write(topic, BEGIN + stamp, b'\0\1\0\0\1')
+    rows = re.findall(
+        r'Topic: (\S+) \| Type: (\S+) \| Count: (\d+)', run('info', tmp_path / 'changed')
+    )
+    assert rows == [('/a', 'a/msg/A', '5'), ('/a', 'a/msg/B', '2')]
+
+
 def test_echo_as_yaml(bag):
     documents = list(yaml.safe_load_all(run('echo', bag, '/joints')))
     assert len(documents) == 81
