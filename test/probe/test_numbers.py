@@ -35,7 +35,7 @@ CONSTANTS = {
     'sources.csv_recording.ROUNDED': 0.001,
     'sources.line_listener.GARBAGE': 0.3,
     'sources.line_listener.MOST_TOLD': 3,
-    'sources.line_listener.OFF_CLOCK': 86_400.0,
+    'sources.logger_clock.OFF_CLOCK': 86_400.0,
     'sources.line_listener.SILENT': 3.0,
     'sources.logger_line.EPOCHS': (1_000_000_000.0, 3_100_000_000.0),
     'sources.logger_line.LONGEST_LINE': 1024,

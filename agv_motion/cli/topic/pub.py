@@ -14,6 +14,9 @@ from agv_motion.cli.topic.options import Topic, preset_qos
 from agv_motion.errors import ConfigurationError
 from agv_motion.files import yaml_text
 
+ACKNOWLEDGED = 2.0
+"""[s] that reliable subscriptions have to say that they took the last message"""
+
 
 def pub(
     topic_name: Topic,
@@ -42,6 +45,8 @@ def pub(
     Example: agv topic pub -r 10 /cmd_vel geometry_msgs/msg/TwistStamped
              '{header: auto, twist: {linear: {x: 0.01}}}'
     """
+    from rclpy.duration import Duration
+
     message = interface_class(message_type)()
     content = yaml_text.plain(values, 'the message')
     if not isinstance(content, dict):
@@ -67,6 +72,8 @@ def pub(
             if print_ and count % print_ == 0:
                 typer.echo(f'publishing #{count}: {message!r}\n')
             publisher.publish(message)
+        # a subscription that was found first, and has yet to find us, takes it only then
+        publisher.wait_for_all_acked(Duration(seconds=ACKNOWLEDGED))
         time.sleep(keep_alive)
 
 
