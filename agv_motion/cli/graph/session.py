@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 UDP_ALONE = 'FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4'
 """Shared memory that a killed process left behind holds up discovery by a second for each: who
 only looks does without"""
+
+LEAVING = 30.0
+"""[s] after which a process that cannot leave the graph ends all the same, with status 1, and tells
+where it was held up"""
 
 
 def forever() -> bool:
@@ -76,8 +81,11 @@ def joined(
             raise
         raise typer.Exit from None
     finally:
+        # seen once under load: after Ctrl-C a command stayed for ever, and nothing told where
+        faulthandler.dump_traceback_later(LEAVING, exit=True, file=2)
         node.destroy_node()
         rclpy.try_shutdown()
+        faulthandler.cancel_dump_traceback_later()
 
 
 def spin(node: Any, until: Callable[[], bool] = forever) -> None:
