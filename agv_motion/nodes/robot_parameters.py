@@ -246,7 +246,7 @@ def _value(name: str, value: Any, kind: int) -> ParameterValue:
 
 
 def _element(name: str, value: Any, kind: type[Any]) -> Any:
-    if kind is float and isinstance(value, int) and not isinstance(value, bool):
+    if kind is float and type(value) is int and abs(value) < 2**1023:
         value = float(value)
     if kind is int and isinstance(value, float) and value.is_integer():
         value = int(value)

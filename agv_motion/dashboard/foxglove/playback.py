@@ -7,7 +7,6 @@ method is told the present time ``now`` [s].
 from __future__ import annotations
 
 import time
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from agv_motion.bag.last_messages import last_before
@@ -169,6 +168,6 @@ def require_rate(rate: Any) -> None:
 
     """
     number = isinstance(rate, (int, float)) and not isinstance(rate, bool)
-    if not number or not isfinite(rate) or not SLOWEST <= rate <= FASTEST:
+    if not number or not SLOWEST <= rate <= FASTEST:
         msg = f'rate = {str(rate)[:40]}: must lie in [{SLOWEST:g}, {FASTEST:g}]'
         raise ProtocolError(msg)

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 LONGEST_VALUE = 20_000
 """characters of a value as JSON"""
+LONGEST_ID = 15
+"""digits of the number of a save"""
 
 
 def parameter_doors(site: Site) -> list[Route]:
@@ -52,7 +54,7 @@ class _ParameterDoors:
     async def revert(self, asked: Asked) -> dict[str, Any]:
         """Set what may change while the robot runs; tell what may not."""
         number = asked.told.get('id')
-        if not isinstance(number, int):
+        if type(number) is not int or not 0 < number < 10**LONGEST_ID:
             raise RequestError(422, f'id = {str(number)[:40]!r}: expected the number of a save')
         rows = await self._desk.differences(asked.robot, number)
         changes: Values = {}
@@ -68,7 +70,7 @@ class _ParameterDoors:
 
     async def compare(self, asked: Asked) -> list[dict[str, Any]]:
         number = asked.request.query_params.get('with', '')
-        if not number.isdecimal() or len(number) > 15:
+        if not number.isdecimal() or len(number) > LONGEST_ID:
             raise RequestError(422, f'with = {number[:40]!r}: expected the number of a save')
         return await self._desk.differences(asked.robot, int(number))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from math import isfinite
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from agv_motion.errors import AgvMotionError
@@ -44,11 +43,12 @@ def parsed(text: bytes | str, known: Collection[str]) -> dict[str, Any]:
     """Return the JSON object in a text.
 
     Raises:
-        RequestError: It is none, has a number that JSON does not have, or an unknown key.
+        RequestError: It is none, has a number or half a character that text does not have, or an unknown key.
 
     """
     try:
         told = json.loads(text or b'{}', parse_constant=_no_number)
+        json.dumps(told, ensure_ascii=False).encode()  # half a character goes nowhere
     except (ValueError, RecursionError) as error:
         raise RequestError(400, f'no JSON: {error}') from error
     if not isinstance(told, dict):
@@ -78,8 +78,8 @@ def number(
     value = told.get(key, default)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise RequestError(422, f'{key} = {str(value)[:60]!r}: expected a number')
-    if not (isfinite(value) and least <= value <= most):
-        raise RequestError(422, f'{key} = {value:g}: must lie in [{least:g}, {most:g}]')
+    if not least <= value <= most:  # compared as it is: a whole number may be beyond every float
+        raise RequestError(422, f'{key} = {str(value)[:40]}: must lie in [{least:g}, {most:g}]')
     return float(value)
 
 

@@ -49,6 +49,12 @@ def test_a_wrong_login_is_told_in_the_same_words_whatever_is_wrong(visit, told):
     assert 'set-cookie' not in answer.headers
 
 
+def test_a_password_with_half_a_character_is_refused(visit):
+    answer = visit().post('/login', content=b'{"user": "operators", "password": "\\ud800"}')
+    assert answer.status_code == 400
+    assert 'surrogates' in answer.json()['error']
+
+
 def test_guessing_is_slowed(visit):
     browser = visit()
     told = {'user': 'operators', 'password': 'a wrong guess'}

@@ -50,6 +50,14 @@ def test_a_save_that_is_not_there_is_told(browser, number):
     assert browser.get(f'{PLACE}/compare?with={number}').status_code in {404, 422}
 
 
+@pytest.mark.parametrize('number', [0, -1, True, 10**30, '1', None])
+def test_a_number_of_no_save_is_reverted_to_by_nobody(browser, robots, number):
+    answer = browser.act(f'{PLACE}/revert', {'id': number})
+    assert answer.status_code == 422
+    assert 'expected the number of a save' in answer.json()['error']
+    assert robots.asked == []
+
+
 def test_parameters_are_shown_to_who_asks_for_them(browser):
     with browser.look() as live:
         live.receive_json()
