@@ -14,7 +14,7 @@ def test_what_no_float_can_hold_is_refused_in_words(value):
     from agv_motion.dashboard.server.fleet import RefusedError
     from agv_motion.nodes.robot_parameters import _value
 
-    with pytest.raises(RefusedError, match='rate = .*expected a finite number'):
+    with pytest.raises(RefusedError, match=r'rate = .*expected a finite number'):
         _value('rate', value, ParameterType.PARAMETER_DOUBLE)
 
 

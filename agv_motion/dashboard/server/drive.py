@@ -34,6 +34,10 @@ OTHER = 1.0
 """[s] for which a hand that has moved keeps others from the robot"""
 OLDEST = 0.3
 """[s] beyond which the arbiter refuses a command; such are not even sent"""
+TOLERATED = 0.5
+"""[s] for which commands may be too old before the person is told"""
+DRIFT = 1e-4
+"""by which the browser's clock may run faster or slower than ours"""
 MOST_PER_SECOND = 100
 NEAREST = 0.5
 """[m] A speed about a centre nearer than this is that of a point so far from it."""
@@ -44,13 +48,15 @@ class BrowserClock:
     """The clock of a browser on ours: the least delay ever seen counts as none.
 
     A message that took longer than the quickest one did is older by the difference. So nothing that
-    was held up passes for new, whatever the browser's clock shows.
+    was held up passes for new, whatever the browser's clock shows. What two clocks part by in hours
+    is allowed for.
     """
 
     def __init__(self) -> None:
         """Know nothing of the other clock."""
         self._offset: float | None = None
         """ours less the browser's, of the quickest message [s]"""
+        self._last = 0.0
 
     def age(self, theirs: float, ours: float) -> float:
         """Return how long a message was on its way at least [s].
@@ -61,8 +67,10 @@ class BrowserClock:
 
         """
         offset = ours - theirs
-        if self._offset is None or offset < self._offset:
+        if self._offset is None:
             self._offset = offset
+        self._offset = min(offset, self._offset + DRIFT * (ours - self._last))
+        self._last = ours
         return offset - self._offset
 
 
@@ -111,15 +119,47 @@ class CommandRate:
         return first
 
 
+class Lateness:
+    """Whether commands are refused for their age so long that the person must know.
+
+    A machine that slept has another clock than before, and nothing else would tell.
+    """
+
+    def __init__(self) -> None:
+        """Begin with nothing told."""
+        self.clock = BrowserClock()
+        self._taken = time.monotonic()
+        """when the last command was new enough"""
+        self._told = False
+
+    def news(self, age: float, now: float, *, refused: bool) -> str | None:
+        """Take a command; return what to tell: words, none once commands count again, or None.
+
+        Args:
+            age: Of the command [s].
+            now: When it came [s], on the clock of `time.monotonic`.
+            refused: Whether it is too old.
+
+        """
+        if not refused:
+            self._taken = now
+        late = now - self._taken > TOLERATED
+        if late == self._told:
+            return None
+        self._told = late
+        words = f'commands come {age:.1f} s late and are refused: close this panel, open it again'
+        return words if late else ''
+
+
 class _Hand:
     """One hand on one robot."""
 
     def __init__(self, site: Site, robot: str, socket: WebSocket, visitor: Visitor) -> None:
         self._site, self._robot, self._socket = site, robot, socket
         self._visitor = visitor
-        self._clock = BrowserClock()
         self._last = -1.0
         self._rate = CommandRate()
+        self._lateness = Lateness()
 
     async def follow(self) -> None:
         """Send on what the hand does, until the browser leaves."""
@@ -130,14 +170,18 @@ class _Hand:
                 if self._rate.is_first(now):
                     self._require_session()
                 count, sent = number(told, 'n', 0.0, 1e15), number(told, 't', -1e15, 1e15)
-                age = self._clock.age(sent / 1000.0, now)
+                age = self._lateness.clock.age(sent / 1000.0, now)
                 twist = twist_of(told, self._rim())
                 if count <= self._last:
                     continue  # overtaken
                 self._last = count
                 self._require_alone(twist, now)
-                if age < OLDEST or twist == REST:
+                late = age >= OLDEST and twist != REST
+                if not late:
                     self._site.fleet.drive(self._robot, twist, age)
+                words = self._lateness.news(age, now, refused=late)
+                if words is not None:
+                    await self._socket.send_json({'text': words})
         finally:
             if self._site.drivers.get(self._robot, (None, 0.0))[0] is self:
                 del self._site.drivers[self._robot]

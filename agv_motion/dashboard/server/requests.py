@@ -43,7 +43,7 @@ def parsed(text: bytes | str, known: Collection[str]) -> dict[str, Any]:
     """Return the JSON object in a text.
 
     Raises:
-        RequestError: It is none, has a number or half a character that text does not have, or an unknown key.
+        RequestError: It is none, or has no JSON number, half a character or an unknown key.
 
     """
     try:

@@ -144,6 +144,25 @@ def test_refusal_of_a_goal_is_shown_in_the_words_of_the_robot(park, serve, open_
     assert [action for _, action, _ in park.asked] == ['goal']
 
 
+def test_a_hand_whose_machine_has_slept_is_told_that_its_commands_are_refused(
+    park, serve, open_page, wait_until
+):
+    page = open_page(serve(park).url)
+    page.click('[data-act=drive]')
+    page.wait_for_selector('.drive-state:text("hold to drive")')
+    page.focus('.drive-surface')
+    page.keyboard.down('Space')
+    page.keyboard.down('ArrowUp')
+    wait_until(lambda: any(twist.vx > 0.0 for _, twist, _ in park.driven))
+    page.evaluate("""() => {
+      const awake = performance.now.bind(performance);
+      performance.now = () => awake() - 5000;
+    }""")
+    page.wait_for_selector('.drive-state:text("s late and are refused")')
+    page.keyboard.up('Space')
+    page.click('#drive-close')
+
+
 def test_a_rest_that_was_asked_for_can_be_ended_early(park, serve, open_page, wait_until):
     page = open_page(serve(park).url)
     page.locator('[data-act=rest]').wait_for()

@@ -49,6 +49,7 @@ def test_a_goal_is_sent_with_its_place(browser, robots):
         ({'x': '1', 'y': 2.0}, 'expected a number'),
         ({'x': True, 'y': 2.0}, 'expected a number'),
         ({'x': 1e9, 'y': 2.0}, 'must lie in'),
+        ({'x': 1.0, 'y': 10**400}, 'y = 1000'),
         ({'x': 1.0, 'y': 2.0, 'z': 3.0}, "unknown key 'z'"),
         ({'x': 1.0, 'y': 2.0, 'heading': 100}, 'heading = 100'),
     ],
@@ -61,8 +62,10 @@ def test_a_goal_that_is_none_is_refused(browser, robots, told, words):
 
 
 @pytest.mark.parametrize(
-    'text', ['{"x": NaN, "y": 1}', '{"x": Infinity, "y": 1}', '[1, 2]', '{', '[' * 100_00, '7']
-)
+    'text',
+    ['{"x": NaN, "y": 1}', '{"x": Infinity, "y": 1}', '[1, 2]', '{', '[' * 100_00, '7',
+     '{"x": 1, "y": "\\ud800"}'],
+)  # fmt: skip
 def test_what_is_no_json_is_refused(browser, robots, text):
     headers = {'X-CSRF-Token': browser.hello()['csrf'], 'Idempotency-Key': 'k' * 10}
     answer = browser.post('/robots/oak/goal', content=text, headers=headers)
@@ -165,12 +168,47 @@ def test_a_hand_drives_and_what_is_no_twist_ends_it(browser, robots):
     assert all(robot == 'oak' for robot, _, _ in robots.driven)
 
 
+def test_a_hand_that_sends_a_number_beyond_every_float_is_told_so(browser, robots):
+    csrf = browser.hello()['csrf']
+    with browser.socket('/robots/oak/drive') as hand:
+        hand.send_json({'csrf': csrf})
+        hand.send_json({'n': 1, 't': 0.0, 'vx': 10**400, 'vy': 0.0, 'wz': 0.0})
+        told = hand.receive()
+    assert (told['type'], told['code']) == ('websocket.close', 1008)
+    assert told['reason'].startswith('vx = 1000')
+    assert robots.driven == []
+
+
 def test_a_hand_without_the_token_moves_nothing(browser, robots):
     with browser.socket('/robots/oak/drive') as hand:
         hand.send_json({'csrf': 'x' * 64})
         hand.send_json({'n': 1, 't': 0.0, 'vx': 1.0, 'vy': 0.0, 'wz': 0.0})
         assert hand.receive()['type'] == 'websocket.close'
     assert robots.driven == []
+
+
+def test_a_hand_whose_commands_stay_too_old_is_told_so_once(browser, robots, monkeypatch):
+    monkeypatch.setattr('agv_motion.dashboard.server.drive.TOLERATED', 0.0)
+    csrf = browser.hello()['csrf']
+    with browser.socket('/robots/oak/drive') as hand:
+        hand.send_json({'csrf': csrf})
+        hand.send_json({'n': 1, 't': 9000.0, 'vx': 0.1, 'vy': 0.0, 'wz': 0.0})
+        hand.send_json({'n': 2, 't': 4000.0, 'vx': 0.1, 'vy': 0.0, 'wz': 0.0})
+        assert 'commands come 5.0 s late and are refused' in hand.receive_json()['text']
+        hand.send_json({'n': 3, 't': 4000.0, 'vx': 0.1, 'vy': 0.0, 'wz': 0.0})
+        hand.send_json({'n': 4, 't': 9000.0, 'vx': 0.2, 'vy': 0.0, 'wz': 0.0})
+        assert hand.receive_json() == {'text': ''}
+    assert [twist.vx for _, twist, _ in robots.driven] == [0.1, 0.2]
+
+
+def test_clocks_that_part_slowly_make_no_command_old_but_what_is_held_up_is():
+    from agv_motion.dashboard.server.drive import BrowserClock
+
+    clock = BrowserClock()
+    for second in range(0, 6 * 3600, 10):  # half of it: 1.08 s in six hours
+        assert clock.age(second * (1 - 5e-5), 500.0 + second) == pytest.approx(0.0, abs=1e-9)
+    late = clock.age(6 * 3600 * (1 - 5e-5) - 0.4, 500.0 + 6 * 3600)
+    assert late == pytest.approx(0.4 - 10 * 5e-5, abs=1e-9)
 
 
 def test_a_second_hand_is_refused_while_the_first_one_moves(browser, robots):

@@ -38,7 +38,7 @@ export class DriveSocket {
     this.socket.onmessage = (event) => {
       const message = JSON.parse(event.data);
       this.refusal = message.error ?? message.text ?? '';
-      if (this.refusal) told('open', this.refusal);
+      told('open', this.refusal);
     };
     this.socket.onclose = (event) => {
       this.release();
