@@ -64,3 +64,19 @@ def test_expert_changes_parameters(page_of):
     page.wait_for_selector('.parameter input')
     page.click('[data-drawer=zone]')
     page.wait_for_selector('#zone-edit')
+
+
+def test_a_tab_whose_session_ended_in_another_says_that_stop_is_gone(page_of):
+    page = page_of('operator')
+    assert page.locator('.stop-lost').count() == 0
+    other = page.context.new_page()
+    other.goto(page.url)
+    other.click('#bar-account button')
+    other.wait_for_url('**/login')
+    other.close()
+    page.wait_for_selector('#stop-button', state='detached')
+    lost = page.locator('.stop-lost[role=alert] > a')
+    assert 'No STOP: the session has ended' in lost.inner_text()
+    assert lost.bounding_box()['height'] >= 80
+    lost.click()
+    page.wait_for_url('**/login')

@@ -77,12 +77,18 @@ export class Stop {
     await this.actions.act('/release', {}, phrase('act release'));
   }
 
+  /** @returns {Node} what stands in the place of STOP once the right to it has ended */
+  _lost() {
+    return element('p.stop-lost', { role: 'alert' },
+      element('a', { href: '/login', text: phrase('stopLost') }));
+  }
+
   /** @param {import('../live/screen.js').Screen} screen */
   update(screen) {
     const may = ['operator', 'expert'].includes(screen.hello?.role ?? 'public');
     if (may !== this.button.isConnected) {
-      if (may) this.where.append(this.release, this.button);
-      else this.where.replaceChildren();
+      if (may) this.where.replaceChildren(this.release, this.button);
+      else this.where.replaceChildren(this._lost()); // it was there, and somebody may look for it
     }
     this.draw();
   }

@@ -44,6 +44,7 @@ export const english = {
   'stop stopping': 'STOPPING …',
   'stop stopped': 'STOPPED',
   stopAll: 'STOP ALL',
+  stopLost: 'No STOP: the session has ended. Log in, or use the switch on the robot.',
   keyEscape: 'key Esc',
   untilReleased: 'until released',
   someStopped: 'stopped: {robots}',

@@ -44,6 +44,7 @@ export const french = {
   'stop stopping': 'ARRÊT …',
   'stop stopped': 'ARRÊTÉS',
   stopAll: 'TOUT ARRÊTER',
+  stopLost: 'Pas d’arrêt : la session est terminée. Connectez-vous, ou utilisez l’interrupteur du robot.',
   keyEscape: 'touche Échap',
   untilReleased: 'jusqu’à la reprise',
   someStopped: 'à l’arrêt : {robots}',
