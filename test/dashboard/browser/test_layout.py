@@ -6,6 +6,8 @@ import pytest
 
 TABLET, PHONE = {'width': 1024, 'height': 768}, {'width': 390, 'height': 844}
 LARGEST = {'width': 1920, 'height': 1080}
+SMALL_PHONE = {'width': 360, 'height': 640}
+ON_ITS_SIDE, ENLARGED = {'width': 844, 'height': 390}, {'width': 640, 'height': 400}
 PARTS = '.bar', '.stop', '.map', '.side', '.look-back', '.drawer-tabs'
 THUMB = 47.5
 """[px] of 48: a browser rounds"""
@@ -28,6 +30,11 @@ IN_SIGHT = """() => {
   const box = stop.getBoundingClientRect();
   const at = (part) => [box.left + part * box.width, box.top + part * box.height];
   return [0.1, 0.5, 0.9].every((part) => stop.contains(document.elementFromPoint(...at(part))));
+}"""
+REACHED = """(selector) => {
+  const part = document.querySelector(selector);
+  const box = part.getBoundingClientRect();
+  return part.contains(document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2));
 }"""
 OPEN = """(selector) => new Promise((resolve) => {
   document.querySelector(selector).click();
@@ -93,3 +100,40 @@ def test_ten_robots_with_long_names_have_room(make_park, serve, open_page):
     assert page.get_attribute(last, 'aria-checked') == 'true'
     close = page.locator('#drawer-close').bounding_box()
     assert close['x'] + close['width'] <= PHONE['width']
+
+
+@pytest.mark.parametrize('size', [TABLET, SMALL_PHONE], ids=['tablet', 'phone'])
+def test_robots_that_differ_in_their_last_letters_are_told_apart_beside_their_words(
+    make_park, serve, open_page, size
+):
+    names = [f'building_north_tree_{i}' for i in (1, 2)] + ['z' * 60]
+    park = make_park(*names)
+    park.tell_all()
+    park.sum_up(names[2], colour='red', word='stopped', sentence='probe 2 is off')
+    page = open_page(serve(park).url, size)
+    page.wait_for_selector('#bar-word:text("stopped")')
+    shown = page.locator('.robot-name > [aria-hidden]').all_inner_texts()
+    assert shown == ['buildin…tree_1', 'buildin…tree_2', 'zzzzzzz…zzzzzz']
+    bar, word = (page.locator(each).bounding_box() for each in ('.bar-title', '#bar-word'))
+    assert word['y'] + word['height'] <= bar['y'] + bar['height'] + 4.0, 'the word is cut off'
+    parts = '.robot-name', '.robot-word', '.robot-speed', '.robot-sentence'
+    row = '[data-robot=building_north_tree_1] > '
+    page.wait_for_selector(f'{row}.robot-word:text("walking")')
+    boxes = page.evaluate(BOXES, [row + part for part in parts])
+    pairs = [(one, two) for i, one in enumerate(boxes) for two in boxes[i + 1 :]]
+    assert [(one[0], two[0]) for one, two in pairs if overlaps(one, two)] == []
+
+
+@pytest.mark.parametrize('size', [ON_ITS_SIDE, ENLARGED], ids=['on its side', 'enlarged'])
+def test_a_low_screen_is_scrolled_to_all_that_it_has_no_room_for_and_stop_stays(
+    park, serve, open_page, size
+):
+    page = open_page(serve(park).url, size)
+    page.wait_for_selector('[data-act=drive]')
+    for selector in ('.map', '[data-act=drive]', '[data-drawer=reports]', '#bar-name'):
+        part = page.locator(selector)
+        part.scroll_into_view_if_needed()
+        assert part.bounding_box()['height'] >= (200 if selector == '.map' else 20), selector
+        assert page.evaluate(REACHED, selector), selector
+        assert page.evaluate(IN_SIGHT), selector
+    assert page.evaluate('document.documentElement.scrollWidth') <= size['width']

@@ -64,7 +64,8 @@ def test_markup_in_names_and_sentences_is_text(make_park, serve, open_page):
     park.tell_all(sentence='<b id=bold>bold</b>', word='<i>odd</i>')
     page = open_page(serve(park).url)
     wait_for_text(page, '#bar-sentence', '<b id=bold>bold</b>')
-    assert text(page, '#bar-name') == name
+    assert page.get_attribute('#bar-name', 'title') == name
+    assert text(page, '#bar-name') == '<img sr…le=1">'
     assert text(page, '#bar-word') == '<i>odd</i>'
     for drawer in page.locator('.tab').all():
         drawer.click()

@@ -1,4 +1,5 @@
 import { label, trace } from './palette.js';
+import { shortName } from '../words/format.js';
 import { drawUncertainty } from './uncertainty.js';
 
 /** An arrow of the fastest wheel seen is so long, in radii of the robot. */
@@ -102,7 +103,7 @@ export class Bodies {
     const [column, row] = view.toScreen(pose.x, pose.y);
     view.usePixels(context);
     const below = Math.max(14, rim(platform) * view.scale) + 13;
-    label(scene, robot, column, row - below, { weight: robot === chosen ? 700 : 500, size: 14 });
+    label(scene, shortName(robot), column, row - below, { weight: robot === chosen ? 700 : 500, size: 14 });
   }
 }
 

@@ -151,6 +151,6 @@ export class WorldMap {
 /** What the tools cover: a strip at the left, on a phone at the top, and on a very low map nothing. */
 function inset(/** @type {number} */ height) {
   if (height < 260) return { left: 12, right: 12, top: 12, bottom: 12 };
-  if (matchMedia('(max-width: 760px)').matches) return { left: 16, right: 16, top: 72, bottom: 56 };
+  if (matchMedia('(max-width: 760px), (max-height: 480px)').matches) return { left: 16, right: 16, top: 72, bottom: 56 };
   return { left: 80, right: 24, top: 24, bottom: 56 };
 }

@@ -1,6 +1,6 @@
 import { OLD, verdicts, worst } from './verdict.js';
 import { byId, element, refill, write } from '../words/element.js';
-import { age, clockTime } from '../words/format.js';
+import { age, clockTime, shortName } from '../words/format.js';
 import { phrase } from '../words/phrases.js';
 
 /** [ms] between two sentences that a screen reader is given, unless the colour changes */
@@ -19,7 +19,8 @@ export class Bar {
     const shown = this._shown(screen);
     document.body.dataset.colour = shown.colour;
     document.body.toggleAttribute('data-stale', shown.stale);
-    write(byId('bar-name'), shown.name);
+    write(byId('bar-name'), shortName(shown.name));
+    byId('bar-name').title = shown.name;
     write(byId('bar-word'), shown.word);
     write(byId('bar-sentence'), shown.sentence);
     document.title = `${shown.name} ${shown.word}`.trim();

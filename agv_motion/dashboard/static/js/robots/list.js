@@ -1,6 +1,6 @@
 import { verdict } from './verdict.js';
 import { element, write } from '../words/element.js';
-import { pace } from '../words/format.js';
+import { pace, shortName } from '../words/format.js';
 
 /** All robots, each with its word and its sentence; the chosen one is what the rest tells of. */
 export class RobotList {
@@ -48,7 +48,9 @@ export class RobotList {
       onclick: () => this.screen?.choose(robot),
     },
     element('span.robot-shape', { 'aria-hidden': 'true' }),
-    element('span.robot-name', { text: robot }), row.word, row.speed, row.sentence);
+    element('span.robot-name', { title: robot },
+      element('span', { text: shortName(robot), 'aria-hidden': 'true' }),
+      element('span.unseen', { text: robot })), row.word, row.speed, row.sentence);
     return row;
   }
 

@@ -15,6 +15,20 @@ export function number(value, digits = 2, unit = '') {
   return unit ? `${text}\u202f${unit}` : text;
 }
 
+/** letters of a name, so that it has room beside its word, and above its robot on the map */
+const LONGEST_NAME = 14;
+
+/**
+ * Shorten a name in its middle: robots of one place differ in their last letters.
+ * @param {string} name
+ * @returns {string}
+ */
+export function shortName(name) {
+  if (name.length <= LONGEST_NAME) return name;
+  const kept = LONGEST_NAME - 1;
+  return `${name.slice(0, Math.ceil(kept / 2))}…${name.slice(-Math.floor(kept / 2))}`;
+}
+
 /**
  * @param {number|null|undefined} seconds
  * @returns {string} such as `0.3 s`, `12 s`, `4 min`, `3 h`
