@@ -16,7 +16,6 @@ from agv_motion.nodes.arbiter_parameters import ArbiterParameters
 from agv_motion.nodes.driver_report import DriverReport, diagnosis
 from agv_motion.nodes.hold_keeper import HoldKeeper
 from agv_motion.planar import REST, Twist
-from agv_motion.ros.diagnosis import WARN, Diagnosis
 from agv_motion.ros.input_watch import InputWatch
 from agv_motion.ros.messages import require_frame, twist_of
 from agv_motion.ros.plain_node import PlainNode
@@ -26,6 +25,7 @@ from agv_motion.ros.twist_rows import TwistRows, twist_publisher
 
 if TYPE_CHECKING:
     from agv_motion.arbitration.choice import Choice, Hold
+    from agv_motion.ros.diagnosis import Diagnosis
     from agv_motion.ros.port import Port
 
 REPORT_PERIOD = 1.0
@@ -101,9 +101,9 @@ class ArbiterNode(PlainNode[ArbiterParameters]):
         found = diagnosis(self._choose())
         if trouble := self._keeper.trouble:
             values = found.values | {'state_file': trouble}
-            found = found._replace(values=values).worsened(WARN, trouble)
+            found = found._replace(values=values).worsened(trouble)
         if (others := self.port.count_publishers('cmd_vel') - 1) > 0:
-            found = found.worsened(WARN, PAST_THE_ARBITER.format(others))
+            found = found.worsened(PAST_THE_ARBITER.format(others))
         return found
 
     @property

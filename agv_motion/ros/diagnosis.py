@@ -18,6 +18,6 @@ class Diagnosis(NamedTuple):
     stamp: int | None = None
     """when it was so [ns]; None: now, by the node's clock"""
 
-    def worsened(self, level: bytes, message: str) -> Diagnosis:
-        """Return this with what is wrong, where nothing was."""
-        return self._replace(level=level, message=message) if self.level == OK else self
+    def worsened(self, message: str) -> Diagnosis:
+        """Return this as a warning of what is wrong, where nothing was."""
+        return self._replace(level=WARN, message=message) if self.level == OK else self

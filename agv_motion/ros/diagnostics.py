@@ -58,12 +58,12 @@ class Diagnostics:
             values |= {'refused inputs': str(complaints.count), 'last': complaints.last}
         found = found._replace(values=values)
         for mismatch in graph.faults()[:1]:
-            found = found.worsened(WARN, mismatch)
+            found = found.worsened(mismatch)
         if fault:
             values = found.values | {'clock fault': fault}
             waits = fault in WAITING
             level, doing = (WARN, 'waiting for it') if waits else (ERROR, 'standing still')
             found = Diagnosis(level, f'{fault}: {doing}', values, found.stamp)
         if complaints.is_recent():
-            found = found.worsened(WARN, f'refused: {complaints.last}')
+            found = found.worsened(f'refused: {complaints.last}')
         return found

@@ -26,8 +26,6 @@ try:
 except ImportError:
     TFMessage = None
 
-PUBLISHED = TFMessage is not None
-"""Whether this installation can publish transforms; else recorders make them"""
 DEEP = QoSProfile(depth=100)
 
 

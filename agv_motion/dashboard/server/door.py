@@ -126,13 +126,13 @@ async def _acted(site: Site, request: Request, door: Door) -> Response:
     return JSONResponse(answer, 202)
 
 
-def looking(site: Site, path: str, look: Callable[[Asked], Any], role: Role = Role.VIEWER) -> Route:
+def looking(site: Site, path: str, look: Callable[[Asked], Any]) -> Route:
     """Return a door for GET that answers with JSON."""
 
     async def door(request: Request) -> Response:
         try:
             visitor = site.access.visitor(request)
-            require_role(visitor, role)
+            require_role(visitor, Role.VIEWER)
             found = look(Asked(site, visitor, {}, request))
             return JSONResponse(await found if inspect.isawaitable(found) else found)
         except AgvMotionError as error:

@@ -128,16 +128,6 @@ class LineReader(LineListener):
             return None
 
 
-def parse_line(text: str, parameters: LineParameters, now: float = 0.0) -> ProbeSample:
-    """Return the sample of one line that arrives ``now`` [s]; a field that is no number is NaN.
-
-    Raises:
-        SignalError: The line has no one reading, or a field is missing; the line is quoted.
-
-    """
-    return sample_of(text, read_line_of(text, parameters, now), parameters)
-
-
 def read_line_of(text: str, given: LineParameters, now: float) -> LoggerLine:
     """Return time and values of one line, in the units of the logger.
 
@@ -178,7 +168,7 @@ def _of_json(text: str, given: LineParameters, arrival: Arrival) -> LoggerLine:
 
 
 def sample_of(text: str, line: LoggerLine, parameters: LineParameters) -> ProbeSample:
-    """Return what a line tells of the probes, in kelvin, and of the air.
+    """Return what a line tells of the probes, in kelvin, and of the air; no number is NaN.
 
     Raises:
         SignalError: A field is missing; the line is quoted.

@@ -181,12 +181,11 @@ def without_clock(words: Sequence[str], times: Sequence[float]) -> str:
     return ''
 
 
-def parse_time(words: str, place: str = 'start') -> float:
-    """Return an ISO 8601 time, or a number of seconds, in seconds since 1970.
+def parse_time(words: str) -> float:
+    """Return the time of a start, ISO 8601 or a number of seconds, in seconds since 1970.
 
     Args:
         words: The time; UTC where it tells no zone.
-        place: What it is, for the error.
 
     Raises:
         SourceError: It is neither, or lies outside 1990 to 2100.
@@ -196,7 +195,7 @@ def parse_time(words: str, place: str = 'start') -> float:
         return PLAIN.instant(words.strip()).seconds
     except SourceError as error:
         unquoted = error.unquoted
-        told = SourceError(f'{place}: {error}')
+        told = SourceError(f'start: {error}')
         told.unquoted = unquoted
         raise told from None
 

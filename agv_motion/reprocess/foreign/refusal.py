@@ -112,7 +112,7 @@ def _other_clocks(clock: Any) -> None:
 
     @functools.wraps(now)
     def guarded(self: Any) -> Any:
-        if not getattr(self, 'is_recorded', False) and _caller(2) in _packages:
+        if not getattr(self, 'is_recorded', False) and _caller() in _packages:
             refuse('looks at a clock of its own', CLOCK)
         return now(self)
 
@@ -136,7 +136,7 @@ def _guard(owner: Any, name: str, what: str, remedy: str, free: int = 0) -> None
 
         class Guarded(kind):
             def __new__(cls, *args: Any, **options: Any) -> Any:
-                if _caller(2) in _packages and len(args) + len(options) < max(free, 1):
+                if _caller() in _packages and len(args) + len(options) < max(free, 1):
                     refuse(f'{what}, {owner.__name__}.{name}()', remedy)
                 return super().__new__(cls, *args, **options)
 
@@ -146,7 +146,7 @@ def _guard(owner: Any, name: str, what: str, remedy: str, free: int = 0) -> None
 
     @functools.wraps(original)
     def guarded(*args: Any, **options: Any) -> Any:
-        if _caller(2) in _packages and not (free and len(args) + len(options) >= free):
+        if _caller() in _packages and not (free and len(args) + len(options) >= free):
             refuse(f'{what}, {owner.__name__}.{name}()', remedy)
         return original(*args, **options)
 
@@ -159,16 +159,16 @@ def _always(owner: Any, name: str, what: str, remedy: str, *, deep: bool = False
 
     @functools.wraps(original)
     def guarded(*args: Any, **options: Any) -> Any:
-        if _caller(2) in _packages or (deep and _frame() is not None):
+        if _caller() in _packages or (deep and _frame() is not None):
             refuse(what, remedy)
         return original(*args, **options)
 
     setattr(owner, name, guarded)
 
 
-def _caller(depth: int) -> str:
-    """Return the top-level package of who called."""
-    return str(sys._getframe(depth).f_globals.get('__name__', '')).partition('.')[0]  # noqa: SLF001
+def _caller() -> str:
+    """Return the top-level package of who called the function that asks."""
+    return str(sys._getframe(2).f_globals.get('__name__', '')).partition('.')[0]  # noqa: SLF001
 
 
 def _frame() -> FrameType | None:

@@ -13,10 +13,14 @@ import pytest
 
 from agv_motion.errors import SignalError
 from agv_motion.probe.sources import attempts, serial_line
-from agv_motion.probe.sources.line_reading import parse_line
+from agv_motion.probe.sources.line_reading import read_line_of, sample_of
 from agv_motion.probe.sources.serial_line import SerialParameters, SerialSource
 
 LINE = '24-06-15 13:05:30 0.750 0.760 0.770\r\n'
+
+
+def parse_line(text, given):
+    return sample_of(text, read_line_of(text, given, 0.0), given)
 
 
 @pytest.fixture
