@@ -64,6 +64,17 @@ def test_without_names_the_delimiter_is_that_of_most_lines_of_numbers():
     lines = '1,5;2;3', '1,6;x;3', '1,7;2;3,5', '1,8;;'
     found = form(*lines, time_column='1', columns=('2', '3'))
     assert found == TableForm(';', 0, 0, 3, (0,), (1, 2))
+    lines = '1|2|3', 'off|2|3', 'off|2|3', '11:00;2;3', '11:10;NA;3'
+    assert form(*lines, time_column='1', columns=('2', '3')).delimiter == ';'
+    assert form('title', time_column='1', columns=('3', '2')) == TableForm(
+        ',', 0, 0, 3, (0,), (2, 1)
+    )
+
+
+def test_names_and_numbers_of_columns_may_be_mixed():
+    assert form('time,b,x', columns=('3', 'b')).columns == (2, 1)
+    with pytest.raises(ConfigurationError, match="no column '4'"):
+        form('time,b,x', columns=('4', 'b'))
 
 
 @pytest.mark.parametrize(
@@ -87,6 +98,10 @@ def test_a_header_that_comes_again_counts_from_there():
     assert NAMED.under(FileLine(9, '#time,a,rain,b'), '#') == NAMED._replace(header=9)
     for none in 'a,b', '"time,a,rain,b', 'timer,a,b':
         assert NAMED.under(FileLine(9, none), '#') is None
+    two = NAMED._replace(width=3, time=(0, 2), columns=(1,), names=('time', 'clock', 'a'))
+    assert two.under(FileLine(9, 'time,a'), '#') is None
+    numbered = NAMED._replace(names=('1', 'a', 'b'))
+    assert numbered.under(FileLine(9, '1,2,3,4'), '#') is None
     assert NAMED._replace(names=()).under(FileLine(9, 'time,a,rain,b'), '#') is None
 
 
