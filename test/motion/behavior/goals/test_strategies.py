@@ -34,7 +34,7 @@ def test_each_is_told_on_the_page_of_the_nodes_and_can_be_chosen(name):
 def test_each_has_a_comment_where_a_user_chooses_it(name):
     config = (ROOT / 'config' / 'tree.yaml').read_text()
     assert yaml.safe_load(config)
-    assert name in config.split('strategy:')[0].rsplit('goals:', 1)[-1], (
+    assert f'{name}: ' in config.split('strategy:')[0].rsplit('goals:', 1)[-1], (
         f"tell of strategy '{name}' above goals.strategy in config/tree.yaml"
     )
 

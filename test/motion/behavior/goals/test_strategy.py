@@ -31,4 +31,6 @@ def test_each_gives_a_goal_that_can_be_walked_to_or_none(name):
 @pytest.mark.parametrize('name', STRATEGIES)
 def test_each_that_needs_no_zone_says_its_first_goal(name):
     kind = STRATEGIES[name]
-    assert kind.remembers or kind.build(SETTING._replace(floor=None)).first is not None
+    assert kind.remembers or kind.build(SETTING._replace(floor=None)).first, (
+        f"strategy '{name}' needs no zone: give it a `first` goal, or let its row say `remembers`"
+    )
