@@ -48,7 +48,7 @@ class BagPlayerParameters(PlaybackParameters):
     bag: Annotated[str, Spec('folder or file of the bag')] = ''
     bags: Annotated[tuple[str, ...], Spec('more of them, played with it by one clock')] = ()
     clock: Annotated[
-        float, Spec('publish the time of the bag on /clock so often; 0: not', 'Hz', (0.0, 1000.0))
+        float, Spec('rate at which /clock tells the time of the bag; 0: not', 'Hz', (0.0, 1000.0))
     ] = 0.0
     qos_overrides: Annotated[
         str, Spec('YAML file with quality of service by topic, as ros2 bag play takes it')

@@ -52,7 +52,7 @@ class LocalizationParameters(FrameParameters):
     ] = 0.5
     rate: Annotated[
         float,
-        Spec('pose and /tf at most so often; 0: with each odometry message', 'Hz', (0.0, 1000.0)),
+        Spec('pose and /tf, highest rate; 0: with each odometry message', 'Hz', (0.0, 1000.0)),
     ] = 0.0
     odom_timeout: Annotated[
         float, Spec('silence of odom after which it is lost', 's', (0.01, 3600.0))

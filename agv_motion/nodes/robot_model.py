@@ -52,7 +52,7 @@ class RobotModelParameters(RobotPlatformParameters):
 
     rate: Annotated[
         float,
-        Spec('joint_states at most so often; 0: with each state of the wheels', 'Hz', (0, 1000)),
+        Spec('joint_states, highest rate; 0: with each state of the wheels', 'Hz', (0, 1000)),
     ] = 0.0
     tf: Annotated[
         str,

@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 WINDOW = 9
 """References in a row that one placing is to explain."""
 AGREEING = 6
-"""So many of them do, or somebody carried the robot."""
+"""Of them that it must explain; if it explains fewer, somebody carried the robot."""
 SHARES = 0.01, 0.02, 0.05, 0.1
 """[-] How wrong lengths may be: as a calibration leaves them, and up to a bad drawing."""
 LEAST = 3

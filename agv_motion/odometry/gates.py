@@ -26,7 +26,7 @@ MAX_WAY = 1e5
 MAX_COORDINATE = FARTHEST
 """[m] In the map."""
 MAX_HEADING = 1e6
-"""[rad] So many turns nobody counts."""
+"""[rad] 160,000 turns: nobody counts them."""
 MAX_DEVIATION = 1e4
 """[m] Standard deviation of a position: beyond, it tells nothing."""
 MIN_DEVIATION = 1e-6

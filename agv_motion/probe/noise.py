@@ -13,7 +13,7 @@ from collections import deque
 WINDOW = 7
 """Readings that are looked at; all but the first and the last have two beside them."""
 MOST = 4
-"""If so many are off their line, all of them are noise."""
+"""Readings off their line from which on all of them are noise."""
 
 DOUBTFUL = 2 * WINDOW
 """Readings that may have been noise before it was known."""

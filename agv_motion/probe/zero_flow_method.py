@@ -48,7 +48,7 @@ class _EveryNight:
     """What the methods have in common that ask nothing of a night."""
 
     def __init__(self, days: int) -> None:
-        """Let nights count for so many days."""
+        """Let a night count for ``days``."""
         self.days = days
 
     def observe(self, time: float, temperature_difference: float, environment: Environment) -> None:

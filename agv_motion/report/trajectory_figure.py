@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 SAMPLES = 1000
 
 NEAR = 0.02
-"""[m] So far around a place where it is slow the way is marked, to be seen."""
+"""[m] How far around a place where it is slow the way is marked, to be seen."""
 
 COLOURS = {
     'lateral acceleration': style.GOAL,

@@ -32,7 +32,7 @@ STILL = 0.05
 """[m] A tree that went no further has stood."""
 
 FELT = 0.01
-"""[-] By so much the sap flow must have changed to be called sun or shade."""
+"""[-] Change of the sap flow from which on it is called sun or shade."""
 
 
 class WalkLimits(NamedTuple):

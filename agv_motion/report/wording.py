@@ -43,7 +43,7 @@ def length(metres: float) -> str:
 
 
 def clipped(text: str, most: int) -> str:
-    """Return a text of at most so many characters; one that is longer ends with an ellipsis."""
+    """Return a text of ``most`` characters at most; one that is longer ends with an ellipsis."""
     return text if len(text) <= most else f'{text[: most - 1].rstrip()}…'
 
 

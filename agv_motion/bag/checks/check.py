@@ -40,7 +40,7 @@ class Limits(NamedTuple):
     tolerance: float = 0.1
     """share by which a rate may be off"""
     gap: float = 5.0
-    """a silence is so many times the usual interval"""
+    """number of usual intervals after which no message is a silence"""
 
 
 _USUAL = Limits()

@@ -125,7 +125,7 @@ class EditWork:
     """Does steps, in threads, and writes what comes of them in their order."""
 
     def __init__(self, new: NewBag, compression: str, file_size: int) -> None:
-        """Write into a new bag; files end once they have so many bytes, 0: never."""
+        """Write into a new bag; files end at a size of ``file_size`` [bytes], 0: never."""
         self.copied = self.made = 0
         self._new, self._compression, self._file_size = new, compression, file_size
         self._pile: list[Picked] = []

@@ -25,11 +25,11 @@ class EventParameters:
         Spec("events: '/state ~ stopped', '/turrets/residual > 0.02'; as agv bag cut --around"),
     ] = ()
     before: Annotated[
-        float, Spec('an event begins so long before it', 's', (0.0, LONGEST_BEFORE))
+        float, Spec('how long before it an event begins', 's', (0.0, LONGEST_BEFORE))
     ] = 120.0
-    after: Annotated[float, Spec('... and ends so long after it', 's', (0.0, 86400.0))] = 60.0
+    after: Annotated[float, Spec('... and how long after it one ends', 's', (0.0, 86400.0))] = 60.0
     longest_event: Annotated[
-        float, Spec('events on end are one bag, until so long after the first', 's', (1.0, 86400.0))
+        float, Spec('events on end are one bag for this long after the first', 's', (1.0, 86400.0))
     ] = 600.0
     events: Annotated[str, Spec('folder of the bags of events; empty: events, beside output')] = ''
     only_events: Annotated[

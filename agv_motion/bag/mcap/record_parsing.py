@@ -74,7 +74,7 @@ class Body:
         return self._take(self.number(U32))
 
     def bytes(self, size: int) -> Buffer:
-        """Return so many bytes."""
+        """Return the next ``size`` bytes."""
         return self._take(size)
 
     @property

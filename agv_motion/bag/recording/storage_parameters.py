@@ -39,9 +39,11 @@ class StorageParameters:
         float, Spec('go on in a new file after this time; 0: one file', 's', (0.0, 1e9))
     ] = 0.0
     keep_files: Annotated[
-        int, Spec('of the finished files keep the newest so many; 0: all', '', (0, 1_000_000))
+        int, Spec('number of finished files to keep, the newest; 0: all', '', (0, 1_000_000))
     ] = 0
-    keep_free: Annotated[float, Spec('leave so much of the disk free', 'MB', (0.0, 1e9))] = 100.0
+    keep_free: Annotated[float, Spec('how much of the disk to leave free', 'MB', (0.0, 1e9))] = (
+        100.0
+    )
     when_full: Annotated[
         str,
         Spec(

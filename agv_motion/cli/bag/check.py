@@ -24,7 +24,7 @@ def check(
         float, typer.Option(min=0.0, help='Share by which a rate may be off.')
     ] = 0.1,
     gap: Annotated[
-        float, typer.Option(min=1.0, help='A silence is so many times the usual interval.')
+        float, typer.Option(min=1.0, help='Number of usual intervals that make a silence.')
     ] = 5.0,
     strict: Annotated[bool, typer.Option('--strict', help='Warnings are errors.')] = False,
 ) -> None:

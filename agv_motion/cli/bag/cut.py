@@ -31,8 +31,8 @@ def cut(
     around: Annotated[
         str, typer.Option(help="Only times around messages like '/turrets/residual > 0.02'.")
     ] = '',
-    before: Annotated[float, typer.Option(min=0, help='... from so many seconds before.')] = 30.0,
-    after: Annotated[float, typer.Option(min=0, help='... to so many seconds after.')] = 60.0,
+    before: Annotated[float, typer.Option(min=0, help='... how many seconds before.')] = 30.0,
+    after: Annotated[float, typer.Option(min=0, help='... how many seconds after.')] = 60.0,
     latched: Annotated[
         bool, typer.Option(help='Begin with what latched topics had told before.')
     ] = True,

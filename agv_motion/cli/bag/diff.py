@@ -39,7 +39,7 @@ def diff(
     within: Annotated[
         float | None,
         typer.Option(
-            min=0, help='Pair the nearest, up to so many seconds apart, not equal stamps.'
+            min=0, help='Pair the nearest, up to this number of seconds apart, not equal stamps.'
         ),
     ] = None,
     by_place: Annotated[

@@ -22,7 +22,8 @@ Topics = Annotated[
     list[str] | None, typer.Argument(help="Topics, such as '/odom'; all if none is given.")
 ]
 StartOffset = Annotated[
-    float, typer.Option(min=0, help='Begin so many seconds after the start of the bag.')
+    float,
+    typer.Option(min=0, help='Number of seconds after the start of the bag at which to begin.'),
 ]
 Duration = Annotated[
     float, typer.Option('--playback-duration', help='Seconds of the bag; negative: all.')

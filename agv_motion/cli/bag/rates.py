@@ -51,7 +51,7 @@ def gaps(
     *,
     header: Header = False,
     factor: Annotated[
-        float, typer.Option(min=1.0, help='A gap is so many times the usual interval ...')
+        float, typer.Option(min=1.0, help='Number of usual intervals that make a gap ...')
     ] = 5.0,
     longer: Annotated[float, typer.Option(min=0.0, help='... and longer than this [s].')] = 0.0,
 ) -> None:

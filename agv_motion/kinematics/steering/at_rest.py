@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from agv_motion.kinematics.steering.state import AtRest, Setpoints
 
 FREE_CHANGES = 3
-"""Goals of the turrets change freely so often; afterwards only to nearer ones, so that they are
-reached whatever is asked for."""
+"""Number of times that goals of the turrets change freely; afterwards only to nearer ones, so that
+they are reached whatever is asked for."""
 
 NONE, ALIGNING, UNWINDING = Limiter.NONE, Limiter.ALIGNING, Limiter.UNWINDING
 """Looked up once, see `move`."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from agv_motion.probe.tables.table import LoggerTable
 
 GAP = 1.5
-"""A time between two rows of more than so many usual steps is a gap."""
+"""Number of usual steps; more time than that between two rows is a gap."""
 MILLIVOLT, KELVIN = (0.05, 2.5), (2.5, 30.0)
 """Between the needles of a heated probe, as a thermocouple of type T tells it, and in kelvin."""
 UNIT_ENDINGS = {'uv': 'uV', 'v': 'V', 'mv': 'mV', 'k': 'K', 'c': 'K', 'degc': 'K', '°c': 'K'}
