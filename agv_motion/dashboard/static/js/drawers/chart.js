@@ -41,7 +41,7 @@ export class Chart {
       const last = known.length ? known[known.length - 1] : null;
       return `${line.name} ${number(last, plot.digits ?? 2, plot.unit)}`;
     });
-    this.canvas.setAttribute('aria-label', `${this.title}: ${words.join(', ')}`);
+    this.canvas.setAttribute('aria-label', [this.title, words.join(', ')].filter(Boolean).join(': '));
     this.draw();
   }
 
@@ -115,7 +115,7 @@ export class Chart {
   _line(pen, plot, line, frame) {
     pen.strokeStyle = this._colour(line.colour);
     pen.lineWidth = 2;
-    pen.lineJoin = 'round';
+    pen.lineJoin = pen.lineCap = 'round';
     pen.setLineDash(line.dash ?? []);
     pen.beginPath();
     let drawing = false;
@@ -127,8 +127,8 @@ export class Chart {
         return;
       }
       const place = [frame.x(time), frame.y(value)];
-      if (drawing) pen.lineTo(place[0], place[1]);
-      else pen.moveTo(place[0], place[1]);
+      if (!drawing) pen.moveTo(place[0], place[1]);
+      pen.lineTo(place[0], place[1]); // also to itself: a value alone between gaps is a dot
       drawing = true;
       end = place;
     });

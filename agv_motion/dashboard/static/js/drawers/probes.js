@@ -37,9 +37,9 @@ export class ProbesDrawer {
     this._drawSignals(store.value(chosen, 'sap_flow'));
     write(this.drank, drankToday(store.value(chosen, 'drank')));
     const day = store.value(chosen, 'day');
-    if (day && (day !== this.day || changed.has('drawer'))) {
+    if (day !== this.day || changed.has('drawer')) {
       this.day = day;
-      this._drawDay(day);
+      this._drawDay(day ?? {}); // one that tells none does not keep that of another
     }
   }
 
