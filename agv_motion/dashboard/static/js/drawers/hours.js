@@ -41,6 +41,7 @@ export class Hours {
       if (this.robot) screen.forget([`${this.robot}/parameters`]);
       this.robot = screen.chosen;
       this.told = null;
+      for (const field of Object.values(this.fields)) field.value = ''; // another's are not its own
       screen.want([`${this.robot}/parameters`]);
     }
     for (const field of this.form.elements) field.disabled = !may;
