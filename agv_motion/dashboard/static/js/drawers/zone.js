@@ -16,6 +16,7 @@ export class ZoneDrawer {
     this.map = map;
     /** @type {any} the zone that is being edited */
     this.draft = null;
+    this.robot = '';
     /** id of the last zone that was sent: its outcome is told here too */
     this.sent = '';
     this.text = element('p');
@@ -45,7 +46,7 @@ export class ZoneDrawer {
   /** @param {import('../live/screen.js').Screen} screen */
   update(screen) {
     const may = screen.hello?.role === 'expert' && !screen.past;
-    if (this.draft && (this.map.mode !== this.mode || !may)) this._end();
+    if (this.draft && (this.map.mode !== this.mode || !may || this.robot !== screen.chosen)) this._end();
     const zone = this.draft ?? screen.store.ownOrShared(screen.chosen, 'zone');
     write(this.text, zone ? phrase('zoneText', {
       corners: String(zone.boundary.length), area: number(area(zone), 0, 'm²'),
@@ -62,7 +63,7 @@ export class ZoneDrawer {
   _buttons(may, zone) {
     if (!may || !zone) return [];
     if (!this.draft) {
-      return [element('button', { type: 'button', id: 'zone-edit', text: phrase('edit'), onclick: () => this._begin(zone) })];
+      return [element('button', { type: 'button', id: 'zone-edit', text: phrase('edit'), onclick: () => this._begin() })];
     }
     return [
       element('button', { type: 'button', text: phrase('cancel'), onclick: () => this._end() }),
@@ -70,10 +71,10 @@ export class ZoneDrawer {
     ];
   }
 
-  /** @param {any} zone */
-  _begin(zone) {
+  _begin() {
     write(this.refusal, '');
-    this.draft = structuredClone(zone);
+    this.robot = this.screen.chosen; // whose zone it is: another chosen meanwhile ends the draft
+    this.draft = structuredClone(this.screen.store.ownOrShared(this.robot, 'zone'));
     this.mode = this.map.begin('zone', { zone: this.draft, changed: () => this.screen.redraw('drawer') });
     if (!this.mode) this.draft = null;
     this.screen.redraw('drawer');
