@@ -10,7 +10,7 @@ from agv_motion.bag.columns.batch import Batch
 from agv_motion.bag.damage import DamagedBagError
 from agv_motion.bag.mcap import records
 from agv_motion.bag.mcap.message_heads import HEAD, heads
-from agv_motion.bag.mcap.time_order import inside
+from agv_motion.bag.mcap.time_order import LATEST, inside
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 GROUP = 1 << 23
 """[bytes] Chunks are decoded together up to this size."""
 _HEAD = np.dtype([*((n, HEAD[n]) for n in HEAD.names or ()), ('form', '>u2'), ('options', '>u2')])
-_LATEST = 2**64 - 1
 _FAR = 2**62
 """[bytes] Farther off than any file is long, and still a number with a sign."""
 
@@ -88,7 +87,7 @@ def batches(
     numbers = np.repeat(
         np.array(channels), np.reshape(counts, (len(channels), len(parts))).sum(axis=1)
     )
-    if start > 0 or stop <= _LATEST:
+    if start > 0 or stop <= LATEST:
         wanted = inside(stamps, start, stop)
         stamps, places = stamps[wanted], places[wanted]
         limits, numbers = limits[wanted], numbers[wanted]

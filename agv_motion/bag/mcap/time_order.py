@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 LONGEST = 4096
 """Messages handed out in one go, so that little is held at a time."""
-_LATEST = 2**64 - 1
+LATEST = 2**64 - 1
+"""[ns] Stamps are unsigned numbers of 64 bits: none is later."""
 
 
 class Run(NamedTuple):
@@ -33,8 +34,8 @@ def inside(stamps: NDArray[np.uint64], start: int, stop: int) -> NDArray[np.bool
     """Return which stamps lie from ``start`` to before ``stop`` [ns]."""
     if stop <= start:
         return np.zeros(len(stamps), bool)
-    last = np.uint64(min(stop - 1, _LATEST))
-    return np.asarray((stamps >= np.uint64(min(start, _LATEST))) & (stamps <= last))
+    last = np.uint64(min(stop - 1, LATEST))
+    return np.asarray((stamps >= np.uint64(min(start, LATEST))) & (stamps <= last))
 
 
 def in_time_order(runs: Iterable[tuple[int, int, Callable[[], Run | None]]]) -> Iterator[Message]:

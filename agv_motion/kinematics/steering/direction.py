@@ -20,6 +20,7 @@ STILL: Direction = (0.0, 0.0, 0.0)
 
 POINT = 1e-9
 """[-] Relative wheel velocity below which the centre of rotation lies at the turret."""
+POINT_SQUARED = POINT * POINT
 
 START_ERROR = 0.17
 """[rad] A twist so near to the wanted one is corrected while rolling, so that noise of the wanted

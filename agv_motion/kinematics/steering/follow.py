@@ -9,14 +9,13 @@ from math import atan2, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.kinematics.steering.braking import usable_period
-from agv_motion.kinematics.steering.direction import POINT, STILL
+from agv_motion.kinematics.steering.direction import POINT_SQUARED, STILL
 
 if TYPE_CHECKING:
     from agv_motion.kinematics.steering.chassis import Chassis
     from agv_motion.kinematics.steering.direction import Direction
     from agv_motion.kinematics.steering.state import Rolling
 
-POINT_SQUARED = POINT * POINT
 
 CERTAIN = 0.25
 """Share of the acceleration up to which braking is certain to hold all limits."""

@@ -9,7 +9,7 @@ from math import atan2, inf, pi, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from agv_motion.kinematics.steering.braking import BRAKING, braking_rate, usable_period
-from agv_motion.kinematics.steering.direction import POINT, START_ERROR, STILL
+from agv_motion.kinematics.steering.direction import POINT, POINT_SQUARED, START_ERROR, STILL
 from agv_motion.kinematics.steering.state import Limiter
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from agv_motion.kinematics.steering.limits import SteeringLimits
     from agv_motion.kinematics.steering.state import Rolling, Setpoints
 
-POINT_SQUARED = POINT * POINT
 
 GROWTH = 0.4
 """Share of the wheel acceleration that turning may use; as much is left to slow down meanwhile."""
