@@ -97,7 +97,7 @@ class Dispatch:
         self._publish(Order(driver, self.view, self._patience, time.monotonic()), topic, message)
 
     def send_tree(self, x: float, y: float, heading: float | None, frame: str) -> None:
-        """Send a tree somewhere, and let it walk, if it was paused.
+        """Send a tree to (x, y) [m] in the map, and let it walk, if it was paused.
 
         Raises:
             AgvMotionError: It has not taken the order; the message says why.

@@ -142,7 +142,12 @@ class DifferentialBase:
         return 2
 
     def displacement(self, travel: Sequence[float], steering: Sequence[float]) -> Fit:  # noqa: ARG002
-        """Return the displacement of the travels left and right."""
+        """Return the displacement of the travels left and right [m].
+
+        Raises:
+            SignalError: There are not two of them, or one is not finite.
+
+        """
         if len(travel) != 2:
             msg = f'{len(travel)} travels for 2 wheels: give left and right'
             raise SignalError(msg)

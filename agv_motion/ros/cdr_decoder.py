@@ -28,7 +28,7 @@ class Decoder:
         self._codes: list[tuple[str, int]] = []
 
     def function(self) -> Callable[[bytes], Any]:
-        """Return the decoder."""
+        """Return the decoder; it raises a SignalError on bytes that are no such message."""
         kind = self._kind
         message = self._message(kind, '')
         self._take('')

@@ -43,7 +43,7 @@ class Encoder:
         self._lengths: list[str] = []
 
     def function(self) -> Callable[[Any], bytes]:
-        """Return the encoder."""
+        """Return the encoder; it raises a SignalError on a value that its field cannot hold."""
         kind = self._kind
         self._message(kind, 'm', '')
         lines = self._source.lines

@@ -167,11 +167,11 @@ class Schedule:
         return Hour(Phase.CLOSED, min(opens for opens, closes in intervals if now < opens < closes))
 
     def local(self, now: float) -> datetime:
-        """Return a moment in local time."""
+        """Return a moment [s since 1970] in local time."""
         return datetime.fromtimestamp(now, timezone.utc).astimezone(self._zone)
 
     def clock(self, moment: float) -> str:
-        """Return a moment in local time in words, such as ``Mon 10:00``."""
+        """Return a moment [s since 1970] in local time in words, such as ``Mon 10:00``."""
         local = self.local(moment)
         return f'{DAYS[local.weekday()].capitalize()} {local:%H:%M}'
 

@@ -98,6 +98,11 @@ def to_polar(
 ) -> PolarCommand:
     """Return the polar command of a twist, the inverse of :func:`to_twist`.
 
+    Args:
+        twist: In the frame of the platform.
+        linear_speed: V, at v = 1 [m/s].
+        platform_radius: R [m].
+
     Raises:
         SignalError: A number is not finite.
 

@@ -145,25 +145,25 @@ class Zone:
         return float(self.floor.area)
 
     def contains(self, x: float, y: float) -> bool:
-        """Return whether (x, y) lies on the floor, edges included."""
+        """Return whether (x, y) [m] lies on the floor, edges included."""
         return bool(shapely.intersects_xy(self.floor, x, y))
 
     def holds(self, x: float, y: float) -> bool:
-        """Return whether the whole platform, its rim included, lies on the floor at (x, y)."""
+        """Return whether the whole platform, its rim included, lies on the floor at (x, y) [m]."""
         if self.walkable(x, y):
             return True  # and the margin beside it is free, too
         return self.contains(x, y) and self.edge_distance(x, y) >= self.rim - ROUNDING
 
     def edge_distance(self, x: float, y: float) -> float:
-        """Return how far (x, y) lies from the nearest edge [m]."""
+        """Return how far (x, y) [m] lies from the nearest edge [m]."""
         return float(shapely.distance(self._edges, shapely.Point(x, y)))
 
     def walkable(self, x: float, y: float) -> bool:
-        """Return whether the centre of the platform may be at (x, y)."""
+        """Return whether the centre of the platform may be at (x, y) [m]."""
         return bool(shapely.intersects_xy(self._walkable, x, y))
 
     def may_turn(self, x: float, y: float, radius: float = 0.0) -> bool:
-        """Return whether a platform of ``radius`` [m] may turn: none of it on delicate floor."""
+        """Tell whether a platform of ``radius`` [m] may turn at (x, y) [m], off delicate floor."""
         if not self.translation_only:
             return True
         if radius == 0.0:
@@ -171,7 +171,7 @@ class Zone:
         return not shapely.dwithin(self._delicate, shapely.Point(x, y), radius)
 
     def part_of(self, x: float, y: float) -> Polygon | None:
-        """Return the walkable part in which (x, y) lies, None where it lies in none."""
+        """Return the walkable part in which (x, y) [m] lies, None where it lies in none."""
         return next((p for p in self.parts if shapely.intersects_xy(p, x, y)), None)
 
     def way_back(self, x: float, y: float) -> tuple[float, float]:
