@@ -157,9 +157,9 @@ def test_moving_is_never_blocked_and_standing_is_never_moving(twist, share):
 @pytest.mark.parametrize('bad', [nan, inf])
 def test_what_is_no_number_is_refused(bad):
     watch = BlockedWatch(BlockedParameters(), 0.15)
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match='must be finite'):
         watch.update(Pose(bad, 0.0, 0.0), AHEAD, DT)
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match='must be finite'):
         watch.update(ORIGIN, AHEAD, bad)
     with pytest.raises(ConfigurationError, match='distance'):
         BlockedParameters(distance=bad)

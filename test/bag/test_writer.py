@@ -184,7 +184,7 @@ def test_a_stamp_that_fits_no_field_is_refused_and_the_bag_goes_on(tmp_path, sta
     'options', [{'compression': 'gzip'}, {'chunk_size': 0}, {'chunk_duration': float('nan')}]
 )
 def test_an_option_out_of_range_is_refused(tmp_path, options):
-    with pytest.raises(ConfigurationError):
+    with pytest.raises(ConfigurationError, match=r'choose one of|must be positive'):
         BagWriter(tmp_path / 'bag', **options)
 
 

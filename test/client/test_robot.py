@@ -187,7 +187,7 @@ def test_an_order_that_was_not_answered_in_time_is_not_carried_out_later(robot, 
 def test_a_wait_ends_though_the_robot_does_not(robot):
     robot.go_to(50.0, 0.0)
     assert robot.wait(0.05).outcome is Outcome.RUNNING
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match=r'wait \(seconds\) must be finite'):
         robot.wait(float('inf'))
     assert robot.feedback().distance_left > 10.0
 

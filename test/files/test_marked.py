@@ -63,7 +63,7 @@ def test_over_the_network_no_word_of_the_file_is_told():
 
 
 def test_an_error_may_be_of_another_kind():
-    with pytest.raises(GeometryError):
+    with pytest.raises(GeometryError, match='line 3, column 4: no zone'):
         marked(1).refuse('no zone', kind=GeometryError)
 
 

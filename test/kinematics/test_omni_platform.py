@@ -37,5 +37,5 @@ def test_no_two_wheels_bear_one_name():
 
 def test_wheels_that_leave_a_motion_open_are_refused():
     parallel = OmniBaseParameters(wheel_directions=(0.0, 0.0, 0.0), slide_angles=(pi / 2,) * 3)
-    with pytest.raises(GeometryError):
+    with pytest.raises(GeometryError, match='no wheel turns when the base moves'):
         OmniWheels.of(parallel)

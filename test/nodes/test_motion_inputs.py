@@ -74,7 +74,7 @@ def test_a_repeat_is_no_news_and_what_is_none_changes_nothing(port, inputs):
     assert not inputs.take_pose(pose(port, 9.0))
     assert inputs.take_flow(flow(port))
     port.now += 1.0
-    with pytest.raises(AgvMotionError):
+    with pytest.raises(AgvMotionError, match='three numbers in'):
         inputs.take_flow(flow(port, 2.0))
     assert (inputs.pose.x, inputs.flow.s1) == (1.0, 0.5)
 

@@ -186,7 +186,7 @@ def test_a_gyroscope_corrects_the_heading():
 def test_a_malformed_reading_changes_nothing(angles, steering):
     odometry = WheelOdometry(TurretBase(Turrets([(1.0, 0.0), (-1.0, 0.0)])), [0.1, 0.1])
     odometry.update(0.0, [0.0, 0.0], [0.0, 0.0])
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match='angles'):
         odometry.update(0.1, angles, steering)
     odometry.update(0.2, [1.0, 1.0], [0.0, 0.0])
     assert odometry.pose.x == pytest.approx(0.1, abs=1e-15)

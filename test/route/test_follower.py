@@ -188,7 +188,7 @@ def test_a_new_route_goes_on_from_the_present_speed():
 )
 def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
     follower = RouteFollower(CORNER, TABLES)
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match=r'must be finite|dt = '):
         follower.step(pose, dt)
     assert follower.step(Pose(0.0, 0.0, 0.0), 0.1).virtual_point == (1.0, 0.0)
 

@@ -245,7 +245,7 @@ def test_a_bad_pose_or_time_is_refused_and_changes_nothing(pose, dt):
     drive = Drive(GoTo(1.0, 0.0, 0.0))
     drive.run(1.0)
     before = drive.runner.status
-    with pytest.raises(SignalError):
+    with pytest.raises(SignalError, match='must be finite'):
         drive.runner.step(pose, dt)
     assert drive.runner.status == before
 

@@ -104,7 +104,7 @@ def test_the_cost_of_a_path_is_bounded_by_its_cells():
     assert trajectory.pose(trajectory.duration) == poses[-1]
     assert len(trajectory.polyline(0.05, 500)) <= 502
     wild = [Pose(k % 7, k % 3, float(k)) for k in range(1000)]
-    with pytest.raises(AgvMotionError):
+    with pytest.raises(AgvMotionError, match='at most 1000 m'):
         ghost.compute_path(wild, 0.4, *PACE)
 
 

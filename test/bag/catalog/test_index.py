@@ -77,7 +77,8 @@ def test_an_index_that_is_none_is_made_anew(season, spoil):
 def test_an_index_with_other_kinds_of_values_is_made_anew(season):
     """A disk that has changed a byte could leave that; SQLite itself refuses to write it."""
     updated(season)
-    with sqlite3.connect(season / NAME) as database, pytest.raises(sqlite3.IntegrityError):
+    refusal = pytest.raises(sqlite3.IntegrityError, match='cannot store TEXT value')
+    with sqlite3.connect(season / NAME) as database, refusal:
         database.execute("UPDATE topic SET messages = 'many'")
     loose = 'UPDATE sqlite_master SET sql = replace(sql, ?, ?)'
     for change, words in (

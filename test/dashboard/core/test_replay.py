@@ -95,5 +95,5 @@ def test_a_topic_of_another_type_is_not_shown(recording):
 
 
 def test_where_there_is_no_bag_that_is_told(tmp_path):
-    with pytest.raises(SourceError):
+    with pytest.raises(SourceError, match='does not exist'):
         Replay(partial(BagReader, tmp_path / 'no'), 0.0)

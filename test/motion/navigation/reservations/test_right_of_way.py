@@ -228,7 +228,7 @@ def test_two_trees_of_one_name_are_told_and_neither_moves_while_the_other_speaks
 def test_the_floor_of_a_twin_that_heard_this_tree_stays_taken():
     oak, twin = tree('oak', 0.0), tree('oak', 4.0)
     for hearer, speaker in ((twin, oak), (oak, twin)):
-        with pytest.raises(SignalError):
+        with pytest.raises(SignalError, match='give each its own name'):
             hearer.receive(speaker.reservation(0.0), 0.0)
     asks(oak, (2.5, 0.0))
     oak.reservation(100.0)
