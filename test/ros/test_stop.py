@@ -64,7 +64,9 @@ def slow_import(tmp_path):
     package = tmp_path / 'rclpy'
     package.mkdir()
     (package / '__init__.py').write_text(
-        "import threading\nprint('importing', flush=True)\nthreading.Event().wait()\n"
+        "import threading\nprint('importing', flush=True)\n"
+        # again and again: a signal that comes as Python begins to wait for ever is heeded never
+        'while not threading.Event().wait(0.1):\n    pass\n'
     )
     return tmp_path
 

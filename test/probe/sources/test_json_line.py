@@ -10,11 +10,15 @@ from hypothesis import strategies as some
 
 from agv_motion.errors import ConfigurationError, SignalError
 from agv_motion.probe.sources.json_line import read_json
-from agv_motion.probe.sources.line_reading import LineParameters, parse_line
+from agv_motion.probe.sources.line_reading import LineParameters, read_line_of, sample_of
 
 NOON = 1370865600.0
 """[s] since 1970, of 10 June 2013, 12:00 UTC"""
 GIVEN = LineParameters(format='json', json_keys=('a', 'air.vpd', 'p.1'), unit='K')
+
+
+def parse_line(text, given, now=0.0):
+    return sample_of(text, read_line_of(text, given, now), given)
 
 
 def test_members_are_found_by_name_whatever_their_order():

@@ -12,13 +12,17 @@ from hypothesis import strategies as st
 from agv_motion.errors import AgvMotionError, ConfigurationError, SignalError
 from agv_motion.probe.sources.checksum import Checksum, checked
 from agv_motion.probe.sources.line_formats import LINE_FORMATS
-from agv_motion.probe.sources.line_reading import parse_line
+from agv_motion.probe.sources.line_reading import read_line_of, sample_of
 from agv_motion.probe.sources.serial_line import SerialParameters
 
 NOON = datetime(2013, 6, 10, 12, 30, tzinfo=timezone.utc).timestamp()
 NOW = NOON + 7.0
 THREE = (0.41, 0.52, 0.63)
 TREETALKER = r'(?P<time>\S+ \S+),\d+;\w+;\w+;(?P<v1>\d+);(?P<v2>\d+)'
+
+
+def parse_line(text, given, now):
+    return sample_of(text, read_line_of(text, given, now), given)
 
 
 def read(text, format_='auto', fields=(1, 2, 3), **given):
