@@ -49,12 +49,17 @@ def joined(
         whole: Whether an answer that lacks a part of the graph is a failure (exit status 1).
         endless: Whether a signal is the usual end of the command (exit status 0), not a failure.
 
+    Raises:
+        ConfigurationError: ``name`` cannot be that of a node.
+
     """
     import rclpy
     from rclpy.parameter import Parameter
 
     from agv_motion.ros.context import begin_context
 
+    if name:
+        _require_node_name(name)
     if not endless:
         os.environ.setdefault(*UDP_ALONE)
     begin_context()
@@ -86,6 +91,18 @@ def joined(
         node.destroy_node()
         rclpy.try_shutdown()
         faulthandler.cancel_dump_traceback_later()
+
+
+def _require_node_name(name: str) -> None:
+    from rclpy.exceptions import NameValidationException
+    from rclpy.validate_node_name import validate_node_name
+
+    try:
+        validate_node_name(name)
+    except NameValidationException as error:
+        told, *_ = str(error).splitlines()
+        msg = f"{told} '{name}'"
+        raise ConfigurationError(msg) from error
 
 
 def spin(node: Any, until: Callable[[], bool] = forever) -> None:
@@ -141,7 +158,7 @@ def full_name(node: Any, topic: str) -> str:
     try:
         return str(expand_topic_name(topic, node.get_name(), node.get_namespace()))
     except ValueError as error:
-        raise ConfigurationError(str(error)) from error
+        raise ConfigurationError(str(error).partition(', at /')[0]) from error
 
 
 def topic_class(node: Any, topic: str, *, wait: bool = False) -> Any:

@@ -9,7 +9,7 @@ import typer
 
 from agv_motion.cli.graph.discovery import DISCOVERY
 from agv_motion.cli.graph.options import SimTime, SpinTime
-from agv_motion.cli.graph.session import interface_class, joined, spin, topic_class
+from agv_motion.cli.graph.session import full_name, interface_class, joined, spin, topic_class
 from agv_motion.cli.topic.echo_options import (
     Csv,
     Field,
@@ -72,6 +72,7 @@ def echo(
             seen.append(None)
 
     with joined(spin_time, use_sim_time=use_sim_time, endless=True) as node:
+        full_name(node, topic_name)  # an impossible one is refused in words
         kind = interface_class(message_type) if message_type else topic_class(node, topic_name)
         offered = [end.qos_profile for end in node.get_publishers_info_by_topic(topic_name)]
         qos = _subscriber_qos(qos_profile, qos_depth, qos_reliability, qos_durability, offered)

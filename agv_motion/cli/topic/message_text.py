@@ -131,7 +131,9 @@ def fill(message: Any, values: Any) -> list[Callable[[Any], None]]:
             stamps += fill(field, value)
         else:
             try:
-                setattr(message, name, _converted(field, value, types[name]))
+                converted = _converted(field, value, types[name])
+                type(message)(check_fields=True, **{name: converted})  # the range of the field
+                setattr(message, name, converted)
             except (AssertionError, TypeError, ValueError, OverflowError) as error:
                 msg = f"Failed to populate field: {name} ({types[name]}) with '{value}': {error}"
                 raise ConfigurationError(msg) from error
@@ -143,11 +145,14 @@ def _setter(target: Any, name: str) -> Callable[[Any], None]:
 
 
 def _converted(field: Any, value: Any, field_type: str) -> Any:
-    """Return ``value`` in the type that a field holds."""
-    if isinstance(field, array.array):
-        return array.array(field.typecode, value)
-    if isinstance(field, np.ndarray):
-        return np.array(value, dtype=field.dtype)
+    """Return ``value`` in the type that a field holds.
+
+    Raises:
+        TypeError, ValueError, OverflowError: It would be another value there.
+
+    """
+    if isinstance(field, (array.array, np.ndarray)):
+        return _numbers(field, value)
     if isinstance(field, list):
         inner = re.sub(r'sequence<|[,>\[].*', '', field_type)
         if '/' not in inner:
@@ -159,4 +164,24 @@ def _converted(field: Any, value: Any, field_type: str) -> Any:
         return items
     if isinstance(field, bytes):
         return bytes([value]) if isinstance(value, int) else value
-    return value if isinstance(value, bool) else type(field)(value)
+    if isinstance(field, bool) and value not in {False, True}:
+        reason = 'write true or false'
+        raise ValueError(reason)
+    converted = value if isinstance(value, bool) else type(field)(value)
+    if isinstance(field, int) and isinstance(value, float) and converted != value:
+        reason = 'write a whole number'
+        raise ValueError(reason)
+    return converted
+
+
+def _numbers(field: Any, values: Any) -> Any:
+    """Return an array as ``field`` is one, of the very numbers of ``values``."""
+    if isinstance(field, array.array):
+        found: Any = array.array(field.typecode, values)
+    else:
+        found = np.array(values, dtype=field.dtype)
+    given, held = np.asarray(values, dtype=float), np.asarray(found, dtype=float)
+    if not np.allclose(held, given, rtol=1e-6, atol=1e-30, equal_nan=True):
+        reason = 'the type does not hold one of these numbers'
+        raise ValueError(reason)
+    return found

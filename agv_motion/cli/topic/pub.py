@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from agv_motion.cli.graph.options import SimTime, SpinTime
-from agv_motion.cli.graph.session import interface_class, joined, spin
+from agv_motion.cli.graph.session import full_name, interface_class, joined, spin
 from agv_motion.cli.topic.message_text import fill
 from agv_motion.cli.topic.options import Topic, preset_qos
 from agv_motion.errors import ConfigurationError
@@ -59,6 +59,7 @@ def pub(
     )
     with joined(spin_time, use_sim_time=use_sim_time, name=node_name, endless=True) as node:
         qos = preset_qos(qos_profile, qos_depth, qos_reliability, qos_durability)
+        full_name(node, topic_name)  # an impossible one is refused in words
         publisher = node.create_publisher(type(message), topic_name, qos)
         _wait_for_subscriptions(node, publisher, matching, max_wait_time_secs)
         typer.echo('publisher: beginning loop')

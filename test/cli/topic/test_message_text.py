@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import pytest
 
 pytest.importorskip('rclpy')
@@ -9,7 +11,19 @@ pytest.importorskip('rclpy')
 from geometry_msgs.msg import PoseWithCovariance, TwistStamped
 from nav_msgs.msg import Path
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, ByteMultiArray, UInt8MultiArray
+from std_msgs.msg import (
+    Bool,
+    Byte,
+    ByteMultiArray,
+    Float32,
+    Float32MultiArray,
+    Float64,
+    Int8,
+    Int8MultiArray,
+    Int64,
+    UInt8,
+    UInt8MultiArray,
+)
 
 from agv_motion.cli.topic.message_text import MessageText, csv_row, fill
 from agv_motion.errors import ConfigurationError
@@ -55,6 +69,39 @@ def test_yaml_values_fill_a_message(kind, values, check):
     message = kind()
     assert fill(message, values) == []
     assert check(message)
+
+
+@pytest.mark.parametrize(
+    ('kind', 'value', 'reason'),
+    [
+        (Int8, 300, r'\[-128, 127\]'),
+        (Int8, 1.5, 'whole number'),
+        (UInt8, -1, r'\[0, 255\]'),
+        (Byte, 256, 'range'),
+        (Float32, 1e300, '3.4'),
+        (Bool, 2, 'true or false'),
+        (Bool, 'false', 'true or false'),
+        (Int8MultiArray, [300], 'greater than maximum'),
+        (Int8MultiArray, [1.5], 'integer'),
+        (Float32MultiArray, [1e300], 'does not hold'),
+    ],
+)
+def test_what_would_be_another_value_on_the_wire_is_refused(kind, value, reason):
+    with pytest.raises(ConfigurationError, match=reason):
+        fill(kind(), {'data': value})
+
+
+@pytest.mark.parametrize(
+    ('kind', 'value', 'held'),
+    [
+        (Int64, 2**62 + 1, 2**62 + 1), (Int8, 5.0, 5), (Float64, 3, 3.0), (Float64, inf, inf),
+        (Bool, 1, True), (Byte, 255, b'\xff'), (Float32MultiArray, [2, inf], [2.0, inf]),
+    ],
+)  # fmt: skip
+def test_the_same_value_in_another_form_is_taken(kind, value, held):
+    message = kind()
+    fill(message, {'data': value})
+    assert (list(message.data) if isinstance(held, list) else message.data) == held
 
 
 def test_auto_and_now_take_the_time_of_publishing():

@@ -100,6 +100,21 @@ def test_pub(agv, graph):
     assert heard[0].header.stamp.sec > 0
 
 
+@pytest.mark.parametrize(
+    'words',
+    [
+        ('pub', '--once', '-w', 0, '/x y', 'std_msgs/msg/Bool', '{}'),
+        ('pub', '--once', '-w', 0, '', 'std_msgs/msg/Bool', '{}'),
+        ('pub', '--once', '-w', 0, '-n', 'a b', '/x', 'std_msgs/msg/Bool', '{}'),
+        ('echo', 'x/', 'std_msgs/msg/Bool', '--once', '--timeout', 1),
+    ],
+)
+def test_a_name_that_none_can_be_is_refused_in_a_line(agv, words):
+    status, _, errors = agv('topic', *words)
+    assert status == 1
+    assert re.fullmatch(r"error: .*(must not|'a b').*\n", errors)
+
+
 def test_pub_some_times_with_arrays(agv, graph):
     """The first may come before the listener has found its sender: two seconds are enough."""
     node = graph.node('listener')
