@@ -118,6 +118,27 @@ def test_without_a_server_the_page_says_so_and_the_next_one_takes_what_it_is_ask
     wait_until(lambda: {asked[:2] for asked in park.asked} == STOPPED, 20.0)
 
 
+def test_the_chosen_robot_stays_chosen_though_the_next_server_has_yet_to_meet_it(
+    make_park, serve, open_page, wait_until
+):
+    park = make_park('elm', 'oak')
+    park.tell_all()
+    server = serve(park)
+    port = server.listener.getsockname()[1]
+    page = open_page(server.url)
+    page.locator('[data-robot=oak]').click()
+    server.close()
+    later = make_park()
+    serve(later, port=port)
+    page.locator('[data-robot]').first.wait_for(state='detached')
+    later.robots = ('elm', 'oak')
+    later.tell_all()
+    page.locator('[data-robot=oak][aria-checked=true]').wait_for()
+    page.locator('[data-act=pause]').click()
+    wait_until(lambda: later.asked, 20.0)
+    assert {robot for robot, *_ in later.asked} == {'oak'}
+
+
 def test_release_asks_first_and_stop_can_be_pressed_meanwhile(park, serve, open_page, wait_until):
     park.tell_all(stopped=True, standstill=True)
     page = open_page(serve(park).url)

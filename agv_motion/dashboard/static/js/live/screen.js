@@ -128,7 +128,8 @@ export class Screen {
   _greet(hello) {
     this.hello = hello;
     this.live.greet(hello);
-    if (!hello.robots.includes(this.chosen)) this.chosen = hello.robots[0] ?? '';
+    // a server that has just begun may not have met the chosen one: what is pressed is for it alone
+    if (!this.chosen) this.chosen = hello.robots[0] ?? '';
     this.redraw('hello');
   }
 

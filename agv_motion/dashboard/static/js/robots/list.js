@@ -26,7 +26,8 @@ export class RobotList {
       const chosen = robot === screen.chosen;
       row.button.dataset.colour = colour;
       row.button.setAttribute('aria-checked', String(chosen));
-      row.button.tabIndex = chosen ? 0 : -1;
+      const first = !this.rows.has(screen.chosen) && robot === screen.robots[0];
+      row.button.tabIndex = chosen || first ? 0 : -1;
       write(row.word, word);
       write(row.sentence, sentence);
       const twist = screen.store.value(robot, 'twist');
