@@ -122,4 +122,15 @@ def lazy_group(places: dict[str, str]) -> type[TyperGroup]:
         def list_commands(self, ctx: Any) -> list[str]:  # noqa: ARG002 - typer's signature
             return list(self.commands)
 
+        def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+            found = super().resolve_command(ctx, args)
+            for parameter in self.params if not ctx.resilient_parsing else ():
+                source = ctx.get_parameter_source(parameter.name)
+                if source is not None and source.name == 'COMMANDLINE':
+                    msg = (
+                        f'it stands before {found[0]!r} and would count for nothing: give it after'
+                    )
+                    raise typer.BadParameter(msg, ctx=ctx, param=parameter)
+            return found
+
     return LazyGroup

@@ -77,6 +77,22 @@ def test_a_command_that_does_not_exist_is_told_what_was_meant():
     assert 'export' in result.output
 
 
+@pytest.mark.parametrize(
+    ('words', 'option', 'command'),
+    [
+        (['demo', '--no-page', 'omni'], '--page', 'omni'),
+        (['demo', '--seed', '1', 'trees'], '--seed', 'trees'),
+        (['dashboard', '--port', '9123', 'no_such_bag'], '--port', 'bag'),
+        (['dashboard', '--state-folder', 'mine', 'user', 'list'], '--state-folder', 'user'),
+    ],
+)
+def test_an_option_before_a_command_of_its_own_is_refused(words, option, command):
+    result = CliRunner().invoke(app, words, env={'COLUMNS': '200'})
+    assert result.exit_code == 2
+    assert option in result.output
+    assert f"stands before '{command}' and would count for nothing: give it after" in result.output
+
+
 def test_square_brackets_are_shown_as_they_are():
     """Units are written in them, and `rich` takes them for markup."""
     assert '[m/s]' in CliRunner().invoke(app, ['drive', 'to', '--help']).output
